@@ -16,7 +16,7 @@ namespace cascade {
 
 bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
                 Precision precision) {
-    // A step whose error was estimated can be taken back without one.
+    // An error estimate makes it possible to take a step back without a kept copy.
     if (schedule.judges_all) return false;
     const auto bytes = PlaneLayout(grid).size() * static_cast<std::int64_t>(bytes_of(precision));
     return bytes * static_cast<std::int64_t>(species) <= schedule.most_kept_bytes;
@@ -78,7 +78,7 @@ public:
 private:
     bool is_to_go_on() const { return !outcome_.ended && clock_.step < schedule_.last_step; }
 
-    /// Takes some steps and does what is due after them; false ends the loop.
+    /// Takes some steps and does everything that is due after them; false ends the loop.
     bool batch(RunControl& control, const Observer& observe) {
         const std::int64_t stop = clock_.next_stop();
         const std::int64_t count = tuner_.begin_batch(stop - clock_.step);
@@ -115,7 +115,8 @@ private:
         clock_.step = replay(stepper_, clock_.last_look, clock_.step, outcome_);
     }
 
-    /// What a look is for besides finding values that are not finite; false ends the loop.
+    /// Does everything that is due at a check besides finding values that are not finite; false
+    /// ends the loop.
     bool do_what_is_due(const Observer& observe) {
         const std::int64_t step = clock_.step;
         const double t = clock_.now();
@@ -155,8 +156,8 @@ private:
     BatchTuner tuner_;
     Progress progress_;
     std::int64_t steps_of_stage_;
-    bool is_known_to_be_finite_ = false;  ///< What the present call begins with.
-    StageOutcome outcome_;                ///< Of that call.
+    bool is_known_to_be_finite_ = false;  ///< The state in which the present call begins.
+    StageOutcome outcome_;                ///< The outcome of that call.
 };
 
 TimeLoop::TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,

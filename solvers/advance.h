@@ -1,8 +1,9 @@
-// The time loop of one stage: takes a step again and again.
+// The time loop of one stage, which takes step after step.
 //
-// Simultaneous update: a step reads the old planes and writes new ones, then the two change places.
-// Between steps the halo of every species that is read at neighbours is filled, but for linked
-// cells. Rows are shared by a team of threads; results do not depend on how many.
+// The update is simultaneous: a step reads the old planes and writes new ones, then the two are
+// swapped. Between steps the halo is filled for every species that is read at neighbours (linked
+// cells have no halo). A team of threads shares the rows; results do not depend on the number of
+// threads.
 #pragma once
 
 #include "core/parallel.h"
@@ -25,62 +26,63 @@ namespace cascade {
 struct NotFinite {
     std::size_t species = 0;
     std::int64_t column = 0, row = 0;
-    std::int64_t step = 0;  ///< It appeared in this step (the first step is 1).
-                            ///< Schedule::first_step where a start value was so already.
-    /// The last step at which all values are known to have been finite: the one before, or, without
-    /// a kept copy, that of the look before. `step` where a start value was not.
+    std::int64_t step = 0;  ///< The step in which it appeared, counted from 1; Schedule::first_step
+                            ///< for a starting value.
+    /// The last step at which all values are known to have been finite: the one before or, without
+    /// a kept copy, the step of the last check. Equal to `step` for a starting value.
     std::int64_t last_finite = 0;
 
     bool at_start() const { return last_finite == step; }
     bool is_exact() const { return last_finite + 1 == step; }
 };
 
-/// An adaptive step that has become too short to get anywhere.
+/// An adaptive step that has become too short to make progress.
 struct StepTooShort {
     double t = 0, step = 0;
-    std::size_t species = 0;           ///< Where the error is largest,
-    std::int64_t column = 0, row = 0;  ///< and the cell.
+    std::size_t species = 0;           ///< The species and the cell
+    std::int64_t column = 0, row = 0;  ///< in which the error is largest.
 };
 
 struct StageOutcome {
     std::int64_t steps = 0;  ///< Complete steps when the loop ended.
-    double t = 0;            ///< The time then.
-    TimeState time;          ///< To go on from there.
+    double t = 0;            ///< The stage's time at that moment.
+    TimeState time;          ///< The state from which steps go on.
     bool cancelled = false;
-    bool ended = false;  ///< By its end time or by `ends`.
-    int threads = 1;     ///< In use when the loop ended.
+    bool ended = false;  ///< Stopped by its end time or by `ends`.
+    int threads = 1;     ///< The number in use when the loop ended.
     std::optional<StepTooShort> too_short;
     std::optional<NotFinite> not_finite;
-    /// Only with `not_finite` and a kept copy: the species at the last look before, up to
-    /// `check_every` steps earlier, when growth was slight still. A good state to estimate
-    /// stability at.
+    /// Only with `not_finite` and a kept copy: the species at the last check before, up to
+    /// `check_every` steps earlier, when growth was still slight. Stability is best estimated at
+    /// that state.
     std::vector<Field> last_checked;
 };
 
-/// Takes the steps of a stage and stays ready to go on: its threads, its copies of the species and
-/// what it has found out about speed live as long as it does.
+/// Takes the steps of a stage and stays ready to go on: it keeps its threads, its copies of the
+/// species and its measurements of speed between calls.
 ///
-/// Needs memory for three copies of all species, for two where none is kept.
+/// Needs memory for three copies of all species, or for two if no copy is kept.
 class TimeLoop {
 public:
-    /// `problem` has the passes of the first steps. It and `species`, start values in, last
-    /// complete step out, must outlive the loop, and only the loop may change them. Addresses of
-    /// the values of `species` change. `progress` carries the stage's name and numbers.
+    /// `problem` holds the passes of the first steps. `species` holds the starting values, and
+    /// afterwards the last complete step. Both must outlive the loop, and nothing else may change
+    /// them meanwhile. The addresses of the values in `species` change. `progress` carries the
+    /// stage's name and numbers.
     TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,
              Progress progress);
     ~TimeLoop();
     TimeLoop(const TimeLoop&) = delete;
     TimeLoop& operator=(const TimeLoop&) = delete;
 
-    /// Goes on until `last_step` is complete, observed at multiples of `interval`: the two
-    /// numbers replace the schedule's. When a look finds a value that is not finite, the steps
-    /// since the last look, at most `check_every`, are replayed from a kept copy to name step and
-    /// cell; then the species hold the last step at which all were finite. Where no copy is kept
-    /// the look itself names a cell, and they stay spoiled. Reports through `control`: at once,
-    /// about ten times a second, and with `stage_done` at the end for whatever reason. If
-    /// `control.cancel` is set it ends at the next complete step (batches of steps between two
-    /// looks at it take about 20 ms). May be called again unless a value was spoiled or steps
-    /// became too short.
+    /// Goes on until `last_step` is complete and observes at multiples of `interval`; the two
+    /// replace the schedule's numbers. If a check finds a value that is not finite, the steps since
+    /// the last check (at most `check_every`) are replayed from the kept copy to find the step and
+    /// the cell, and `species` then holds the last step at which all values were finite. Without a
+    /// kept copy the check itself names a cell, and `species` keeps the spoiled values. Reports
+    /// through `control`: at once, about ten times a second, and with `stage_done` at the end,
+    /// however it ends. If `control.cancel` is set, the loop ends at the next complete step; the
+    /// flag is read after each batch of steps, about every 20 ms. May be called again unless a
+    /// value was spoiled or steps became too short.
     StageOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
                          const Observer& observe);
 
@@ -92,7 +94,7 @@ private:
     std::unique_ptr<Implementation> self_;
 };
 
-/// Takes the steps of a schedule, with a TimeLoop of their own.
+/// Takes the steps of a schedule with a TimeLoop made for the purpose.
 StageOutcome advance(const StepProblem& problem, const Schedule& schedule,
                      std::vector<Field>& species, RunControl& control, Progress progress,
                      const Observer& observe);

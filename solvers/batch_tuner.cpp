@@ -24,7 +24,7 @@ std::int64_t BatchTuner::begin_batch(std::int64_t most) {
         const std::int64_t sweeps = sweeps_of_step();
         steps = std::min(steps, (tile_tuner_.sweeps_of_trial() + sweeps - 1) / sweeps);
     }
-    // What is best for interpreted steps, or for some of either kind, does not matter.
+    // Tuning for interpreted steps, or for a mixture of both kinds, is of no use.
     is_good_measure_ = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
     began_ = Clock::now();
     return steps;
@@ -40,14 +40,12 @@ void BatchTuner::end_batch(std::int64_t count, Clock::time_point now) {
 bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool look) {
     if (&problem != &stepper_.problem()) {
         stepper_.use(problem);
-        // What was found about tilings stays where the new passes have the same ones to choose
-        // from.
+        // What is known of tilings stays valid if the new passes have the same candidates.
         auto tilings = tilings_to_try();
         if (tilings != tile_tuner_.candidates()) tile_tuner_ = tuner_of(std::move(tilings));
     }
     const bool is_native = !problem.is_provisional();
-    // What is tried is how steps are taken, not how they are looked at, and on one number of
-    // threads.
+    // Trials time steps without the checks, and only while the number of threads is fixed.
     const bool is_trial = tile_tuner_.is_trying();
     stepper_.set_clock(clock_.time.clock);
     const Clock::time_point before = Clock::now();
@@ -79,13 +77,13 @@ std::int64_t BatchTuner::sweeps_of_step() const {
     return static_cast<std::int64_t>(stepper_.problem().passes.size());
 }
 
-/// Steps that one pass through memory takes, at least 1.
+/// Steps that share one pass through memory, at least 1.
 std::int64_t BatchTuner::steps_at_once() const {
     const std::int64_t sweeps = sweeps_of_step();
     return (stepper_.team().levels() + sweeps - 1) / sweeps;
 }
 
-/// How long the remaining steps will take. If their number is unknown, as long as those before.
+/// The time of the remaining steps. If their number is unknown, the time so far.
 BatchTuner::Seconds BatchTuner::time_left(Seconds of_step) const {
     if (schedule_.check > 0) return spent_ + (Clock::now() - began_);
     const auto by_number = static_cast<double>(schedule_.last_step - clock_.step);

@@ -1,5 +1,5 @@
-// How many steps a time loop takes at once, on how many threads and in which tiles: whatever makes
-// steps fast and changes no result.
+// Decides the number of steps in a batch, the number of threads and the tiling. All of them affect
+// speed only, never results.
 #pragma once
 
 #include "solvers/loop_clock.h"
@@ -18,17 +18,18 @@ class BatchTuner {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Takes the steps of `stepper`, which it sets up as it finds best. All must outlive it.
+    /// Takes the steps of `stepper` and sets its threads and tiling. All arguments must outlive the
+    /// tuner.
     BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& stepper);
 
-    /// To be called when the loop resumes after a pause.
+    /// Must be called when the loop resumes after a pause.
     void go_on();
     /// The number of steps in the next batch, at most `most`. Sets up threads and tiles for it.
     std::int64_t begin_batch(std::int64_t most);
     /// Ends the batch.
     void end_batch(std::int64_t count, Clock::time_point now);
-    /// Takes `count` steps of one length of the passes `problem`. With `look`, are all values
-    /// finite?
+    /// Takes `count` steps of equal length with the passes of `problem`. Returns whether all values
+    /// are finite, or true without `look`.
     bool take_steps(const StepProblem& problem, std::int64_t count, bool look);
 
     int threads() const { return thread_tuner_.threads(); }
@@ -51,9 +52,9 @@ private:
     Pace pace_;
     ThreadTuner thread_tuner_;
     TileTuner tile_tuner_;
-    Clock::time_point began_;       ///< The present batch,
-    bool is_good_measure_ = false;  ///< which tells how fast threads are.
-    Seconds spent_{};               ///< In batches so far.
+    Clock::time_point began_;       ///< The start of the present batch.
+    bool is_good_measure_ = false;  ///< The present batch shows how fast threads are.
+    Seconds spent_{};               ///< The time in batches so far.
 };
 
 }  // namespace cascade

@@ -8,13 +8,13 @@ namespace cascade {
 
 namespace {
 
-/// What numbers have in common with rows: the part of [begin, end) in [first, last).
+/// The part of [begin, end) that lies in [first, last).
 RowRange common(RowRange rows, std::int64_t first, std::int64_t last) {
     const std::int64_t begin = std::clamp(rows.begin, first, last);
     return {begin, std::max(begin, std::min(rows.end, last))};
 }
 
-/// Slices whose row number `row` is among some rows.
+/// The slices that have row number `row` among the given rows.
 RowRange slices_with(RowRange rows, std::int64_t row, std::int64_t height) {
     const auto first_from = [&](std::int64_t bound) {
         return std::max<std::int64_t>(0, (bound - row + height - 1) / height);
@@ -22,7 +22,7 @@ RowRange slices_with(RowRange rows, std::int64_t row, std::int64_t height) {
     return {first_from(rows.begin), first_from(rows.end)};
 }
 
-/// The values of some cells beside a side; after them may stand anything.
+/// The values of some cells beside a side, padded; the padding may hold anything.
 template <typename Number>
 std::vector<Number> compute(const ChangingSide& side, SideMoment moment, SideCells cells) {
     std::vector<Number> uniforms(side.uniforms.begin(), side.uniforms.end());

@@ -1,8 +1,8 @@
 // Sides whose values change with time, as in u.left: fixed(sin(t)).
 //
-// Whoever fills a halo first finds the values for the moment at which the halo will be read. The
-// cells beside a side are numbered along it, so that one small kernel computes what a few rows
-// need.
+// The thread that fills a halo first computes the values of the side for the moment at which the
+// halo will be read. The cells beside a side are numbered along it, so that a small kernel computes
+// just the values that a few rows need.
 #pragma once
 
 #include "core/parallel.h"
@@ -18,19 +18,19 @@
 
 namespace cascade {
 
-/// When the values of sides hold.
+/// The moment for which the values of sides are computed.
 struct SideMoment {
     std::int64_t step = 0;  ///< Complete steps.
     double t = 0;           ///< The stage's time.
 };
 
-/// Where the cells beside a side lie: those from rows [begin, end) are [first, first + count), in
+/// The numbers of cells beside a side: those in rows [begin, end) are [first, first + count), in
 /// order of rows and columns.
 struct SideCells {
     std::int64_t first = 0, count = 0;
 
     static SideCells of_rows(const PlaneLayout& layout, Side side, RowRange rows);
-    /// Elements from cell (0, 0, 0) to a cell beside the side.
+    /// The distance in elements from cell (0, 0, 0) to a cell beside the side.
     static std::int64_t offset(const PlaneLayout& layout, Side side, std::int64_t number);
 };
 
@@ -39,20 +39,20 @@ struct ChangingSide {
     Side side = Side::left;
     KernelPointer kernel;                     ///< One result; reads no neighbours and no places.
     Precision precision = Precision::single;  ///< The kernel's.
-    std::vector<std::vector<double>> strips;  ///< Of its field slots: values along the side.
+    std::vector<std::vector<double>> strips;  ///< By field slot: values along the side.
     std::vector<double> uniforms;
     std::optional<std::uint32_t> time_slot, step_slot;  ///< Uniforms that a moment sets.
-    /// Cell (0, 0, 0) of the plane that the side's rule points to; none where one number holds for
-    /// all cells.
+    /// Cell (0, 0, 0) of the plane that the side's rule points to; null if one number holds for all
+    /// cells.
     void* values = nullptr;
 };
 
-/// Makes the rules of a species those of a moment, for halo that comes from some rows. Inside a
-/// FlushDenormals. Threads may do so at once for different rows.
+/// Sets the rules of a species to a moment, for halo that is filled from some rows. Must run inside
+/// a FlushDenormals. Threads may call it at once for different rows.
 void set_side_values(std::span<const ChangingSide> sides, std::size_t species, SideMoment moment,
                      const PlaneLayout& layout, RowRange rows, SideRules& rules);
 
-/// How the values of a side go on beyond its ends: as the species does.
+/// How the values of a side continue beyond its ends: like the species.
 Boundaries boundary_of(const SideRules& rules);
 
 }  // namespace cascade

@@ -13,10 +13,10 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t cells_of_block = 64;
-/// Of neighbours on a grid, and of linked cells.
+/// The limits of correlation, for neighbours on a grid and for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;
 
-/// The correlation of pairs of deviations, and whether it says that they alternate.
+/// The correlation of pairs of deviations, and whether the pairs alternate.
 class Pairs {
 public:
     void add(double a, double b) {
@@ -41,7 +41,7 @@ struct Stretch {
     std::int64_t begin = 0, end = 0;
 };
 
-/// Stretches that cover an axis, each beginning `stride` after the one before.
+/// Ranges that cover an axis, each beginning `stride` after the one before.
 std::vector<Stretch> stretches(std::int64_t count, std::int64_t length, std::int64_t stride) {
     std::vector<Stretch> all;
     for (std::int64_t begin = 0; all.empty() || all.back().end < count; begin += stride) {
@@ -51,7 +51,7 @@ std::vector<Stretch> stretches(std::int64_t count, std::int64_t length, std::int
     return all;
 }
 
-/// How blocks are cut: 64 cells along a line, 8 × 8 in a plane, 4 × 4 × 4 in space.
+/// The size of blocks: 64 cells along a line, 8 × 8 in a plane, 4 × 4 × 4 in space.
 std::array<std::int64_t, 3> block_sides(const PlaneLayout& layout) {
     const std::array<std::int64_t, 3> counts{layout.width, layout.height, layout.depth};
     const auto axes =
@@ -118,7 +118,7 @@ private:
     struct Level {
         double cells = 0, mean = 0;
         bool is_even =
-            true;  ///< Deviations of a rounding, or little beside the field's, are no pattern.
+            true;  ///< Deviations that are rounding, or small beside the field's, are no pattern.
     };
     Level level_of(const Block& block) const {
         Level level;
@@ -148,7 +148,7 @@ private:
         }
     }
 
-    /// Along one axis, of whose two neighbours both are in the block.
+    /// Pairs along one axis, of which both cells are in the block.
     bool alternates(const Block& block, double mean, std::array<std::int64_t, 3> to) const {
         const Block first{{block.i.begin, block.i.end - to[0]},
                           {block.j.begin, block.j.end - to[1]},
@@ -176,7 +176,7 @@ private:
             for (std::uint32_t entry = table.starts[slice]; entry < table.starts[slice + 1];
                  ++entry) {
                 const std::int64_t link = entry * lanes + i % lanes;
-                if (table.weights[link] == 0) continue;  // It only fills up.
+                if (table.weights[link] == 0) continue;  // Padding of the slice.
                 pairs.add(plane_.row(row)[i] - level.mean,
                           plane_.origin()[table.targets[link]] - level.mean);
             }

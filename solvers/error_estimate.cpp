@@ -1,6 +1,6 @@
-// The trapezoidal rule gives the other solution: the mean of the rates at both ends times the step,
-// less the change of the step. A solver with a solution of lower order of its own is compared with
-// that.
+// The other solution comes from the trapezoidal rule: the error is the mean of the rates at both
+// ends times the step, minus the change of the step. A solver with its own solution of lower order
+// is compared with that.
 #include "solvers/error_estimate.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
 /// Inputs: the new step, the old one, the rates at the old one. Outputs: the error, the rates at
-/// the new.
+/// the new one.
 SweepForm error_form() {
     SweepForm form;
     form.inputs = 3;

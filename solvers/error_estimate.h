@@ -11,17 +11,17 @@ namespace cascade {
 ///
 /// the difference from the trapezoidal rule through the two ends of the step. For Euler's method
 /// this is h/2 · (f(new) − f(old)), the leading term of its error. In general e is proportional to
-/// h² for methods of first order and to h³ for all others, of whose error it is an upper estimate
-/// once steps are short. E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential
-/// Equations I", 1993, section II.4, treats such pairs.
+/// h² for methods of first order and to h³ for all others; for short steps it is an upper estimate
+/// of their error. E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations
+/// I", 1993, section II.4, treats such pairs.
 ///
-/// For `imex2`, which is the trapezoidal rule itself where nothing diffuses, e is new − (old + h
-/// k₁) instead, the difference from the solution of first order that the step computes on its way
-/// (Verwer et al. 1999, section 2).
+/// `imex2` without diffusion is the trapezoidal rule itself. For it, e is new − (old + h k₁)
+/// instead: the difference from the first-order solution that the step computes on its way (Verwer
+/// et al. 1999, section 2).
 ///
-/// Rates at `new` are the first ones of the next step, so that a step costs one evaluation more.
-/// Needs three registers more. (`imex2`: no evaluation, one register.) Where a value is frozen or
-/// held at a bound, e is 0.
+/// The rates at `new` are the first rates of the next step, so the estimate costs one more
+/// evaluation and three more registers (`imex2`: no evaluation, one register). e is 0 where a value
+/// is frozen or held at a bound.
 Scheme with_error_estimate(Scheme scheme);
 
 }  // namespace cascade

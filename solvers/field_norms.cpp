@@ -1,4 +1,4 @@
-// Numbers that sum up fields.
+// Norms and moments of fields.
 #include "solvers/field_norms.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace cascade {
 namespace {
 
-/// Sums value(i) for i of [0, count): sixteen sums side by side, which a compiler can keep in
-/// vectors, then those one by one.
+/// Sums value(i) for i of [0, count): sixteen partial sums, which a compiler can keep in vectors,
+/// then those one by one.
 template <typename Value>
 double sum(std::int64_t count, Value value) {
     constexpr std::int64_t lanes = 16;
@@ -52,7 +52,8 @@ FieldMoments moments_of(const PlaneLayout& layout, const Mask* inside, ValueOfRo
     result.root_mean_square = std::sqrt(mean_over_cells(layout, inside, [&](std::int64_t row) {
         return [value = value_of_row(row)](std::int64_t i) { return value(i) * value(i); };
     }));
-    // About the mean: the difference of two squares would lose a pattern of small amplitude.
+    // About the mean, because the difference of two squares would lose a pattern of small
+    // amplitude.
     result.deviation = std::sqrt(mean_over_cells(layout, inside, [&](std::int64_t row) {
         return [value = value_of_row(row), mean = result.mean](std::int64_t i) {
             const double apart = value(i) - mean;
@@ -99,7 +100,7 @@ double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells) 
             return double{values[i]} * values[i];
         };
         if (cells >= width) return sum(width, square);
-        // In the order of a whole row.
+        // In the same order as in a whole row.
         return sum(width, [&](std::int64_t i) { return i < cells ? square(i) : 0.0; });
     });
 }

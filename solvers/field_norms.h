@@ -1,5 +1,5 @@
-// Numbers that sum up fields: summed in double precision in one fixed order, so that results depend
-// neither on threads nor on vectors.
+// Norms and moments of fields, summed in double precision in one fixed order, so that results
+// depend neither on threads nor on vectors.
 #pragma once
 
 #include "core/plane.h"
@@ -9,26 +9,26 @@
 
 namespace cascade {
 
-// With a mask `inside` the cells count where it is not 0; without one (nullptr) all.
+// With a mask `inside`, cells count where it is not 0; without one (nullptr) all cells count.
 
-/// Mean and spread of a field's cells.
+/// Mean and deviation of a field's cells.
 struct FieldMoments {
     double mean = 0;
     double root_mean_square = 0;
     double deviation = 0;  ///< Standard deviation over the cells.
 };
 FieldMoments moments(const Field& field, const Mask* inside = nullptr);
-/// Those of a − b, in double precision.
+/// The same for a − b, in double precision.
 FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* inside = nullptr);
 
-/// The root mean square of a field's cells; NaN where one is NaN.
+/// The root mean square of a field's cells; NaN if one of them is NaN.
 double root_mean_square(const Field& field, const Mask* inside = nullptr);
 
-/// The sum of the squares of the first `cells` cells of a row: what threads can share.
+/// The sum of the squares of the first `cells` cells of a row. Threads can share the rows.
 double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells);
-/// The root mean square of so many cells, of whose rows these are the sums of squares, added in
-/// order: the same bits as root_mean_square(). Fields are 0 outside of a mask, so there rows are
-/// summed whole.
+/// The root mean square of a field of `cells` cells, from the sums of squares of its rows, added in
+/// order: the same bits as root_mean_square(). Fields are 0 outside of a mask, so whole rows may be
+/// summed there.
 double root_mean_square(std::span<const double> sums_of_squares, std::int64_t cells);
 
 }  // namespace cascade

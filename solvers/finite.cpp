@@ -7,9 +7,9 @@
 namespace cascade {
 namespace {
 
-/// A number is infinite or NaN when all bits of its exponent are set; adding one to the exponent
-/// then carries into the sign. Integer operations only, and no branch: it vectorises everywhere,
-/// and no compiler flag can take it away.
+/// A number is infinite or NaN if all bits of its exponent are set; adding one to the exponent then
+/// carries into the sign. Integer operations without branches vectorise everywhere, and no compiler
+/// flag can remove them.
 template <typename Number, typename Word>
 bool row_is_finite_in(const Number* row, std::int64_t width, Word sign, Word exponent_one) {
     Word carried = 0;
@@ -33,12 +33,12 @@ bool row_is_finite(const double* row, std::int64_t width) {
 
 namespace {
 
-/// Numbers that are added at once: a vector of the widest kind, or a few narrower ones.
+/// Numbers that are added at once: one vector of the widest kind, or a few narrower ones.
 template <typename Number>
 struct Lanes {
     typedef Number Vector [[gnu::vector_size(64)]];
     static constexpr std::int64_t count = 64 / sizeof(Number);
-    Vector even{}, odd{}, last{};  ///< Two of them need not wait for each other.
+    Vector even{}, odd{}, last{};  ///< Two independent sums do not wait for each other.
 };
 
 template <typename Number>
@@ -79,8 +79,8 @@ WITH_WIDE_VECTORS void add_rows(const Plane<double>& plane, RowRange rows, Lanes
 
 bool rows_are_finite(const Field& field, RowRange rows) {
     return field.visit([&]<typename Number>(const Plane<Number>& plane) {
-        // Infinities and NaNs never leave a sum again. One that has become infinite otherwise says
-        // nothing.
+        // An infinity or a NaN never leaves a sum again. A sum may also overflow without one, which
+        // says nothing.
         Lanes<Number> sums{};
         add_rows(plane, rows, sums);
         Number all[3 * Lanes<Number>::count];

@@ -1,4 +1,4 @@
-// Looking for infinities and NaNs in fields, fast enough to do it often.
+// Finds infinities and NaNs in fields, fast enough to check often.
 #pragma once
 
 #include "core/parallel.h"
@@ -15,7 +15,7 @@ struct CellPlace {
     friend bool operator==(const CellPlace&, const CellPlace&) = default;
 };
 
-/// Are all cells of these rows finite? Looks at cells only: halo and padding may hold anything.
+/// Are all cells of these rows finite? Ignores halo and padding, which may hold anything.
 bool rows_are_finite(const Field& field, RowRange rows);
 
 /// The first cell, row by row, that is not finite.

@@ -11,7 +11,7 @@
 namespace cascade {
 namespace {
 
-/// A change that dies out becomes smaller by more than that.
+/// A change that dies out becomes smaller by more than this part.
 constexpr double lasting = 0.95;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Do values jump back and forth from step to step, as they do when steps are too long for them?
+// Detects values that jump back and forth from step to step because steps are too long for them.
 #pragma once
 
 #include "core/plane.h"
@@ -9,26 +9,26 @@
 
 namespace cascade {
 
-/// Is shown the state after each of a few steps, and compares each change with the one before.
-/// Changes count from a tenth of the species' deviation on, but at least a thousandth of its root
-/// mean square: less is no matter, or rounding.
+/// Receives the state after each of a few steps and compares each change with the one before. A
+/// change counts if it is at least a tenth of the species' deviation and a thousandth of its root
+/// mean square; smaller ones are harmless, or rounding.
 class FlickerWatch {
 public:
     /// `inside` says which cells count; nullptr: all.
     explicit FlickerWatch(const Mask* inside = nullptr) : inside_(inside) {}
 
-    /// The state after one more step. The first one is that before.
+    /// Adds the state after one more step. The first call sets the state to compare with.
     void see(std::span<const Field> species);
 
     struct Finding {
-        /// The part of the cells in which each change undid the one before, and was no smaller by
-        /// more than a twentieth.
+        /// The part of the cells in which each change undid the one before and was smaller by a
+        /// twentieth at most.
         double flickering = 0;
-        /// The part of all changes of all cells that undid the one before, by whatever part: much
-        /// of those in steps that are too long to settle even into a to and fro, half of those of
-        /// random numbers.
+        /// The part of all changes of all cells that undid the one before, to any degree: high if
+        /// steps are too long even to settle into a regular oscillation, one half for random
+        /// numbers.
         double undone = 0;
-        double largest = 0;  ///< The largest last change of a cell that flickers.
+        double largest = 0;  ///< The largest last change of a cell in `part`.
     };
     Finding finding(std::size_t species) const;
 

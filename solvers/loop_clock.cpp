@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-/// Parts of a step by which sums of time may be wrong.
+/// The rounding error of sums of time, in steps.
 constexpr double rounding_of_time = 1e-6;
 
 std::int64_t next_multiple(std::int64_t step, std::int64_t of) { return (step / of + 1) * of; }
@@ -39,7 +39,8 @@ double LoopClock::steps_left() const {
 }
 
 bool LoopClock::judges_next() const {
-    // What is left of the stage may be shorter than a step, and its last step is judged.
+    // The rest of the stage may be shorter than a step, and the error of its last step is
+    // estimated.
     return is_judging() && (step + 1 >= time.next_judged || whole_steps_left() <= 1);
 }
 
@@ -62,14 +63,14 @@ std::int64_t LoopClock::next_stop() {
     return step + 1;
 }
 
-/// Whole steps that fit into the time that is left, of which rounding may have taken some.
+/// Whole steps that fit into the remaining time, from which rounding may have taken some.
 std::int64_t LoopClock::whole_steps_left() const {
     if (!has_end_time()) return std::numeric_limits<std::int64_t>::max();
     const double steps = (schedule_.end_time - now()) / time.clock.step;
     return static_cast<std::int64_t>(std::min(std::floor(steps + rounding_of_time), 1e18));
 }
 
-/// The steps after which t has come so far; at least one.
+/// The number of steps until t has come this far; at least one.
 std::int64_t LoopClock::steps_until(double t) const {
     const double steps = std::ceil((t - now()) / time.clock.step - rounding_of_time);
     return static_cast<std::int64_t>(std::clamp(steps, 1.0, 1e9));

@@ -1,4 +1,4 @@
-// How far the time loop of a stage is, and when it has to stop next.
+// How far the time loop of a stage has come, and when it must stop next.
 #pragma once
 
 #include "solvers/schedule.h"
@@ -18,24 +18,25 @@ public:
 
     double now() const { return time.clock.at(step); }
     void set_step(double length) { time.clock.set_step(step, length); }
-    /// A loop goes on where it is, and has looked there.
+    /// A loop goes on from this step, which has been checked.
     void go_on();
 
     bool has_end_time() const { return std::isfinite(schedule_.end_time); }
     bool is_over() const;
-    /// Has it come as far as the schedule says?
+    /// Has it reached the end of the schedule?
     bool is_at_last_step() const { return step >= schedule_.last_step; }
-    /// Of steps as long as they are now; by number where there is no end time.
+    /// The steps to the end if they stay as long as they are now; without an end time, by number.
     double steps_left() const;
 
     bool is_judging() const { return schedule_.tolerance > 0; }
     /// Is the error of the next step estimated?
     bool judges_next() const;
-    /// The next step after which values are looked at: no picture is made of values that are not
-    /// finite, no stage ends with them, and steps change their length only there, so that those
-    /// since the last look can be taken again. Where less than a step is left it is shortened.
+    /// The next step after which values are checked. No picture is made of values that are not
+    /// finite, and no stage ends with them. Steps change their length only after a check, so that
+    /// the steps since the last one can be repeated. A last step that would pass the end is
+    /// shortened.
     std::int64_t next_stop();
-    /// Is the present step to be observed? To be asked once.
+    /// Must the present step be observed? To be called once for each step.
     bool observation_due();
 
 private:

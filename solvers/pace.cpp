@@ -22,7 +22,7 @@ void Pace::took(std::int64_t count, std::chrono::duration<double> duration) {
     const auto steps_in = [&](double seconds) {
         return static_cast<std::int64_t>(std::clamp(std::floor(seconds / per_step), 1.0, 1e9));
     };
-    // It grows by steps: the first ones, with cold caches, say little about the rest.
+    // The average grows by steps: the first ones, with cold caches, say little about the rest.
     batch_ = std::min(steps_in(batch_seconds), batch_ * 8);
     patient_batch_ = steps_in(patient_seconds);
 }

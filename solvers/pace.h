@@ -1,5 +1,5 @@
-// How fast a run goes: batches of steps that are short enough to stay responsive, and the rate and
-// remaining time that a user is told.
+// How fast a run goes: sizes of batches that keep it responsive, and the rate and remaining time
+// that the user sees.
 #pragma once
 
 #include <algorithm>
@@ -9,27 +9,27 @@
 
 namespace cascade {
 
-/// Times come from outside, so that a test can make them up.
+/// Times are passed in, so that a test can choose them.
 class Pace {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
     Pace(Time now, std::int64_t step);
 
-    /// Steps to take before looking at the clock and at `cancel` again: about 20 ms of work, but at
-    /// least `wanted`, which are faster together, where those take half a second or less.
+    /// Steps to take before the clock and `cancel` are read again: about 20 ms of work. At least
+    /// `wanted`, which are faster together, if those take half a second or less.
     std::int64_t batch(std::int64_t wanted = 1) const {
         return std::max(batch_, std::min(wanted, patient_batch_));
     }
-    /// A batch of `count` steps took so long.
+    /// Records that a batch of `count` steps took this time.
     void took(std::int64_t count, std::chrono::duration<double> duration);
 
-    /// Goes on after a pause: reports tell nothing of the time before, batches are as long.
+    /// Goes on after a pause: reports leave out the time before, and batches keep their size.
     void go_on(Time now, std::int64_t step);
 
     /// Is it time for a report? About ten times a second.
     bool report_due(Time now) const;
-    /// Notes the time of a report, at so many complete steps.
+    /// Records the time of a report and the number of complete steps.
     void reported(Time now, std::int64_t step);
 
     /// Steps per second over the last two seconds of reports; 0 while unknown.

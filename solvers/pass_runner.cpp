@@ -1,5 +1,6 @@
-// Rows are computed in bands that fit into a cache, and the halo of a band is filled while it is
-// there. Each thread folds the aggregates of all rows itself, which takes one barrier and not two.
+// Rows are computed in bands that fit into a cache, and the halo of a band is filled while the band
+// is there. Each thread folds the aggregates of all rows itself, which takes one barrier instead of
+// two.
 #include "solvers/pass_runner.h"
 
 #include "core/check.h"
@@ -11,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// The halo's columns lie beside rows that were just written: filled a band at a time they are
+/// The halo's columns lie beside rows that were just written. Filled a band at a time, they are
 /// still in the cache.
 template <typename Number>
 std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
@@ -103,8 +104,8 @@ void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Re
         worker.arguments);
 }
 
-/// Every thread reduces its rows, then all threads take all rows together, each for itself. The
-/// numbers of rows are written again only after the next meeting of the team.
+/// Every thread reduces its rows; then each thread folds the sums of all rows. These are
+/// overwritten only after the next barrier of the team.
 template <typename Number>
 void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number,
                         Team& team, Registers registers) {
@@ -134,7 +135,7 @@ void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_
     }
 }
 
-/// Every thread knows all aggregates, so all take the same waves to be damped.
+/// Every thread knows all aggregates, so all threads damp the same waves.
 template <typename Number>
 void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const SweepFilter& filter,
                         Team& team, Registers registers, const StepMoment& moment) const {
@@ -229,7 +230,7 @@ void PassRunner::run_level(const Level<Number>& level, RowRange rows) const {
     }
 }
 
-/// The halo of a result, for the moment at which it is read at neighbours.
+/// Fills the halo of a result for the moment at which neighbours will read it.
 template <typename Number>
 void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number, RowRange rows) const {
     const StepProblem::Result& result = problem_.passes[level.pass].results[number];

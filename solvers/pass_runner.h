@@ -1,8 +1,8 @@
 // Runs the passes of a step on a team of threads: temporaries, aggregates and the barriers between
 // passes.
 //
-// A worker binds a pass to planes and a moment as a *level*, and runs levels on any rows. With one
-// level at a time that is the plain loop, run(); solvers/tile_runner.h has several at once.
+// A worker binds a pass to planes and to a moment as a *level*, and runs levels on any rows. run()
+// is the plain loop with one level at a time; solvers/tile_runner.h runs several.
 #pragma once
 
 #include "core/parallel.h"
@@ -20,7 +20,7 @@
 
 namespace cascade {
 
-/// When a step is taken.
+/// The moment of a step.
 struct StepMoment {
     std::int64_t complete = 0;  ///< Steps taken before it.
     double t = 0;               ///< The stage's time as it begins.
@@ -36,7 +36,7 @@ public:
     /// Allocates temporaries. `problem` must outlive the runner.
     explicit PassRunner(const StepProblem& problem);
 
-    /// A pass with all that it takes to run it on some rows.
+    /// A pass with everything that is needed to run it on some rows.
     template <typename Number>
     struct Level {
         std::size_t pass = 0;
@@ -50,19 +50,19 @@ public:
     struct Arguments {
         std::vector<Level<Number>> levels;
         std::vector<std::vector<Number>>
-            uniforms;  ///< By pass; aggregates as they were computed last.
+            uniforms;  ///< By pass; aggregates have their latest values.
         std::vector<Number> aggregates;
     };
-    /// What one thread needs of its own.
+    /// The data of one thread.
     struct alignas(64) Worker {
-        int number = 0;  ///< Of the `count` threads in use.
+        int number = 0;  ///< The thread's number among the `count` threads in use.
         int count = 1;
         RowRange rows;
         std::vector<DiffusionSymbol> symbols;
         std::variant<Arguments<float>, Arguments<double>> arguments;
         std::vector<double> row_values;
     };
-    /// Prepares a worker for its rows, being thread `number` of `count`.
+    /// Prepares a worker for its rows, as thread `number` of `count`.
     void prepare(Worker& worker, int number, int count) const;
 
     /// One thread's part of a step. All threads of the team in use call it with the same registers
@@ -70,17 +70,18 @@ public:
     /// filled; another barrier of the team makes them visible to every thread.
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
-    /// All passes once, rows shared by the team.
+    /// Runs all passes once; the team shares the rows.
     void run_once(Team& team, Registers registers, const StepMoment& moment);
 
-    /// Does what such a pass does before its kernel is run. As run(), for all threads of the team.
+    /// Does what must precede the pass's kernel: reductions and filters. Called like run(), by all
+    /// threads of the team.
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
-    /// Makes a pass level `level` of the worker. Registers are looked at now, not later. `is_near`:
-    /// what it reads will be in a near cache.
+    /// Binds a pass as level `level` of the worker. Registers are read now, not later. `is_near`:
+    /// the values that it reads will be in a near cache.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
               const StepMoment& moment, bool is_near = false);
-    /// Runs a level that was bound on some rows and fills the halo that comes from them.
+    /// Runs a level that is bound on some rows, and fills the halo that copies them.
     void run_rows(Worker& worker, std::size_t level, RowRange rows) const;
 
     const StepProblem& problem() const { return problem_; }
@@ -110,7 +111,7 @@ private:
 
     const StepProblem& problem_;
     PlaneLayout layout_;
-    /// One of them, where a pass has a filter.
+    /// By pass; null for passes without a filter.
     std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
     std::vector<std::vector<SideRules>>
         sides_;  ///< By pass and result, before any of them changes.

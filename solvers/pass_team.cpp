@@ -1,4 +1,4 @@
-// Every thread runs all passes on its rows, and meets the others where a pass reads theirs.
+// Every thread runs all passes on its rows and waits for the others where a pass reads their rows.
 #include "solvers/pass_team.h"
 
 #include "core/check.h"
@@ -8,9 +8,8 @@
 namespace cascade {
 namespace {
 
-/// Fewer values than this per thread and step cost more in meeting than they save in work (a
-/// thread computes them in about 10 µs, a meeting takes about 1). Where cells have links they take
-/// longer.
+/// With fewer values than this per thread and step, a barrier costs more than a thread saves:
+/// computing them takes about 10 µs, a barrier about 1. Cells with links take longer.
 constexpr std::int64_t least_values_per_thread = 16384;
 constexpr std::int64_t least_linked_values_per_thread = 8192;
 
@@ -97,7 +96,7 @@ void PassTeam::run(const OwnRows& work) {
         static_cast<int>(workers_.size()));
 }
 
-/// Runs `left` passes from `next` on. `meets`: each thread's own rows are complete at the end.
+/// Runs `left` passes from `next` on. `meets`: each thread's own rows must be complete at the end.
 void PassTeam::run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                           bool meets) {
     while (left > 0) {
@@ -105,14 +104,14 @@ void PassTeam::run_passes(Worker& worker, const Given& given, StepPass next, std
         run_together(worker, given, next, together);
         left -= together;
         // One barrier is enough: after it no thread reads the copy that the next pass overwrites,
-        // and every thread has filled the halo that comes from its own rows. Tiles end in any
+        // and every thread has filled the halo that copies its own rows. Tiles may end in any
         // thread's rows.
         if (left > 0 || (meets && tiles_->levels() > 1)) team_.barrier();
     }
 }
 
-/// The number of passes to run together where `left` are to be run: tiles of nearly equal heights,
-/// up to a pass that needs all rows.
+/// The number of passes to run together if `left` remain: tiles of nearly equal heights, up to a
+/// pass that needs all rows.
 std::size_t PassTeam::passes_together(const StepPass& next, std::size_t left) const {
     const auto most = static_cast<std::size_t>(tiles_->levels());
     const std::size_t passes = problem_->passes.size();
@@ -132,7 +131,7 @@ void PassTeam::run_together(Worker& worker, const Given& given, StepPass& next, 
         if (number == 0) {
             runner_->prepare_pass(worker.passes, team_, next.pass, worker.registers, moment);
         }
-        // The first pass of a tile brings what the others read.
+        // The first pass of a tile brings the data of the others into the cache.
         runner_->bind(worker.passes, number, next.pass, worker.registers, moment,
                       tiling_.is_near && number > 0);
         go_on(next, passes);

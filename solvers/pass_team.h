@@ -1,5 +1,5 @@
-// A team of threads that runs the passes of steps, several of them together where tiles save ways
-// through memory.
+// A team of threads that runs the passes of steps, several of them together if tiles save memory
+// traffic.
 #pragma once
 
 #include "core/parallel.h"
@@ -20,48 +20,48 @@
 
 namespace cascade {
 
-/// A pass of a step that begins with certain roles.
+/// A pass of a step, and the roles of the copies when the step begins.
 struct StepPass {
     std::size_t pass = 0;
-    std::int64_t complete = 0;  ///< Steps before it.
+    std::int64_t complete = 0;  ///< Complete steps before it.
     CopyRoles roles;
 };
 
 class PassTeam {
 public:
-    /// What a thread does with its rows.
+    /// The work of a thread on its rows.
     using OwnRows = std::function<void(int thread, RowRange rows)>;
 
-    /// All threads are in use at first, but no more than the grid is worth. `problem` must live as
-    /// long as it is in use.
+    /// At first all threads are in use, but no more than the grid is worth. `problem` must outlive
+    /// its use.
     PassTeam(const StepProblem& problem, std::size_t species, int most_threads);
 
     const StepProblem& problem() const { return *problem_; }
-    /// Runs other passes over the same grid from now on.
+    /// From now on runs the passes of another problem over the same grid.
     void use(const StepProblem& problem);
 
     int most_threads() const { return team_.size(); }
-    /// So many threads share the work from now on; no result depends on it.
+    /// Sets the number of threads that share the work; no result depends on it.
     void use_threads(int threads);
 
     /// The tiling that fits the machine's caches.
     const Tiling& fitting_tiling() const { return fitting_tiling_; }
-    /// That one, and others that may be faster.
+    /// That tiling, and others that may be faster.
     std::vector<Tiling> tilings_to_try() const {
         return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here(), most_threads());
     }
-    /// Goes through memory like that from now on, also where the problem changes; no result depends
-    /// on it. Layers are made as large as links reach.
+    /// From now on uses this tiling, even if the problem changes; no result depends on it. Layers
+    /// are made at least as large as the reach of links.
     void use_tiling(const Tiling& tiling);
-    /// So many passes of steps are done for each pass through memory, where they allow it.
+    /// The number of passes of steps for each pass through memory, as far as the passes allow.
     int levels() const { return tiles_->levels(); }
     /// How steps go through memory.
     Stepping stepping() const {
         return stepping_with(*problem_, tiling_, tiles_->levels(), tiles_->phases());
     }
 
-    /// Runs `count` passes from `first` on; then every thread calls `after` with the rows that are
-    /// its own, which are complete.
+    /// Runs `count` passes from `first` on. Then every thread calls `after` with its own rows,
+    /// which are complete.
     void run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
              const OwnRows& after);
     /// Every thread calls `work` with its own rows.
@@ -72,7 +72,7 @@ private:
         PassRunner::Worker passes;
         std::vector<std::span<Field>> registers;
     };
-    /// What all threads are given.
+    /// The arguments of all threads.
     struct Given {
         StepPlanes& planes;
         const StageClock& clock;
@@ -88,7 +88,7 @@ private:
     PlaneLayout layout_;
     Team team_;
     std::optional<PassRunner> runner_;
-    std::int64_t reach_ = 1;  ///< Rows that links reach.
+    std::int64_t reach_ = 1;  ///< The number of rows that links reach.
     Tiling fitting_tiling_, tiling_;
     bool is_tiling_given_ = false;
     std::optional<TileRunner> tiles_;

@@ -1,7 +1,7 @@
 // Butcher tableaux as sweeps.
 //
-// A step that no error is estimated of keeps its stages and not its rates: step · k_j is a sum of
-// differences between stages, so that a sweep writes one plane of each species and no more.
+// A step without an error estimate keeps its stages and not its rates. Step · k_j is a sum of
+// differences between stages, so a sweep writes only one plane of each species.
 #include "solvers/runge_kutta.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ double time_of(const std::vector<double>& row) {
     return std::accumulate(row.begin(), row.end(), 0.0);
 }
 
-/// Stages in a register each; their differences from the old step stand for rates.
+/// Each stage is in a register; differences from the old step stand for rates.
 class StateScheme {
 public:
     explicit StateScheme(const ButcherTableau& tableau) : tableau_(tableau) {}
@@ -44,8 +44,8 @@ public:
     }
 
 private:
-    /// Stage 0 is the old step; the last one's successor the new, which overwrites stage 1 cell by
-    /// cell unless rates are evaluated there.
+    /// Stage 0 is the old step. The stage after the last is the new step, which overwrites stage 1
+    /// cell by cell unless rates are evaluated there.
     std::uint32_t register_of(std::uint32_t stage) const {
         if (stage == 0) return old_register;
         if (stage == tableau_.b.size()) return new_register;
@@ -56,8 +56,8 @@ private:
         return stage < tableau_.b.size() ? tableau_.a[stage] : tableau_.b;
     }
 
-    /// Weights of the differences stage − old by which Σ weights[j] step k_j is written, but for
-    /// the last rate: row j + 1 of the tableau gives k_j by stage j + 1 and the rates before.
+    /// The weights of the differences stage − old that express Σ weights[j] step k_j without the
+    /// last rate: row j + 1 of the tableau gives k_j by stage j + 1 and the rates before it.
     std::vector<double> weights_of_stages(std::vector<double> weights) const {
         std::vector<double> of_stages(weights.size(), 0);
         for (std::size_t stage = weights.size() - 1; stage > 0; --stage) {
@@ -95,7 +95,7 @@ private:
             sweep.coefficients.push_back({weights[other], false});
         }
         state.terms.push_back(own_rate(form, sweep, row.back()));
-        // The old values come last: the small terms are added to each other before.
+        // The old values come last, so that the small terms are added to each other first.
         state.terms.push_back({Source::value, form.base_input});
         form.outputs = {std::move(state)};
         add(scheme_, std::move(form), std::move(sweep));
@@ -105,8 +105,8 @@ private:
     Scheme scheme_;
 };
 
-/// Rates in a register each, for an error that is a small difference of large ones. The rate of the
-/// new step is part of it, and the first of the next step.
+/// Each rate is in a register, because the error is a small difference of large rates. The rate of
+/// the new step is part of it, and is the first rate of the next step.
 class EmbeddedScheme {
 public:
     explicit EmbeddedScheme(const ButcherTableau& tableau)
@@ -123,19 +123,19 @@ public:
     }
 
 private:
-    /// Two registers for the states of stages that change places; the rates lie after them.
+    /// Two registers for the states of stages, which are swapped; the rates follow.
     static constexpr std::uint32_t first_state = 2, first_rate = 4;
 
     static std::uint32_t state_register(std::uint32_t stage) {
         return stage == 0 ? old_register : first_state + stage % 2;
     }
 
-    /// The row that gives the state after a stage: of the next stage, or the new step.
+    /// The row that gives the state after a stage: the next stage's, or that of the new step.
     const std::vector<double>& row_after(std::uint32_t stage) const {
         return stage + 1 < tableau_.b.size() ? tableau_.a[stage + 1] : tableau_.b;
     }
 
-    /// Is the rate of a stage read by anything but the row right after it?
+    /// Does anything but the row right after it read the rate of a stage?
     bool is_read_later(std::uint32_t stage) const {
         for (std::uint32_t later = stage + 1; later < tableau_.b.size(); ++later) {
             if (row_after(later)[stage] != 0) return true;
@@ -143,7 +143,7 @@ private:
         return tableau_.error[stage] != 0;
     }
 
-    /// Step · weights[j] · k_j from the registers of rates, without the last weight.
+    /// Step · weights[j] · k_j from the registers of rates, except for the last weight.
     void add_kept_rates(SweepForm& form, Sweep& sweep, SweepOutput& output,
                         const std::vector<double>& weights) const {
         for (std::size_t j = 0; j + 1 < weights.size(); ++j) {
@@ -169,7 +169,7 @@ private:
         add(scheme_, std::move(form), std::move(sweep));
     }
 
-    /// No rate is evaluated: how long the step is was not known when the first one was.
+    /// Evaluates no rate: the length of the step was not known when the first rate was evaluated.
     void add_second_state() {
         SweepForm form;
         Sweep sweep;
@@ -225,7 +225,7 @@ private:
 
     const ButcherTableau& tableau_;
     Scheme scheme_;
-    std::vector<std::uint32_t> rate_register_;  ///< By stage; 0 where none is kept.
+    std::vector<std::uint32_t> rate_register_;  ///< By stage; 0 if the rate is not kept.
     std::uint32_t next_register_ = first_rate;
 };
 

@@ -7,13 +7,13 @@
 
 namespace cascade {
 
-/// Stage i is evaluated at old + step · Σ a[i][j] k_j, at the time step · Σ a[i][j]; the new step
+/// Stage i is evaluated at old + step · Σ a[i][j] k_j, at the time step · Σ a[i][j]. The new step
 /// is old + step · Σ b[j] k_j.
 struct ButcherTableau {
     std::vector<std::vector<double>> a;  ///< Row i has i entries.
     std::vector<double> b;
-    /// The error is step · Σ error[j] k_j, where a last k belongs to the new step itself; empty
-    /// where the method has no estimate.
+    /// The error is step · Σ error[j] k_j; an additional last k is the rate of the new step itself.
+    /// Empty if the method has no estimate.
     std::vector<double> error;
 };
 

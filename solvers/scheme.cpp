@@ -1,4 +1,4 @@
-// Schemes of one and of several sweeps. Those of a Butcher tableau are in runge_kutta.cpp, those
+// Schemes of one sweep and stabilised schemes. Butcher tableaux are in runge_kutta.cpp, schemes
 // that filter waves in semi_implicit.cpp.
 //
 // Stabilised Runge-Kutta-Legendre: C. D. Meyer, D. S. Balsara, T. D. Aslam, "A stabilized
@@ -35,7 +35,7 @@ Scheme euler(bool by_item) {
     return scheme;
 }
 
-/// A sweep for each species, in order of writing: it sees the new values of those before it.
+/// One sweep for each species, in order of writing: it sees the new values of those before it.
 Scheme symplectic(std::uint32_t species, bool by_item) {
     const Scheme whole = euler(by_item);
     Scheme scheme;
@@ -49,8 +49,8 @@ Scheme symplectic(std::uint32_t species, bool by_item) {
     return scheme;
 }
 
-/// Registers of Runge-Kutta-Legendre: 0; two of stages in turn, the last stage in 1, for stage j
-/// may overwrite stage j − 2 cell by cell.
+/// Registers of Runge-Kutta-Legendre: 0, and two for stages in turn. The last stage is in 1,
+/// because stage j may overwrite stage j − 2 cell by cell.
 std::uint32_t place_of_stage(std::uint32_t j, std::uint32_t stages) {
     return j == 0 ? old_register : new_register + (stages - j) % 2;
 }
@@ -64,9 +64,9 @@ SweepForm first_legendre_form() {
     return form;
 }
 
-/// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}, which is the paper's sum in
-/// another order: its factors of Y_{j−1} and Y_{j−2} have the sum 1. So a sweep reads no third
-/// stage. Inputs: Y_{j−1}, Y_{j−2}.
+/// Y_j = ((j − 1)/j (Y_{j−1} − Y_{j−2}) + μ̃ τ L(Y_{j−1})) + Y_{j−1}, the paper's sum in another
+/// order: its factors of Y_{j−1} and Y_{j−2} add up to 1. A sweep thus reads no third stage.
+/// Inputs: Y_{j−1}, Y_{j−2}.
 SweepForm rkl1_form() {
     SweepForm form;
     form.inputs = 2;
@@ -135,8 +135,8 @@ double rkl2_time(std::uint32_t j, std::uint32_t stages) {
     return (n * n + n - 2) / (s * s + s - 2);
 }
 
-/// Y_j = ((μ (Y_{j−1} − Y₀) + ν (Y_{j−2} − Y₀)) + μ̃ τ L(Y_{j−1}) + γ̃ τ L(Y₀)) + Y₀, which is the
-/// paper's sum in another order. Inputs: Y_{j−1}, Y₀, then Y_{j−2} unless it is Y₀, then L(Y₀).
+/// Y_j = ((μ (Y_{j−1} − Y₀) + ν (Y_{j−2} − Y₀)) + μ̃ τ L(Y_{j−1}) + γ̃ τ L(Y₀)) + Y₀, the paper's
+/// sum in another order. Inputs: Y_{j−1}, Y₀, then Y_{j−2} unless it is Y₀, then L(Y₀).
 SweepForm rkl2_form(bool second) {
     SweepForm form;
     form.inputs = 2;
@@ -154,7 +154,7 @@ SweepForm rkl2_form(bool second) {
     return form;
 }
 
-/// After the registers of stages is that of L(Y₀).
+/// The register after those of stages holds L(Y₀).
 Scheme rkl2(std::uint32_t stages) {
     constexpr std::uint32_t rates_register = legendre_registers;
     Scheme scheme;
@@ -222,7 +222,7 @@ SweepForm rate_form() {
     return form;
 }
 
-/// Registers: 0; two of parts in turn, the last part in 1.
+/// Registers: 0, and two for parts in turn; the last part is in 1.
 Scheme make_substeps(std::uint32_t count) {
     CHECK(count >= 2, "a step has parts");
     Scheme scheme = euler(false);

@@ -17,32 +17,31 @@ struct Scheme {
     std::uint32_t registers = 2;
     std::vector<SweepForm> forms;
     std::vector<Sweep> sweeps;  ///< In order; one of the last writes the new step.
-    /// The register that holds an estimate of the step's error, proportional to step^order_of; 0
-    /// where there is none.
+    /// The register of an estimate of the step's error, which is proportional to step^order_of; 0
+    /// for none.
     std::uint32_t error_register = 0;
-    /// The register that holds, once the step is complete, a solution of lower order; 0 where there
-    /// is none.
+    /// The register that holds a solution of lower order once the step is complete; 0 for none.
     std::uint32_t lower_order_register = 0;
-    /// Methods whose last rate is the first of the next step ("first same as last"): sweep 0 does
-    /// nothing but write the first rate, and the last sweep writes the last. Where a step follows
-    /// another the two registers change places and sweep 0 is left out. 0 where there is none.
+    /// For methods whose last rate is the first rate of the next step ("first same as last"): sweep
+    /// 0 only writes the first rate, and the last sweep writes the last one. In a step that follows
+    /// another the two registers are swapped and sweep 0 is left out. 0 for none.
     std::uint32_t first_rate_register = 0, last_rate_register = 0;
 
-    /// Evaluations of the rates in a step, after the first one.
+    /// Evaluations of the rates in a step that follows another.
     std::size_t evaluations() const;
 };
 
 /// Builds the scheme of a solver.
 ///
-/// `species` counts the system's species. `by_item`: the step of `euler` and `symplectic` is the
-/// stage's item `speed` (which may vary by cell) and not the time loop's. `stages` is of
-/// stabilised solvers only: an odd number from least_stages() on.
+/// `species` is the number of species of the system. With `by_item` the step of `euler` and
+/// `symplectic` is the stage's item `speed`, which may vary by cell, rather than the time loop's.
+/// `stages` is for stabilised solvers only: an odd number, least_stages() or more.
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
 
 /// Writes the rates at input 0 and nothing else.
 SweepForm rate_form();
 
-/// A step of explicit Euler as `count` equal parts of it, at least 2.
+/// A step of explicit Euler divided into `count` equal parts, at least 2.
 Scheme make_substeps(std::uint32_t count);
 
 }  // namespace cascade

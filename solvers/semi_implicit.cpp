@@ -1,4 +1,4 @@
-// The schemes as lists of sweeps: rates, then sums of rates that a filter has damped. The
+// The schemes as lists of sweeps: rates, then sums of rates after a filter has damped them. The
 // Rosenbrock method has γ = 1 − 1/√2.
 #include "solvers/semi_implicit.h"
 
@@ -11,10 +11,10 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// c₀ · change + c₁ · change + … + old, changes being the inputs after the old step.
+/// c₀ · change + c₁ · change + … + old; the changes are the inputs after the old step.
 SweepForm sum_form(std::uint32_t changes) {
     SweepForm form;
-    form.holds = true;  // A filter spreads the changes of free cells into those that are held.
+    form.holds = true;  // A filter spreads the changes of free cells into frozen ones.
     form.inputs = 1 + changes;
     form.coefficients = changes;
     std::vector<SweepTerm> terms;

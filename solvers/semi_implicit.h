@@ -6,9 +6,9 @@
 //
 //     new = old + (1 − h L)⁻¹ h f(old),    f = L + N being the whole rate.
 //
-// So only the rate as it was written is computed; a state whose rates are 0 stays as it is; values
-// held at sides drop out; and an L that is only nearly the diffusion costs some accuracy and
-// nothing else: the limit of short steps is that of all solvers.
+// So only the rate as it was written is computed. A state whose rates are 0 does not change, and
+// values held at sides drop out. If L is not exactly the diffusion, this costs some accuracy but
+// does not change the limit of short steps.
 #pragma once
 
 #include "solvers/scheme.h"

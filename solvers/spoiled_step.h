@@ -10,14 +10,14 @@
 
 namespace cascade {
 
-/// The first species, and in it the first cell, that is not finite.
+/// The first value that is not finite: its species, then its cell.
 std::optional<NotFinite> find_not_finite(const std::vector<Field>& species, std::int64_t step,
                                          std::int64_t last_finite);
 
-/// Goes back to the kept copy, which is as step `last_finite` left it, and takes the same steps
-/// again, one by one, up to the one that spoils a value; stops before it. The steps are the same
-/// bits, so it is met before `spoiled`. Where nothing is kept the spoiled values have to do.
-/// Returns the number of complete steps.
+/// Goes back to the kept copy, which is as step `last_finite` left it, and repeats the steps one by
+/// one until one spoils a value; stops before it. The repeated steps have the same bits, so it is
+/// found before `spoiled`. Without a kept copy it returns at once, with the spoiled values in
+/// place. Returns the number of complete steps.
 std::int64_t replay(Stepper& stepper, std::int64_t last_finite, std::int64_t spoiled,
                     StageOutcome& outcome);
 

@@ -22,18 +22,19 @@
 namespace cascade {
 namespace {
 
-/// The error for diffusion on a plane is about 1 / (2 · iterations); big grids get fewer, so that a
-/// user whose run has failed is not kept waiting.
+/// The error for diffusion on a plane is about 1 / (2 · iterations). Big grids get fewer, so that a
+/// user whose run has failed need not wait.
 constexpr std::size_t least_iterations = 16, most_iterations = 200;
 constexpr std::size_t entries_to_visit = 50'000'000;
 
 /// The largest change of a value in a difference, in units of its species' root mean square: near
-/// the cube root of the rounding error, where truncation and rounding of a central difference meet.
+/// the cube root of the rounding error, where the errors of truncation and of rounding of a central
+/// difference are equal.
 double difference_step(Precision precision) {
     return precision == Precision::single ? 0.005 : 6e-6;
 }
 
-using Vector = std::vector<double>;  ///< Species after species, row after row, without halo.
+using Vector = std::vector<double>;  ///< By species, row and column, without halo.
 
 double dot(const Vector& a, const Vector& b) {
     double sum = 0;
@@ -51,7 +52,7 @@ double noise(std::uint64_t number) {
     return static_cast<double>(word >> 11) * 0x1p-52 - 1.0;
 }
 
-/// The Jacobian of a kernel of rates at a state, as something that multiplies vectors.
+/// The Jacobian of a kernel of rates at a state, as an operator on vectors.
 class Jacobian {
 public:
     Jacobian(const StepProblem& rates, std::span<const Field> species, const Mask* frozen)
@@ -72,8 +73,8 @@ public:
             scales_.push_back(
                 field.visit([&](const auto& plane) { return root_mean_square(plane); }));
         }
-        // A species that is zero everywhere takes the scale of the others; of one that has all but
-        // died out, differences would be lost among denormals.
+        // A species that is zero everywhere takes the scale of the others. For a species that has
+        // almost died out, differences would be lost among denormals.
         const double largest = *std::max_element(scales_.begin(), scales_.end());
         for (double& scale : scales_) {
             if (!(scale > 0)) scale = largest > 0 ? largest : 1;
@@ -165,14 +166,14 @@ private:
             if (rates_.has_halo()) fill_halo(moved_[k], rates_.sides_of(k));
         }
         const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
-        // Noise needs some length of a step; it cancels from differences.
+        // White noise needs a step of some length; it cancels in differences.
         team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1}); });
     }
 
     const StepProblem& rates_;
     PlaneLayout layout_;
     std::span<const Field> state_;
-    Mask moves_;  ///< 1 where a cell moves, 0 where it is frozen.
+    Mask moves_;  ///< 1 where a cell is not frozen.
     std::vector<Field> moved_, rates_of_;
     std::vector<double> scales_;
     Team team_;
@@ -180,13 +181,13 @@ private:
     PassRunner::Worker worker_;
 };
 
-/// The root of λ² + pλ + q of larger magnitude that fits w₂ + p w₁ + q w₀ ≈ 0 best, w₀ of length 1;
-/// either one of a complex pair.
+/// The root of larger magnitude of the polynomial λ² + pλ + q for which w₂ + p w₁ + q w₀ ≈ 0 fits
+/// best, w₀ having length 1; either one of a complex pair.
 std::complex<double> leading_root(const Vector& w0, const Vector& w1, const Vector& w2) {
     const double along = dot(w0, w1);  // The Rayleigh quotient.
     const double across = dot(w1, w1) - along * along;
-    // Where w₁ is parallel to w₀ a single eigenvalue is all there is to see. Differences of single
-    // precision know directions to some 1e-4.
+    // If w₁ is parallel to w₀, there is a single eigenvalue. Differences in single precision
+    // determine directions to about 1e-4.
     if (across <= 1e-7 * dot(w1, w1)) return along;
     const double p = -(dot(w1, w2) - along * dot(w0, w2)) / across;
     const double q = -(dot(w0, w2) + p * along);
@@ -194,7 +195,7 @@ std::complex<double> leading_root(const Vector& w0, const Vector& w1, const Vect
     return p > 0 ? -p / 2 - root : -p / 2 + root;
 }
 
-/// The eigenvalue of J − shift of largest magnitude; 0 where the rates are not finite.
+/// The eigenvalue of J − shift of largest magnitude; 0 if the rates are not finite.
 std::complex<double> leading_eigenvalue(Jacobian& jacobian, double shift) {
     const std::size_t iterations =
         std::clamp(entries_to_visit / jacobian.size(), least_iterations, most_iterations);
@@ -226,7 +227,7 @@ StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const F
         const double shift = std::abs(fastest);
         fastest = shift + leading_eigenvalue(jacobian, shift);
     }
-    // What differences cannot tell from zero is no decay.
+    // A decay that differences cannot tell from zero counts as none.
     if (fastest.real() < -1e-4 * std::abs(estimate.eigenvalue)) {
         estimate.largest_speed = -2 * fastest.real() / std::norm(fastest);
     }

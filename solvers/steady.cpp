@@ -10,17 +10,17 @@
 namespace cascade {
 namespace {
 
-/// A pattern has formed where its progress has become so many times the smallest before. Anything
-/// that grows out of noise or spreads over a plane does far more: from 2 to 10, nothing changes in
-/// the table of spec/time.md.
+/// A pattern has formed when its progress is this many times the smallest before. Anything that
+/// grows out of noise or spreads over a plane does far more: from 2 to 10, the table of
+/// spec/time.md does not change.
 constexpr double rise_of_a_formation = 3;
 
-/// What never rose was there when the stage began, or fades: it has settled when it would change by
-/// no more than this part of its contrast in as long again as the stage has run. Noise that fades
-/// by diffusion, below which a pattern may be growing, keeps above 0.35.
+/// If the progress never rose, the pattern was there when the stage began, or it fades. It has
+/// settled when as much time again would change it by at most this part of its contrast. Noise that
+/// fades by diffusion, below which a pattern may be growing, stays above 0.35.
 constexpr double little_progress = 0.1;
 
-/// A flat field has no contrast; the rounding of its values is what remains.
+/// A flat field has no contrast, only the rounding of its values.
 constexpr double least_deviation = 1e-6;
 
 double contrast(const Field& field, const Mask* inside) {

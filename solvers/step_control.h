@@ -13,11 +13,11 @@ namespace cascade {
 
 class StepControl {
 public:
-    /// What must be kept to go on later exactly as without a break.
+    /// The state that must be saved to go on as if there had been no break.
     struct State {
-        double step = 0;          ///< The next step to try; above 0.
-        double error_before = 1;  ///< Of the last accepted step.
-        bool rejected = false;    ///< The last step was rejected: the next grows no longer.
+        double step = 0;          ///< The next step to try, above 0.
+        double error_before = 1;  ///< The error of the last accepted step.
+        bool rejected = false;    ///< The last step was rejected, so the next one may not grow.
     };
 
     /// `order` is the power of the step that the error estimate is proportional to.
@@ -27,9 +27,9 @@ public:
     double step() const { return state_.step; }
     const State& state() const { return state_; }
 
-    /// Judges a step of length `taken` (step() or shorter, where the end of a stage is near) by its
-    /// error in units of the tolerance. Returns whether it is accepted: an error of at most 1.
-    /// NaN and infinity are not.
+    /// Judges a step of length `taken` (step(), or shorter near the end of a stage) by its error in
+    /// units of the tolerance. Returns whether it is accepted, which takes an error of at most 1.
+    /// NaN and infinity are rejected.
     bool judge(double taken, double error);
 
 private:

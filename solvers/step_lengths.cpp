@@ -36,7 +36,7 @@ void StepLengths::choose(bool rejected) {
 bool StepLengths::take_judged_step(StageOutcome& outcome) {
     if (!schedule_.choose) clock_.set_step(wanted_step());
     while (true) {
-        // A last step that would leave a crumb is made a little longer.
+        // If the last step would leave almost nothing, it is made a little longer.
         const double left = schedule_.end_time - clock_.now(), whole = clock_.time.clock.step;
         const double length = left < 1.01 * whole ? left : whole;
         clock_.set_step(length);
@@ -77,18 +77,18 @@ double StepLengths::wanted_step() const {
     return schedule_.longest_step ? std::min(wanted, schedule_.longest_step(clock_.now())) : wanted;
 }
 
-/// Shorter steps would not end in anybody's lifetime.
+/// With shorter steps nobody would live to see the end.
 double StepLengths::least_step() const {
     return 1e-10 * (clock_.has_end_time() ? schedule_.end_time : std::max(clock_.now(), 1.0));
 }
 
-/// Goes back to before the step just tried, which spoiled a value. `last_checked` gets the state
-/// then.
+/// Goes back to the state before the step just tried, which spoiled a value; `last_checked`
+/// receives it.
 bool StepLengths::fail_after(CopyRoles before, StageOutcome& outcome) {
     StepPlanes& planes = stepper_.planes();
     outcome.not_finite = find_not_finite(planes.current(), clock_.step + 1, clock_.step);
     planes.set_roles(before);
-    // Where the values are finite, their rates are not.
+    // The values are finite, but their rates are not.
     if (!outcome.not_finite) {
         outcome.too_short = where_error_is_largest();
         return false;
@@ -107,7 +107,7 @@ StepTooShort StepLengths::where_error_is_largest() const {
         const PlaneLayout& layout = plane.layout();
         for (std::int64_t row = 0; row < layout.row_count(); ++row) {
             for (std::int64_t i = 0; i < layout.width; ++i) {
-                // What is not a number is larger than any.
+                // NaN counts as the largest error.
                 const double size = std::abs(double{plane.row(row)[i]});
                 if (std::isnan(most) || size <= most) continue;
                 most = size;

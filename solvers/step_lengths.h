@@ -1,5 +1,5 @@
-// How long steps are: chosen by the caller from the present values, or by the error of a step,
-// which is tried until that is small enough.
+// Chooses the length of steps: the caller decides from the present values, or a step is repeated
+// with shorter lengths until its error is small enough.
 #pragma once
 
 #include "solvers/advance.h"
@@ -13,20 +13,20 @@ namespace cascade {
 
 class StepLengths {
 public:
-    /// `problem` are the passes of the first steps; `species` is lent the values while the caller
-    /// chooses. All must outlive it.
+    /// `problem` holds the passes of the first steps. `species` receives the values while the
+    /// caller chooses. All arguments must outlive this.
     StepLengths(const Schedule& schedule, const StepProblem& problem, LoopClock& clock,
                 Stepper& stepper, std::vector<Field>& species);
 
     /// The passes of steps whose error is not estimated.
     const StepProblem& plain() const { return *plain_; }
-    /// What steps go on from.
+    /// The state from which steps go on.
     TimeState time() const;
 
-    /// Lets the caller choose how long the next steps are.
+    /// Lets the caller choose the length of the next steps.
     void choose(bool rejected = false);
-    /// Tries steps until one's error is small enough; those before are as if they had not been.
-    /// False, with the reason in `outcome`, where steps have become too short.
+    /// Tries steps until the error of one is small enough; rejected ones leave no trace. Returns
+    /// false, with the reason in `outcome`, if steps have become too short.
     bool take_judged_step(StageOutcome& outcome);
 
 private:
@@ -40,8 +40,8 @@ private:
     Stepper& stepper_;
     std::vector<Field>& species_;
     StepControl control_;
-    const StepProblem* plain_;   ///< The passes of steps whose error is not estimated,
-    const StepProblem* judged_;  ///< and of those whose error is.
+    const StepProblem* plain_;   ///< For steps whose error is not estimated,
+    const StepProblem* judged_;  ///< and for those whose error is.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// A path's length is the sum of the root mean squares of its changes from look to look.
+// A path's length is the sum of the root mean squares of its changes from state to state.
 #include "solvers/step_paths.h"
 
 #include "solvers/field_norms.h"
@@ -9,9 +9,10 @@ namespace cascade {
 
 namespace {
 
-/// Of the longer way: the distance of the ends at least, or the shorter way at most.
+/// In parts of the longer path: the ends are at least this far apart, or the shorter path has at
+/// most this length.
 constexpr double half_the_way = 0.5;
-/// Shorter ways are rounding, or a state that has come to rest.
+/// Shorter paths are rounding, or a state at rest.
 constexpr double least_part_of_values = 0.01;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Do steps of two lengths lead the same way from one state? Where they do not, steps are too long.
+// Compares the paths of steps of two lengths from one state. If they differ, steps are too long.
 #pragma once
 
 #include "core/plane.h"
@@ -9,13 +9,13 @@
 
 namespace cascade {
 
-/// Where a few steps lead from a state, and how long the way is.
+/// The path of a few steps from a state, and its length.
 class StepPath {
 public:
     /// `inside` says which cells count; nullptr: all.
     explicit StepPath(const Mask* inside = nullptr) : inside_(inside) {}
 
-    /// The state after one more step. The first one is that before.
+    /// Adds the state after one more step. The first call sets the start of the path.
     void see(std::span<const Field> species);
 
     std::size_t species_count() const { return last_.size(); }
@@ -34,10 +34,10 @@ struct PathDifference {
     double coarse = 0, fine = 0;  ///< Lengths of the paths of long and of short steps.
     double apart = 0;             ///< Distance of their ends, root mean square over the cells.
 
-    /// One way is longer than twice the other, or the ends lie farther apart than half of the
-    /// longer way; and that way is a hundredth of the values or more. Steps that are short enough
-    /// are far from it: even an edge of one cell that is carried along has a way no longer than √3
-    /// times that of steps of three times the length.
+    /// One path is longer than twice the other, or their ends are farther apart than half of the
+    /// longer path; and that path is at least a hundredth of the values. Steps that are short
+    /// enough are far from this limit: even an advected edge of one cell has a path at most √3
+    /// times as long as with steps three times as long.
     bool is_apart = false;
 };
 PathDifference difference(const StepPath& coarse, const StepPath& fine, std::size_t species,

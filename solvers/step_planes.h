@@ -1,8 +1,8 @@
 // The planes that steps read and write: two or three copies of every species, and scratch.
 //
-// Two copies change places from step to step. The third, where there is memory for it, is the kept
-// one: keep() declares the current copy the kept one without moving a byte, and steps go on between
-// the other two, so that back() can return there. Keeping is therefore free.
+// Two copies are swapped after each step. The third, if there is memory for it, is the kept one:
+// keep() declares the current copy the kept one without moving a byte, and steps go on between the
+// other two, so that back() can return to it. Keeping is therefore free.
 #pragma once
 
 #include "core/plane.h"
@@ -17,31 +17,31 @@
 
 namespace cascade {
 
-/// Which of the copies is what.
+/// The roles of the copies.
 struct CopyRoles {
     static constexpr int none = -1;
-    int kept = 0;  ///< `none` of two copies.
+    int kept = 0;  ///< `none` if there are two copies.
     int current = 0;
-    int last = 1;  ///< What was current before: it is likely to be in the cache.
+    int last = 1;  ///< The copy that was current before; it is likely to be in the cache.
 
     /// The copy that the next step writes: neither kept nor current.
     int target() const { return kept == none || kept == current ? last : 3 - kept - current; }
-    /// A step is complete.
+    /// Called when a step is complete.
     void go_on() { last = std::exchange(current, target()); }
 };
 
 class StepPlanes {
 public:
-    /// Takes `species` as the current copy, and as the kept one unless it `keeps` none.
+    /// Takes `species` as the current copy, and also as the kept one unless `keeps` is false.
     StepPlanes(const PlaneLayout& layout, Precision precision, std::vector<Field> species,
                bool keeps);
 
     const PlaneLayout& layout() const { return layout_; }
     CopyRoles roles() const { return roles_; }
-    /// After a step, and to undo it: the copies change places.
+    /// Swaps the copies after a step, or to undo it.
     void set_roles(CopyRoles roles) { roles_ = roles; }
 
-    /// Is there a kept copy? Without one keep() does nothing, and back() is a mistake.
+    /// Is there a kept copy? Without one keep() does nothing, and back() must not be called.
     bool keeps() const { return roles_.kept != CopyRoles::none; }
     void keep() {
         if (keeps()) roles_.kept = roles_.current;
@@ -59,11 +59,11 @@ public:
 
     /// Makes planes for this number of registers, the old and the new step included.
     void make_registers(std::uint32_t count);
-    /// The planes of a register other than those of the old and the new step.
+    /// The planes of a scratch register.
     const std::vector<Field>& scratch(std::uint32_t number) const {
         return scratch_[number - first_scratch];
     }
-    /// Two such registers change places.
+    /// Swaps two scratch registers.
     void exchange(std::uint32_t one, std::uint32_t other);
 
     /// Lists the planes of all registers of a step: the old step, the new one, then scratch.
@@ -82,7 +82,7 @@ private:
     CopyRoles roles_;
 };
 
-/// The caller's vector holds the current species while he looks at them.
+/// Lends the current species to the caller's vector while it exists.
 class SpeciesLoan {
 public:
     SpeciesLoan(StepPlanes& planes, std::vector<Field>& to) : planes_(planes), to_(to) {

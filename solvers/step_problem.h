@@ -57,8 +57,8 @@ struct StepProblem {
     struct Result {
         PlaneRef plane;
         bool needs_halo = false;   ///< Something reads it at neighbours.
-        Boundaries boundary = {};  ///< At the sides of a temporary.
-        /// Of a species: the part of the step at which it is read at neighbours, or next_step.
+        Boundaries boundary = {};  ///< At the sides, for a temporary.
+        /// For a species: the part of the step at which it is read at neighbours, or next_step.
         double read_at = next_step;
         static constexpr double next_step = -1;
     };
@@ -74,54 +74,54 @@ struct StepProblem {
         std::vector<Reduction> reductions;  ///< Done before the kernel is run.
         std::optional<SweepFilter> filter;  ///< Done after them, before the kernel is run.
         KernelPointer kernel;
-        std::vector<PlaneRef> fields;  ///< Of the kernel's field slots.
+        std::vector<PlaneRef> fields;  ///< By field slot of the kernel.
         std::vector<const std::uint8_t*> masks;
-        std::vector<double> uniforms;  ///< Rounded where the precision is less.
+        std::vector<double> uniforms;  ///< Rounded in single precision.
         std::vector<ChangingUniform> changing;
         std::vector<Result> results;
     };
 
     Grid grid;
-    const Links* links = nullptr;  ///< Where the grid is linked; in the problem's precision.
-    /// Over so many means are taken, those inside of a mask or without what fills up the last row
-    /// of a linked grid; 0: over all.
+    const Links* links = nullptr;  ///< Null unless the grid is linked; in the problem's precision.
+    /// The number of cells that a mean is taken over, without those outside a mask or the padding
+    /// of the last row of a linked grid; 0: all cells.
     std::int64_t cells_inside = 0;
     Precision precision = Precision::single;
-    std::vector<Pass> passes;  ///< In order. At least one.
-    /// The planes of all species at one moment are a register: 0 is the old step, 1 becomes the new
-    /// one, further ones are scratch.
+    std::vector<Pass> passes;  ///< In order; at least one.
+    /// A register is the planes of all species at one moment: 0 is the old step, 1 becomes the new
+    /// one, and further registers are scratch.
     std::uint32_t registers = 2;
     std::uint32_t error_register = 0;  ///< An estimate of the step's error; 0 for none.
-    /// So many passes at the start write the rates of the old step to `first_rate_register` and
-    /// nothing else, and `last_rate_register` gets the rates of the new one: after a step the two
-    /// change places and those passes are left out. 0 for none.
+    /// The number of passes at the start that only write the rates of the old step to
+    /// `first_rate_register`. `last_rate_register` gets the rates of the new step: after a step the
+    /// two registers are swapped, and those passes are left out. 0 for none.
     std::size_t first_rate_passes = 0;
     std::uint32_t first_rate_register = 0, last_rate_register = 0;
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
     std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.
-    std::vector<SideRules> sides;  ///< Per species; none: the grid's boundary for all.
-    std::span<const ChangingSide> changing_sides;  ///< Those of them that change with time.
+    std::vector<SideRules> sides;  ///< By species; empty: the grid's boundary for all.
+    std::span<const ChangingSide> changing_sides;  ///< Those of the sides that change with time.
     std::vector<bool> species_needs_halo;  ///< Per species: the old step is read at neighbours.
 
-    /// Do neighbours lie beyond sides, so that what is read there needs a halo?
+    /// Does reading neighbours beyond the sides need a halo?
     bool has_halo() const { return !grid.linked; }
-    /// How many cells a mean is taken over.
+    /// The number of cells that a mean is taken over.
     std::int64_t counted_cells() const {
         return cells_inside > 0 ? cells_inside : grid.cell_count();
     }
-    /// How many cells at the start of a row a mean is taken over. Outside of a mask everything is
-    /// 0, so there whole rows count.
+    /// The number of cells at the start of a row that a mean is taken over. Values outside of a
+    /// mask are 0, so whole rows count there.
     std::int64_t counted_in_row(std::int64_t row) const {
         if (!grid.linked) return grid.width;
         return std::clamp(counted_cells() - row * grid.width, std::int64_t{0}, grid.width);
     }
-    /// May steps become many times as fast some time later?
+    /// Is some kernel still interpreted, so that steps may become many times faster?
     bool is_provisional() const {
         return std::any_of(passes.begin(), passes.end(),
                            [](const Pass& pass) { return pass.kernel->is_provisional(); });
     }
-    /// What holds at the sides of a plane that a pass writes.
+    /// The rules at the sides of a plane that a pass writes.
     SideRules sides_of(const Result& result) const {
         const bool is_species = result.plane.kind == PlaneRef::Kind::species;
         return is_species ? sides_of(result.plane.number) : SideRules(result.boundary);

@@ -1,4 +1,4 @@
-// Takes steps, looks for values that are not finite and estimates errors.
+// Takes steps, checks values and estimates errors.
 #include "solvers/stepper.h"
 
 #include "core/check.h"
@@ -57,7 +57,7 @@ bool Stepper::is_finite() {
     return all_finite();
 }
 
-/// What threads do to find out.
+/// What threads do while they check values.
 PassTeam::OwnRows Stepper::look_at(int copy) {
     std::fill(finite_.begin(), finite_.end(), std::uint8_t{1});
     return [this, copy](int thread, RowRange rows) {
@@ -101,7 +101,7 @@ void Stepper::accept() {
     planes_.exchange(problem().first_rate_register, problem().last_rate_register);
 }
 
-/// Of some rows of the step just computed.
+/// Sums the squares of some rows of the step just computed.
 void Stepper::add_squares(RowRange rows) {
     const std::vector<Field>& values = planes_.copy(planes_.roles().target());
     for (std::size_t k = 0; k < squares_.size(); ++k) {

@@ -1,5 +1,5 @@
-// Takes steps: a team of threads runs their passes over planes that change places. Used by the time
-// loop, which decides how many steps to take and when to look.
+// Takes steps: a team of threads runs the passes over planes that are swapped. Used by the time
+// loop, which decides the number of steps and when to check values.
 #pragma once
 
 #include "core/plane.h"
@@ -16,8 +16,8 @@ namespace cascade {
 
 class Stepper {
 public:
-    /// Takes `species` as current, and as kept unless it `keeps` nothing; their halo is filled
-    /// here. All threads are in use at first; `most_threads` is lowered to what the grid is worth.
+    /// Takes `species` as current, and as kept unless `keeps` is false; fills their halo. At first
+    /// all threads are in use; `most_threads` is lowered to what the grid is worth.
     Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
             bool keeps = true);
 
@@ -27,13 +27,13 @@ public:
 
     /// The passes in use.
     const StepProblem& problem() const { return team_.problem(); }
-    /// Takes steps by other passes from now on. The problem must live as long as it is in use.
+    /// Uses the passes of another problem from now on. It must outlive its use.
     void use(const StepProblem& problem);
-    /// Time and length of the steps from now on.
+    /// Sets time and length of the steps from now on.
     void set_clock(const StageClock& clock) { clock_ = clock; }
 
-    /// Takes `count` steps, at least one; `complete` were complete before. With `look`, returns
-    /// whether the new values are all finite; without, true.
+    /// Takes `count` steps, at least one, after `complete` earlier ones. With `look`, returns
+    /// whether the new values are all finite; without it, true.
     bool advance(std::int64_t complete, std::int64_t count, bool look);
     /// Are all current values finite?
     bool is_finite();
@@ -44,13 +44,13 @@ public:
     }
 
     /// Tries one step of a problem with an error register and returns its error in units of the
-    /// tolerance: of each species the root mean square over that of its new values, times
-    /// `tolerance`; the largest of all; NaN where the error or a new value is not finite. Then
-    /// accept() it, or undo it by giving the planes the roles they had before.
+    /// tolerance: for each species the root mean square of the error, divided by that of its new
+    /// values and by `tolerance`; the largest of them; NaN if an error or a new value is not
+    /// finite. Then call accept(), or undo the step by giving the planes their former roles.
     double attempt(std::int64_t complete, double tolerance);
-    /// The step just tried is taken: its last rates are the first ones of the next step.
+    /// Accepts the step just tried: its last rates become the first rates of the next step.
     void accept();
-    /// The planes of that estimate, one for each species.
+    /// The planes of the error estimate, one for each species.
     const std::vector<Field>& error_planes() const {
         return planes_.scratch(problem().error_register);
     }
@@ -68,10 +68,10 @@ private:
     StepPlanes planes_;
     PassTeam team_;
     StageClock clock_;
-    /// The register of first rates holds those of the current copy.
+    /// The register of first rates holds the rates of the current copy.
     bool knows_first_rates_ = false;
     std::vector<Squares> squares_;      ///< By species.
-    std::vector<std::uint8_t> finite_;  ///< By thread: are its rows?
+    std::vector<std::uint8_t> finite_;  ///< By thread: are its rows finite?
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Counts the tiles of a step from the passes that need all rows, which begin a new one.
+// Counts the tiles of a step. A pass that needs all rows begins a new one.
 #include "solvers/stepping.h"
 
 #include <fmt/format.h>
@@ -10,10 +10,10 @@
 namespace cascade {
 namespace {
 
-/// Is each step looked at before the next one begins?
+/// Is each step checked before the next one begins?
 bool is_judged(const StepProblem& problem) { return problem.error_register != 0; }
 
-/// What hinders several steps a pass; nothing where nothing does.
+/// The reason why steps are taken one by one; empty if there is none.
 std::string hindrance(const StepProblem& problem) {
     const auto any = [&](const auto& is_so) {
         return std::any_of(problem.passes.begin(), problem.passes.end(), is_so);
@@ -45,7 +45,7 @@ void describe(const StepProblem& problem, int levels, Stepping& stepping) {
     }
 }
 
-/// Passes through memory of a step: tiles of nearly equal heights between passes that need all
+/// Passes through memory in a step: tiles of nearly equal heights between passes that need all
 /// rows.
 double tiles_of_step(const StepProblem& problem, int levels) {
     const std::size_t passes = problem.passes.size();

@@ -6,13 +6,13 @@
 namespace cascade {
 namespace {
 
-// A trial is long enough to be more than one time slice of the machine, and so rare in the end
-// that a bad one costs little.
+// A trial is longer than a time slice of the operating system, and trials become so rare that a bad
+// one costs little.
 constexpr double trial_seconds = 0.02;
 constexpr double first_trial = 0.1;
 constexpr double longest_between_trials = 4;
 constexpr double rest_per_trial = 20;
-/// So much less time must a step take to change the number.
+/// A step must take less time by this part to change the number.
 constexpr double worth_changing = 0.95;
 
 }  // namespace
@@ -26,7 +26,7 @@ void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duratio
         if (trial_.seconds >= trial_seconds) end_trial();
         return;
     }
-    // What is old counts less and less, so that the present is compared with the present.
+    // Old measurements count less and less, so that recent ones are compared.
     const double old = std::max(0.0, 1 - duration.count() / first_trial);
     recent_.seconds = recent_.seconds * old + duration.count();
     recent_.steps = recent_.steps * old + steps;
@@ -34,7 +34,7 @@ void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duratio
     if (until_trial_ <= 0) begin_trial();
 }
 
-/// Near numbers and the extremes: half as many may be no better where one alone is.
+/// Near numbers and the extremes, because half as many threads may be no better when one alone is.
 int ThreadTuner::candidate(int turn) const {
     switch (turn % 4) {
         case 0: return std::max(best_ / 2, 1);
@@ -52,7 +52,7 @@ void ThreadTuner::begin_trial() {
 
 void ThreadTuner::end_trial() {
     if (trial_.seconds_per_step() < worth_changing * recent_.seconds_per_step()) {
-        best_ = current_;  // The turn stays: what helped may help again.
+        best_ = current_;  // The turn stays: the same change may help again.
         recent_ = trial_;
         between_trials_ = first_trial;
     } else {

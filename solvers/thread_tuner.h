@@ -1,6 +1,6 @@
-// How many threads a run uses. All of them are not always the fastest: where other programs keep
-// cores busy, every step waits for the thread that has lost its core. So now and then some steps
-// are taken by fewer or by more, and what is faster stays. No result depends on it.
+// Chooses the number of threads. All of them are not always the fastest: if other programs keep
+// cores busy, every step waits for the thread that has lost its core. So from time to time some
+// steps use fewer or more threads, and the fastest number is kept. No result depends on it.
 #pragma once
 
 #include <chrono>
@@ -13,16 +13,16 @@ public:
     /// Starts with all `most` threads.
     explicit ThreadTuner(int most) : most_(most), best_(most), current_(most) {}
 
-    /// How many the next batch of steps is to use.
+    /// The number of threads for the next batch.
     int threads() const { return current_; }
-    /// Are they being tried?
+    /// Is a number of threads being tried?
     bool is_trying() const { return current_ != best_; }
 
-    /// A batch of `count` steps by threads() threads took so long.
+    /// Records that a batch of `count` steps by threads() threads took this time.
     void took(std::int64_t count, std::chrono::duration<double> duration);
 
 private:
-    /// Time and steps of one number of threads.
+    /// Time and steps with one number of threads.
     struct Measured {
         double seconds = 0;
         double steps = 0;
@@ -36,10 +36,10 @@ private:
     int most_;
     int best_;
     int current_;               ///< Differs from best_ during a trial.
-    int turn_ = 0;              ///< Whose turn to be tried it is.
-    double until_trial_ = 0.1;  ///< Seconds.
+    int turn_ = 0;              ///< Of the candidates: which is tried next.
+    double until_trial_ = 0.1;  ///< Seconds to the next trial.
     double between_trials_ = 0.1;
-    Measured recent_;  ///< Of best_, the last tenth of a second or so.
+    Measured recent_;  ///< With best_, over the last tenth of a second or so.
     Measured trial_;
 };
 

@@ -1,4 +1,4 @@
-// The four phases, one after the other; within a tile, a wavefront over the layers and the levels.
+// Runs the phases of a tile one after the other; within a part, a wavefront over layers and levels.
 #include "solvers/tile_runner.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 
 std::int64_t layers_of(std::int64_t count, std::int64_t each) { return (count + each - 1) / each; }
 
-/// Are layers whole slices, and else rows?
+/// Are layers whole slices (or rows)?
 bool is_of_slices(const Grid& grid, const Tiling& tiling) {
     return grid.depth > 1 && tiling.along == Tiling::Along::slices;
 }
@@ -107,7 +107,7 @@ void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t l
             start + std::min(end * tiling_.inner_layer, layout.height));
     };
     for (std::int64_t slice = first; slice < last; ++slice) {
-        // What lies beyond an end of the axis is at the other end.
+        // A layer beyond one end of the axis is at the other end.
         rows_of(slice, std::max<std::int64_t>(inner.begin, 0),
                 std::min(inner.end, inner_.layers()));
         if (inner.begin < 0) rows_of(slice, inner.begin + inner_.layers(), inner_.layers());

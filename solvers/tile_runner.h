@@ -1,12 +1,12 @@
-// Runs several levels (passes of steps) while what they read is in the cache: tiles in the shapes
-// of solvers/tile_shape.h, shared by a team of threads.
+// Runs several levels (passes of steps) while the values that they read are in the cache, in tiles
+// of the shapes of solvers/tile_shape.h. A team of threads shares the tiles.
 //
-// A grid is cut along its rows, a grid with slices along its slices and, within each, its rows; or
-// along its rows alone, which are then those of all slices, where slices are few. With two axes a
-// tile is a part of the one times a part of the other, and there are four phases: a cell's phase
-// along each axis never decreases from level to level, so what it reads is done before it. Tiles of
-// the two phases that are upright along one axis and inverted along the other do not depend on each
-// other.
+// A grid is cut along its rows. A grid with slices is cut along its slices and, within each, along
+// its rows; or, if there are few slices, along its rows alone, each layer being the same rows of
+// all slices. With two axes a tile is a part of one times a part of the other, and there are four
+// phases. A cell's phase along each axis never decreases from level to level, so the values that it
+// reads are complete. Tiles of the two phases that are upright along one axis and inverted along
+// the other do not depend on each other.
 #pragma once
 
 #include "core/parallel.h"
@@ -23,22 +23,22 @@ class TileRunner {
 public:
     static constexpr int most_levels = 64;
 
-    /// So many `threads` share the tiles. Fewer levels than the tiling asks for are used where
-    /// bands are too narrow for them. `runner` must outlive it.
+    /// `threads` is the number of threads that share the tiles. If bands are too narrow, fewer
+    /// levels than the tiling has are used. `runner` must outlive this.
     TileRunner(const PassRunner& runner, const Tiling& tiling, int threads);
 
-    /// Levels of a tile; 1 where tiles are of no use.
+    /// Levels of a tile; 1 if tiles are of no use.
     int levels() const { return levels_; }
-    /// Parts of a tile that are run one after the other; threads meet between them.
+    /// Phases of a tile, which run one after the other; threads meet between them.
     int phases() const { return (outer_.borders() > 0 ? 2 : 1) * (inner_.borders() > 0 ? 2 : 1); }
 
-    /// Runs levels 0 … `levels` − 1 of all workers, which all of them have bound alike. All threads
-    /// of the team in use call it. When it returns, another meeting of the team makes what was
-    /// written visible to every thread.
+    /// Runs levels 0 … `levels` − 1 of all workers, which all workers have bound alike. All threads
+    /// of the team in use call it. After the next barrier of the team, its results are visible to
+    /// every thread.
     void run(PassRunner::Worker& worker, Team& team, int levels) const;
 
 private:
-    /// A part of an axis: what each level does of it.
+    /// The ranges that each level computes in a part of an axis.
     using Part = std::array<LayerRange, most_levels>;
 
     static int parts(const TileAxis& axis, bool inverted) {

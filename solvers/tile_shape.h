@@ -1,9 +1,9 @@
-// The shape of a tile in time: which layers of an axis are computed when, if several levels (passes
-// of steps, one after the other) are done while the layers are in the cache.
+// The shape of a tile in time: which layers of an axis are computed when, if several levels
+// (successive passes of steps) run while the layers are in the cache.
 //
-// A level reads what is at most one layer away and writes its own layers. An axis is cut into
-// bands. Upright: a band does fewer layers from level to level, one less at each end that is a
-// border. Inverted: what is left around a border, wider from level to level.
+// A level reads layers at most one layer away and writes its own layer. An axis is cut into bands.
+// Upright part: from level to level a band computes one layer less at each end that is a border.
+// Inverted part: the rest around a border, which becomes wider from level to level.
 //
 //     level 3      / inverted \      upright      / inverted \      |
 //           2     /            \                 /            \     | time
@@ -11,11 +11,11 @@
 //           0   '                '-------------'                '   |
 //               border 0          band 1         border 1
 //
-// All upright parts first, at once if there are threads, then all inverted ones. In a part level l
-// does layer p − l at moment p, so that a layer is read again L moments after its first use and
-// then rests. What lies at most one layer away and belongs to another level is then in an earlier
-// phase or earlier in the same part, so planes may be overwritten as they are when each level has
-// the whole axis.
+// All upright parts are computed first, by several threads at once, then all inverted ones. Within
+// a part, level l computes layer p − l at moment p, so a layer is in use for L moments. Another
+// level's layers at most one layer away are then computed in an earlier phase or earlier in the
+// same part. Planes may therefore be overwritten in the same way as when each level computes the
+// whole axis.
 //
 // Such shapes are known as split tiling; wavefronts through them as time skewing (R. Strzodka, M.
 // Shaheen, D. Pajak, H.-P. Seidel, "Cache accurate time skewing in iterative stencil computations",
@@ -27,7 +27,7 @@
 
 namespace cascade {
 
-/// Half-open range of layers. Where the axis wraps it may begin before layer 0 or end after the
+/// A half-open range of layers. If the axis wraps, it may begin before layer 0 or end after the
 /// last layer: layer n of n is layer 0.
 struct LayerRange {
     std::int64_t begin = 0, end = 0;
@@ -36,19 +36,19 @@ struct LayerRange {
 
 class TileAxis {
 public:
-    /// Cuts `layers` layers into at least one band and at most one for each layer. `wraps`: the
-    /// last layer and the first are neighbours.
+    /// Cuts `layers` layers into one band or more, at most one for each layer. `wraps`: the last
+    /// layer and the first are neighbours.
     TileAxis(std::int64_t layers, int bands, bool wraps);
 
     std::int64_t layers() const { return layers_; }
     int bands() const { return bands_; }
     int borders() const { return wraps_ ? bands_ : bands_ - 1; }
-    /// More levels would let the parts around two borders touch. At least 1.
+    /// With more levels the parts around two borders would touch. At least 1.
     int most_levels() const;
 
-    /// What the level, 0 … most_levels() − 1, does in a band.
+    /// The layers that a level, 0 … most_levels() − 1, computes in a band,
     LayerRange upright(int band, int level) const;
-    /// And around the border after band number `border`.
+    /// and around the border after band number `border`.
     LayerRange inverted(int border, int level) const;
     /// The number of a layer in a range, within the axis.
     std::int64_t wrapped(std::int64_t layer) const {

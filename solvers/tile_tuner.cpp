@@ -1,4 +1,4 @@
-// A state machine fed with the times of batches: it rests, or tries the candidates round by round.
+// A state machine driven by the times of batches: it rests, or tries the candidates round by round.
 #include "solvers/tile_tuner.h"
 
 #include "core/check.h"
@@ -13,18 +13,18 @@ namespace cascade {
 namespace {
 
 constexpr int rounds = 3;
-// Long enough for the caches to fill with what a tiling keeps there.
+// Long enough for a tiling to fill the caches.
 constexpr double turn_seconds = 0.002;
-// Long enough for a clock, and shorter than what another program takes a core for.
+// Long enough for a clock, and shorter than the time slice of another program.
 constexpr double batch_seconds = 0.00025;
-// First steps meet cold caches, and threads that wake up.
+// The first steps meet cold caches, and threads that wake up.
 constexpr double warm_up_seconds = 0.01;
-// So much of a run may trials take that bring nothing: those of the first round.
+// The part of a run that the first round of trials may cost.
 constexpr double share_of_run = 0.02;
-// And so much of the time between trials, when all is tried again; less where nothing changes.
+// The part of the time since the last trials that new ones may cost; less if nothing changes.
 constexpr double share_of_rest = 0.005;
 constexpr double most_patience = 64;
-// So much less time must a sweep take to be clearly faster.
+// A sweep must take less time by this part to be clearly faster.
 constexpr double clearly_faster = 0.95;
 
 }  // namespace
@@ -36,7 +36,7 @@ TileTuner::TileTuner(std::vector<Tiling> candidates, TilingMemory* memory, int t
     if (memory_ != nullptr && candidates_.size() > 1) recall();
 }
 
-/// What is none of the candidates was kept for other steps.
+/// A tiling that is not among the candidates was kept for other steps.
 void TileTuner::recall() {
     const std::optional<Tiling> known = memory_->find(threads_);
     const auto found =
@@ -52,7 +52,7 @@ std::string TileTuner::how_found() const {
                                       : "";
 }
 
-/// Those of whole tiles that take so long, or a little longer.
+/// The sweeps of whole tiles that take this time, or a little longer.
 std::int64_t TileTuner::sweeps_in(double seconds) const {
     const double tiles = std::ceil(seconds / (seconds_per_sweep_ * most_levels_));
     return most_levels_ * static_cast<std::int64_t>(std::clamp(tiles, 1.0, 1e9));

@@ -1,13 +1,13 @@
-// Which tiling a run uses. What is fastest depends on more than the sizes of caches, so a run that
-// goes on for long enough tries a few tilings on steps of its own, by turns in several rounds, and
-// goes on with the best. No result depends on it.
+// Chooses a tiling by time. The fastest one depends on more than the sizes of caches, so a run that
+// is long enough takes some of its steps with each of a few tilings, by turns in several rounds,
+// and goes on with the fastest. No result depends on it.
 //
-// What fits by the sizes of caches is used first, or what an earlier run found. Another one than
-// what fits is used only if it was clearly faster in every round; one that was not is tried no
-// more. Of a turn its fastest batch counts. So no disturbed moment decides, and after the first
-// round time is spent only on what seems to be faster. But other programs may be at work for as
-// long as all rounds take, so now and then all is tried again, and what an earlier run found as
-// soon as anything would be.
+// The first tiling in use is the one chosen by the sizes of caches, or the result of an earlier
+// run. Another one replaces the choice by size only if it was clearly faster in every round; one
+// that was not is not tried again. A turn counts by its fastest batch. No disturbance therefore
+// decides the result, and after the first round only tilings that seem faster cost time. But other
+// programs may be busy during all rounds. So all tilings are tried again from time to time, and the
+// result of an earlier run as soon as trials may begin.
 #pragma once
 
 #include "solvers/tiling_memory.h"
@@ -21,41 +21,41 @@
 
 namespace cascade {
 
-/// Times come from outside, so that a test can make them up.
+/// Times are passed in, so that a test can choose them.
 class TileTuner {
 public:
     using Seconds = std::chrono::duration<double>;
 
-    /// At least one candidate; of one alone nothing is tried. What `memory` knows of so many
-    /// threads is used at first, and it is told what is found; nullptr: there is none.
+    /// Takes at least one candidate; a single one is not tried. If `memory` knows a tiling for this
+    /// number of threads, it is used at first. `memory` receives the result; it may be null.
     explicit TileTuner(std::vector<Tiling> candidates, TilingMemory* memory = nullptr,
                        int threads = 1);
 
     const std::vector<Tiling>& candidates() const { return candidates_; }
-    /// That of the next batch of steps.
+    /// The tiling of the next batch of steps.
     const Tiling& tiling() const { return candidates_[current_]; }
 
     bool is_trying() const { return is_trying_; }
-    /// How a tiling was found to be the best, in words; empty before that.
+    /// Why this tiling is in use, in words; empty before trials end.
     std::string how_found() const;
 
-    /// Sweeps (passes of steps) that a batch takes while trying: a part of a turn, of whole tiles
-    /// of each candidate.
+    /// Sweeps (passes of steps) in a batch while tilings are tried: a part of a turn, in whole
+    /// tiles of each candidate.
     std::int64_t sweeps_of_trial() const;
 
-    /// A batch of `sweeps` took so long with tiling(). At that speed the run is expected to go on
-    /// for `left`; trials begin where they cost little of it.
+    /// Records that a batch of `sweeps` took this time with tiling(). At that speed the run is
+    /// expected to go on for `left`; trials begin when they cost little in comparison.
     void took(std::int64_t sweeps, Seconds duration, Seconds left);
 
 private:
     enum class Choice : std::uint8_t { by_size, recalled, by_time };
     static constexpr double never = std::numeric_limits<double>::infinity();
-    /// What is known of a candidate.
+    /// The measurements of a candidate.
     struct Tried {
         std::size_t candidate = 0;
-        std::int64_t sweeps = 0;  ///< In this round,
-        double least = never;     ///< seconds of a sweep in its fastest batch,
-        double least_in_all = 0;  ///< and these, summed over all rounds.
+        std::int64_t sweeps = 0;  ///< Sweeps in this round.
+        double least = never;     ///< Seconds of a sweep in its fastest batch of this round,
+        double least_in_all = 0;  ///< and their sum over all rounds.
     };
 
     void recall();
@@ -71,15 +71,15 @@ private:
     int most_levels_ = 1;
     Choice choice_ = Choice::by_size;
     std::size_t current_ = 0;
-    std::size_t used_before_ = 0;  ///< The one that was current when trials began.
+    std::size_t used_before_ = 0;  ///< The tiling in use when trials began.
     bool is_trying_ = false;
-    double rested_seconds_ = 0;         ///< Steps since trials, or from the start;
-    double seconds_per_sweep_ = never;  ///< of a sweep in the fastest batch of them.
-    double patience_ = 1;               ///< So many times as rarely as at first is all tried again.
+    double rested_seconds_ = 0;         ///< Seconds of steps since trials, or since the start.
+    double seconds_per_sweep_ = never;  ///< Seconds of a sweep in the fastest batch of them.
+    double patience_ = 1;               ///< The factor by which trials are rarer than at first.
     int round_ = 0;
     std::int64_t sweeps_of_turn_ = 0;
-    std::vector<Tried> tried_;  ///< Those that are still in; the first is what fits by size.
-    std::size_t turn_ = 0;      ///< Whose turn it is, of those.
+    std::vector<Tried> tried_;  ///< The candidates that remain; the first is the choice by size.
+    std::size_t turn_ = 0;      ///< The candidate whose turn it is.
 };
 
 }  // namespace cascade

@@ -13,13 +13,13 @@ namespace {
 
 using PlaneRef = StepProblem::PlaneRef;
 
-// A call of a kernel for fewer cells than this, those counted that stand around rows, costs more
-// than what it saves to keep them near: for three rows of 512. Layers of rows of 1024 cells are one
-// row: two are 7 % slower, for their levels fill more of the cache.
+// A call of a kernel for fewer cells than this, halo included, costs more than it saves by keeping
+// them in a near cache. This gives three rows of 512 cells. For 1024 cells it gives one row: two
+// are 7 % slower, because the levels fill more of the cache.
 constexpr std::int64_t cells_of_a_layer = 1632;
-// So much of a cache do levels share; the rest is for what they do not touch again.
+// The part of a cache that levels share; the rest is for data that they do not use again.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
-// Layers that are in use besides one for each level: those that are read around it.
+// Layers in use besides one for each level: those that are read around it.
 constexpr std::int64_t layers_besides = 3;
 // More levels hardly save anything.
 constexpr int enough_levels = 16;
@@ -27,34 +27,34 @@ constexpr int enough_levels = 16;
 constexpr int few_levels = 6;
 constexpr int levels_in_bands = 8;
 
-/// Bytes that the layers of a tile may take.
+/// The bytes that the layers of a tile may take.
 double bytes_for_layers(const CacheSizes& caches) {
     return std::max(part_of_second * static_cast<double>(caches.second),
                     part_of_third * static_cast<double>(caches.third));
 }
 
-/// How many levels may be done at once where layers have so many bytes.
+/// The number of levels that fit, for layers of this size in bytes.
 int levels_in(double bytes, std::int64_t layer_bytes) {
     const auto layers = static_cast<std::int64_t>(bytes) / std::max<std::int64_t>(layer_bytes, 1);
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
 }
 
-/// Does a level find what it reads in the second-level cache? It is what the level before has just
-/// written and what stood there before that.
+/// Does a level find its data in the second-level cache? It reads what the level before has just
+/// written, and overwrites older values.
 bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
     return (1 + layers_besides) * layer_bytes <= caches.second;
 }
 
-/// How many rows or slices, `count` of which there are, a layer has.
+/// The number of rows or slices in a layer, out of `count`.
 std::int64_t height_of_layer(std::int64_t cells_of_each, std::int64_t count) {
     return std::clamp<std::int64_t>(cells_of_a_layer / cells_of_each, 1, count);
 }
 
-/// Layers of so many rows or slices, of which there are `count` with so many bytes in all.
+/// Layers of this height, for `count` rows or slices of `bytes` in all.
 Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t bytes,
                         const CacheSizes& caches) {
     Tiling tiling;
-    if (height >= count) return tiling;  // One layer has no other to wait for.
+    if (height >= count) return tiling;  // With a single layer there is nothing to overlap.
     tiling.outer_layer = height;
     const std::int64_t layer_bytes = bytes / count * height;
     tiling.levels = levels_in(bytes_for_layers(caches), layer_bytes);
@@ -62,14 +62,14 @@ Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t by
     return tiling;
 }
 
-/// Whole slices, the same rows of all slices where those are flat, or bands of the rows of slices
-/// where neither has room.
+/// Whole slices; the same rows of all slices, if there are few; or bands of the rows of slices, if
+/// neither fits.
 Tiling tiling_of_slices(const Grid& grid, std::int64_t bytes, const CacheSizes& caches) {
     const std::int64_t stride = PlaneLayout(grid).stride;
     const std::int64_t slices = height_of_layer(stride * grid.height, grid.depth);
     const std::int64_t rows = height_of_layer(stride * grid.depth, grid.height);
     const Tiling of_slices = tiling_of_layers(slices, grid.depth, bytes, caches);
-    // Where an axis wraps, levels shrink by a layer at both ends of it.
+    // If an axis wraps, levels shrink by a layer at both ends of it.
     const bool is_flat = grid.depth / slices < 2 * enough_levels;
     if (of_slices.levels >= few_levels && !is_flat) return of_slices;
     Tiling of_rows = tiling_of_layers(rows, grid.height, bytes, caches);
@@ -78,7 +78,7 @@ Tiling tiling_of_slices(const Grid& grid, std::int64_t bytes, const CacheSizes& 
     if (of_slices.levels >= few_levels) return of_slices;
     const double band_bytes = bytes_for_layers(caches) / (levels_in_bands + layers_besides);
     const double bands = std::ceil(static_cast<double>(bytes / grid.depth * slices) / band_bytes);
-    // Bands must be wider than what two borders take of them.
+    // Bands must be wider than two borders.
     if (bands * 2 * levels_in_bands > static_cast<double>(grid.height)) return of_slices;
     Tiling in_bands = of_slices;
     in_bands.levels = levels_in_bands;
@@ -86,7 +86,7 @@ Tiling tiling_of_slices(const Grid& grid, std::int64_t bytes, const CacheSizes& 
     return in_bands;
 }
 
-/// The tiling of planes of which most must come from memory in every step.
+/// The tiling of planes that mostly come from memory in every step.
 Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach,
                            const CacheSizes& caches) {
     const Grid& grid = problem.grid;
@@ -119,7 +119,7 @@ std::int64_t bytes_of_step(const StepProblem& problem) {
         for (const PlaneRef& ref : pass.fields) add(ref);
         for (const StepProblem::Result& result : pass.results) {
             add(result.plane);
-            // What is written as the new step is read as the old one.
+            // A plane written as the new step is read as the old one.
             if (result.plane.in_register == 1) {
                 add({PlaneRef::Kind::species, result.plane.number, 0, nullptr});
             }

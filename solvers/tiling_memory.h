@@ -1,4 +1,4 @@
-// What earlier runs found out about tilings.
+// Tilings that earlier runs found to be the fastest.
 #pragma once
 
 #include "solvers/tiling.h"
@@ -7,14 +7,14 @@
 
 namespace cascade {
 
-/// Of the steps of one stage.
+/// The tilings of the steps of one stage.
 class TilingMemory {
 public:
     virtual ~TilingMemory() = default;
-    /// The tiling that was found to be the fastest on so many threads, twice in a row so that no
-    /// busy moment teaches anything; it may be one for other steps.
+    /// The tiling that was found to be the fastest with this number of threads, twice in a row so
+    /// that a disturbance does not count. May be a tiling for other steps.
     virtual std::optional<Tiling> find(int threads) = 0;
-    /// It was found to be the fastest, again perhaps.
+    /// Records that this tiling was found to be the fastest, perhaps again.
     virtual void keep(int threads, const Tiling& tiling) = 0;
 };
 

@@ -1,6 +1,6 @@
-// Waves by FFTW's transforms of real numbers, one axis after the other. Each call transforms one
-// row, or sixteen neighbouring columns, however many threads there are: so bits do not depend on
-// them. Plans are estimated and not measured, which would choose differently from run to run.
+// Waves come from FFTW's transforms of real numbers, one axis after the other. Each call transforms
+// one row or sixteen neighbouring columns, whatever the number of threads, so bits do not depend on
+// it. Plans are estimated and not measured: measuring would choose differently from run to run.
 #include "solvers/wave_filter.h"
 
 #include "core/check.h"
@@ -37,7 +37,7 @@ struct Fftw<double> {
     static constexpr auto destroy = fftw_destroy_plan;
 };
 
-/// The waves along an axis, by what a change is beyond its two sides.
+/// The waves along an axis, which depend on the rules at its two sides.
 struct AxisWaves {
     fftw_r2r_kind forward = FFTW_R2HC;
     fftw_r2r_kind backward = FFTW_HC2R;
@@ -54,7 +54,8 @@ AxisWaves waves_between(SideKind first, SideKind last) {
     return {FFTW_REDFT10, FFTW_REDFT01, 0, false};
 }
 
-/// −4/h² sin²(half the phase from cell to cell): what the second difference is of each wave.
+/// −4/h² sin²(half the phase from cell to cell): the factor by which the second difference
+/// multiplies each wave.
 template <typename Number>
 std::vector<Number> second_differences(const AxisWaves& waves, std::int64_t cells, double spacing,
                                        std::int64_t room) {
@@ -71,12 +72,12 @@ std::vector<Number> second_differences(const AxisWaves& waves, std::int64_t cell
     return values;
 }
 
-/// What a transform and the one back multiply by.
+/// The factor by which a transform and its inverse together multiply.
 double gain_of(const AxisWaves& waves, std::int64_t cells) {
     return static_cast<double>(cells) * (waves.is_periodic ? 1 : 2);
 }
 
-/// Columns are transformed so many at a time: they share cache lines.
+/// This number of columns is transformed at a time: they share cache lines.
 constexpr std::int64_t block = PlaneLayout::row_pad;
 
 }  // namespace
@@ -95,7 +96,7 @@ struct WaveFilter<Number>::Implementation {
         std::array<Along, 3> along;
         double gain = 1;
     };
-    /// A row of cells: where it is, and its number of cells.
+    /// The address of a row of cells, and the number of its cells.
     struct Line {
         std::int64_t offset, column, count, row, slice;
     };
@@ -141,7 +142,7 @@ struct WaveFilter<Number>::Implementation {
     Plan plan(Axis axis, fftw_r2r_kind kind, std::int64_t cells) {
         Plan& known = plans[{axis, kind}];
         if (known != nullptr) return known;
-        // Estimating reads no values; a plane of its own is aligned as those to come.
+        // Estimating reads no values; a plane made for it is aligned like those to come.
         Plane<Number> like(layout);
         Number* const place = like.origin();
         const int size = static_cast<int>(cells);
@@ -156,7 +157,8 @@ struct WaveFilter<Number>::Implementation {
     }
 
     std::int64_t blocks() const { return (layout.width + block - 1) / block; }
-    /// Independent pieces of a transform along an axis. Rows are numbered as everywhere, so that
+    /// Independent parts of a transform along an axis. Rows are numbered as everywhere, so that
+    /// threads share them as for kernels.
     /// threads share them as they do for kernels.
     std::int64_t pieces(Axis axis) const {
         if (axis == x) return layout.row_count();
@@ -210,7 +212,7 @@ struct WaveFilter<Number>::Implementation {
 
     PlaneLayout layout;
     Grid grid;
-    std::vector<Axis> axes;  ///< Of more than one cell, in the order of transforms.
+    std::vector<Axis> axes;  ///< The axes of more than one cell, in the order of transforms.
     std::vector<Species> species;
     std::map<std::pair<Axis, fftw_r2r_kind>, Plan> plans;
     std::map<std::pair<Axis, fftw_r2r_kind>, std::vector<Number>> differences;
@@ -233,7 +235,7 @@ void WaveFilter<Number>::apply(Team& team, int thread, int threads, std::span<Nu
     const auto for_pieces = [&](Axis axis, const auto& visit) {
         const RowRange own = split_rows(self.pieces(axis), thread, threads);
         for (std::size_t s = 0; s < planes.size(); ++s) {
-            // What does not diffuse stays as it is.
+            // Species without diffusion do not change.
             const auto is_none = [](double factor) { return factor == 0; };
             if (std::all_of(symbols[s].begin(), symbols[s].end(), is_none)) continue;
             for (std::int64_t piece = own.begin; piece < own.end; ++piece) {
@@ -255,7 +257,7 @@ void WaveFilter<Number>::apply(Team& team, int thread, int threads, std::span<Nu
         });
         team.barrier();
     }
-    // Along the last axis waves are complete.
+    // After the last axis the transform is complete.
     const Axis last = self.axes.back();
     for_pieces(last, [&](const auto& one, std::int64_t piece, Number* plane, const auto& symbol) {
         transform(one.along[last].forward, last, piece, plane);
