@@ -85,16 +85,20 @@ inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 /// map, which readers must not colour-correct.
 enum class PngMeaning { colours, numbers };
 
+/// The fast way takes a small part of the time and makes files of patterns a quarter larger.
+enum class PngEffort { small, fast };
+
 /// A PNG file in memory, as write_png writes it. Fails if a side is 0 or above 2^31 − 1, if texts
 /// are too long or contain a NUL, or if memory is short.
 Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts,
-                               PngMeaning meaning = PngMeaning::colours);
+                               PngMeaning meaning = PngMeaning::colours,
+                               PngEffort effort = PngEffort::small);
 
 /// Writes a PNG file atomically. A picture with only grey pixels is written as greyscale. Only
 /// transparent pixels give an alpha channel; they are white with alpha 0. Colours are rounded to
 /// 256 or 65536 levels; long texts are compressed. Fails as encode_png and write_file do.
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
-                       const PngTexts& texts);
+                       const PngTexts& texts, PngEffort effort = PngEffort::small);
 
 /// The text chunks (tEXt, zTXt, iTXt) of a PNG file in memory. Latin-1 becomes UTF-8; of texts with
 /// the same keyword the first is kept. Does not decode the picture. Fails if the data is no PNG,

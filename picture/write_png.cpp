@@ -37,7 +37,8 @@ bool all_grey(const Image& image, unsigned highest) {
 /// The data of one encoding, prepared so that `run` makes no C++ allocations.
 class Encoder {
 public:
-    Encoder(const Image& image, PngDepth depth, const PngTexts& texts, PngMeaning meaning);
+    Encoder(const Image& image, PngDepth depth, const PngTexts& texts, PngMeaning meaning,
+            PngEffort effort);
     ~Encoder() { png_destroy_write_struct(&png_, &info_); }
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;
@@ -53,6 +54,7 @@ private:
 
     const Image& image_;
     PngMeaning meaning_;
+    PngEffort effort_;
     int depth_;
     bool grey_;
     bool alpha_;
@@ -65,9 +67,11 @@ private:
     png_infop info_ = nullptr;
 };
 
-Encoder::Encoder(const Image& image, PngDepth depth, const PngTexts& texts, PngMeaning meaning)
+Encoder::Encoder(const Image& image, PngDepth depth, const PngTexts& texts, PngMeaning meaning,
+                 PngEffort effort)
     : image_(image),
       meaning_(meaning),
+      effort_(effort),
       depth_(static_cast<int>(depth)),
       grey_(all_grey(image, (1U << depth_) - 1)),
       alpha_(some_transparent(image)),
@@ -137,6 +141,10 @@ bool Encoder::run() {
                  (grey_ ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB) |
                      (alpha_ ? PNG_COLOR_MASK_ALPHA : 0),
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (effort_ == PngEffort::fast) {
+        png_set_compression_level(png_, 1);
+        png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+    }
     if (meaning_ == PngMeaning::colours) png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(png_, info_, texts_.data(), static_cast<int>(texts_.size()));
     png_write_info(png_, info_);
@@ -177,7 +185,7 @@ Result<void> check_texts(const PngTexts& texts) {
 }  // namespace
 
 Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts,
-                               PngMeaning meaning) {
+                               PngMeaning meaning, PngEffort effort) {
     if (image.width < 1 || image.height < 1) return failure("the picture has no pixels");
     if (image.width > longest_side || image.height > longest_side) {
         return failure(fmt::format("a picture of {} × {} pixels is too large for a PNG file",
@@ -190,7 +198,7 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
         return tl::unexpected<Failure>(checked.error());
     }
     try {
-        Encoder encoder(image, depth, texts, meaning);
+        Encoder encoder(image, depth, texts, meaning, effort);
         if (!encoder.run()) return failure(encoder.error());
         return encoder.take_bytes();
     } catch (const std::bad_alloc&) {
@@ -199,8 +207,8 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
 }
 
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
-                       const PngTexts& texts) {
-    const Result<std::string> bytes = encode_png(image, depth, texts);
+                       const PngTexts& texts, PngEffort effort) {
+    const Result<std::string> bytes = encode_png(image, depth, texts, PngMeaning::colours, effort);
     if (!bytes) {
         return failure(fmt::format("cannot write '{}': {}", path.string(), bytes.error().message),
                        bytes.error().hint);

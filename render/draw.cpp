@@ -1,15 +1,23 @@
-// Lighting: a sun behind the viewer's left shoulder, a disc instead of a point for soft shadows,
-// and a uniform sky, which darkens hollows. Each of a pixel's rays tests the sun and the sky once.
-// Where results differ within the pixel it tests more often, because few samples there give noise.
+// Adaptive sampling: few rays where the picture is smooth, more where they differ.
+//
+// Every pixel begins with four rays, each of which tests the sun and the sky once.
+// - Where the rays or the neighbouring pixels hit different things there is an edge, and the pixel
+//   sends all its rays.
+// - Where a light is partly hidden around a pixel, the pixel tests it more often.
+// - The visible part of the sky varies slowly along a surface. Pixels away from edges use the mean
+//   over their neighbours on the same surface.
 // Sample positions are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable
-// Effectiveness of Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel.
+// Effectiveness of Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So
+// a pixel depends neither on its tile nor on the thread.
 #include "render/draw.h"
 
 #include "core/hash.h"
 #include "picture/srgb.h"
+#include "render/tracer.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -18,18 +26,23 @@ namespace cascade {
 
 namespace {
 
-constexpr float sun_light = 0.72F;
-constexpr float sky_light = 0.42F;
-constexpr float sun_radius = 0.12F;    ///< Tangent of the sun's half width.
-constexpr float ground_shade = 0.55F;  ///< Fraction of the light that the ground's shadow removes.
-constexpr float shine = 0.06F;
-constexpr Colour background{1, 1, 1};
-constexpr std::uint32_t rounds = 4;  ///< Tests per ray of a partly hidden light.
+constexpr std::int64_t tile_side = 64;  ///< Pixels.
+constexpr std::int64_t filter_reach =
+    2;                         ///< Pixels on each side whose answers about the sky count.
+constexpr int first_rays = 4;  ///< Of every pixel.
+// How often each ray asks for a light that is partly hidden.
+constexpr std::uint32_t sun_rounds = 16;
+constexpr std::uint32_t sky_rounds = 2;
+constexpr std::uint32_t edge_rounds = 2;  ///< For both lights, at an edge.
+// Contrasts of light above which all rays are sent.
+constexpr float contrast_in_pixel = 0.12F;  ///< Between the first rays of a pixel.
+constexpr float contrast_beside = 0.3F;     ///< Between a pixel and its neighbours.
 
 float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
 }
 
+/// A point of the unit square.
 struct Point {
     float x = 0, y = 0;
 };
@@ -40,198 +53,283 @@ Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
     return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u)};
 }
 
-/// Maps the unit square to the unit disc, preserving ratios of areas.
-Point on_disc(Point square) {
-    const float radius = std::sqrt(square.x);
-    const double angle = 2 * std::numbers::pi * static_cast<double>(square.y);
-    return {radius * static_cast<float>(std::cos(angle)),
-            radius * static_cast<float>(std::sin(angle))};
+/// Where a pixel's first rays go: a turned grid. Their mean place is the middle of the pixel, so
+/// that a constant slope comes out exactly.
+Point first_point(std::uint32_t k, std::uint32_t count) {
+    constexpr std::array<Point, first_rays> turned = {
+        {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
+    return count == first_rays ? turned[k] : Point{0.5F, 0.5F};
 }
 
-/// The hit of a ray: its light is `always` plus the visible contributions of the sun and the sky.
-struct Seen {
-    Colour always{0, 0, 0};
-    Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
-    Vector3 place, normal;
-    bool is_lit = false;  ///< Whether the sun and the sky contribute.
+/// Maps the unit square to the unit disc, preserving ratios of areas: P. Shirley and K. Chiu, "A
+/// Low Distortion Map Between Disk and Square", 1997. Sine and cosine are polynomials, because
+/// those of libraries differ between processors.
+DiscPoint on_disc(Point square) {
+    const float a = 2 * square.x - 1, b = 2 * square.y - 1;
+    const bool is_wide = std::abs(a) > std::abs(b);
+    const float radius = is_wide ? a : b;
+    if (radius == 0) return {};
+    const float t = std::numbers::pi_v<float> / 4 * ((is_wide ? b : a) / radius);
+    const float s = t * t;
+    const float sine = t * (1 - s / 6 * (1 - s / 20 * (1 - s / 42)));
+    const float cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30));
+    return is_wide ? DiscPoint{radius * cosine, radius * sine}
+                   : DiscPoint{radius * sine, radius * cosine};
+}
+
+/// The results of visibility tests of a light.
+struct Tally {
+    std::uint32_t asked = 0, seen = 0;
+    Tally& operator+=(Tally other) {
+        asked += other.asked;
+        seen += other.seen;
+        return *this;
+    }
+    bool is_partial() const { return seen > 0 && seen < asked; }
+    float share() const {
+        return asked > 0 ? static_cast<float>(seen) / static_cast<float>(asked) : 1.0F;
+    }
 };
 
-class Tracer {
-public:
-    Tracer(const TriangleMesh& mesh, const SurfaceLook& look, const DrawOptions& options,
-           const RayCaster& caster)
-        : mesh_(mesh),
-          look_(look),
-          options_(options),
-          caster_(caster),
-          camera_(mesh, options.view, options.width, options.height),
-          box_(bounds(mesh)),
-          size_(length(box_.high - box_.low)) {
-        sun_ = unit(camera_.backward() + camera_.up() * 0.9F - camera_.right() * 0.7F);
-        sun_frame_ = frame_of(sun_);
-        ground_ = dot(box_.low, options.view.up);
-    }
+void add(const Colour& light, float part, Colour& sum) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;
+}
 
-    /// The colour of a pixel; `seen` is working memory.
-    Colour pixel(std::int64_t x, std::int64_t y, std::vector<Seen>& seen) const {
-        const auto left = static_cast<float>(x);
-        const auto top = static_cast<float>(y);
-        const auto hash =
-            pcg4d({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0});
-        const auto more = pcg4d(hash);
-        const int side = options_.samples;
-        seen.clear();
-        for (int k = 0; k < side * side; ++k) {
-            const Point place = even_point(static_cast<std::uint32_t>(k), hash[0], hash[1]);
-            seen.push_back(trace(camera_.ray(left + place.x, top + place.y)));
-        }
-        Colour sum{0, 0, 0};
-        for (const Seen& each : seen) add(each.always, 1, sum);
-        add_light(seen, &Seen::of_sun, sum, [&](const Seen& from, std::uint32_t number) {
-            return sees_sun(from, on_disc(even_point(number, hash[2], hash[3])));
+Colour full_light(const Seen& seen) {
+    Colour sum = seen.always;
+    add(seen.of_sun, 1, sum);
+    add(seen.of_sky, 1, sum);
+    return sum;
+}
+
+float contrast(const Colour& a, const Colour& b) {
+    float most = 0;
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(a[c] - b[c]));
+    return most;
+}
+
+/// The hashed words that shift the sample positions of a pixel.
+struct Shifts {
+    std::array<std::uint32_t, 4> of_rays_and_sun{}, of_sky{};
+};
+
+Shifts shifts_of(std::int64_t x, std::int64_t y) {
+    const auto hash = pcg4d({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0});
+    return {hash, pcg4d(hash)};
+}
+
+/// A pixel after its first rays.
+struct Pixel {
+    std::int64_t x = 0, y = 0;
+    Shifts shifts;
+    std::array<Seen, first_rays> seen;
+    Colour light{0, 0, 0};  ///< The mean of the rays, were nothing hidden.
+    bool is_mixed = false;  ///< The rays differ.
+    Tally sun, sky;
+    Tally more_sky;  ///< All answers, where it was asked for more often.
+    bool is_edge = false;
+};
+
+/// Draws tiles of a picture. Has room for one tile, so each thread needs its own.
+class TileDrawer {
+public:
+    TileDrawer(const Tracer& tracer, const DrawOptions& options)
+        : tracer_(tracer),
+          options_(options),
+          rays_(static_cast<std::uint32_t>(options.samples) *
+                static_cast<std::uint32_t>(options.samples)),
+          first_(std::min<std::uint32_t>(first_rays, rays_)),
+          first_width_(1 / std::sqrt(static_cast<float>(first_))) {}
+
+    void draw(std::int64_t left, std::int64_t top, Image& image) {
+        begin(left, top);
+        visit(filter_reach + 1, [&](Pixel& pixel) { send_first(pixel); });
+        visit(filter_reach, [&](Pixel& pixel) {
+            pixel.is_edge = is_edge(pixel);
+            pixel.more_sky = pixel.sky;
+            if (!pixel.is_edge && around(pixel, &Pixel::sky).is_partial()) ask_sky(pixel);
         });
-        add_light(seen, &Seen::of_sky, sum, [&](const Seen& from, std::uint32_t number) {
-            return sees_sky(from, on_disc(even_point(number, more[0], more[1])));
+        visit(0, [&](const Pixel& pixel) {
+            Colour light = pixel.is_edge ? edge_light(pixel) : even_light(pixel);
+            for (float& channel : light) channel = stored_of(channel);
+            image.at(pixel.x, pixel.y) = light;
         });
-        for (float& channel : sum) channel = stored_of(channel / static_cast<float>(side * side));
-        return sum;
     }
 
 private:
-    static void add(const Colour& light, float part, Colour& sum) {
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;
+    static constexpr std::int64_t margin = filter_reach + 1, room_side = tile_side + 2 * margin;
+
+    void begin(std::int64_t left, std::int64_t top) {
+        left_ = left;
+        top_ = top;
+        room_.assign(static_cast<std::size_t>(room_side * room_side), Pixel());
+        for (std::int64_t y = top - margin; y < top + tile_side + margin; ++y) {
+            for (std::int64_t x = left - margin; x < left + tile_side + margin; ++x) {
+                at(x, y).x = x;
+                at(x, y).y = y;
+                at(x, y).shifts = shifts_of(x, y);
+            }
+        }
+    }
+    Pixel& at(std::int64_t x, std::int64_t y) {
+        return room_[static_cast<std::size_t>((y - top_ + margin) * room_side + x - left_ +
+                                              margin)];
+    }
+    bool is_inside(std::int64_t x, std::int64_t y) const {
+        return x >= 0 && y >= 0 && x < options_.width && y < options_.height;
     }
 
-    /// Adds the light of one source; `asks(from, number)` tests its visibility for sample `number`.
-    template <typename Asks>
-    static void add_light(const std::vector<Seen>& seen, Colour Seen::*light, Colour& sum,
-                          const Asks& asks) {
-        const auto count = static_cast<std::uint32_t>(seen.size());
-        Colour found{0, 0, 0};
-        std::uint32_t lit = 0, reached = 0, asked = 0;
-        const auto ask_all = [&] {
-            for (std::uint32_t k = 0; k < count; ++k) {
-                if (!seen[k].is_lit) continue;
-                ++lit;
-                if (!asks(seen[k], asked + k)) continue;
-                ++reached;
-                add(seen[k].*light, 1, found);
+    /// The pixels of the tile, and those of the picture at most `around` beside it.
+    template <typename Use>
+    void visit(std::int64_t around, const Use& use) {
+        for (std::int64_t y = top_ - around; y < top_ + tile_side + around; ++y) {
+            for (std::int64_t x = left_ - around; x < left_ + tile_side + around; ++x) {
+                if (is_inside(x, y)) use(at(x, y));
             }
-            asked += count;
+        }
+    }
+    /// The pixels of the picture in the square around a pixel, itself among them.
+    template <typename Use>
+    void visit_around(const Pixel& pixel, std::int64_t reach, const Use& use) {
+        for (std::int64_t j = pixel.y - reach; j <= pixel.y + reach; ++j) {
+            for (std::int64_t i = pixel.x - reach; i <= pixel.x + reach; ++i) {
+                if (is_inside(i, j)) use(at(i, j));
+            }
+        }
+    }
+    Tally around(const Pixel& pixel, Tally Pixel::*tally) {
+        Tally sum;
+        visit_around(pixel, 1, [&](const Pixel& each) { sum += each.*tally; });
+        return sum;
+    }
+
+    Seen trace(std::uint32_t k, const Pixel& pixel, float width) const {
+        const auto& shift = pixel.shifts.of_rays_and_sun;
+        const Point place = k < first_ ? first_point(k, first_) : even_point(k, shift[0], shift[1]);
+        return tracer_.trace(static_cast<float>(pixel.x) + place.x,
+                             static_cast<float>(pixel.y) + place.y, width);
+    }
+    Tally asked_sun(const Seen& from, std::uint32_t number, const Pixel& pixel) const {
+        const auto& shift = pixel.shifts.of_rays_and_sun;
+        return {1,
+                tracer_.sees_sun(from, on_disc(even_point(number, shift[2], shift[3]))) ? 1u : 0u};
+    }
+    Tally asked_sky(const Seen& from, std::uint32_t number, const Pixel& pixel) const {
+        const auto& shift = pixel.shifts.of_sky;
+        return {1,
+                tracer_.sees_sky(from, on_disc(even_point(number, shift[0], shift[1]))) ? 1u : 0u};
+    }
+
+    void send_first(Pixel& pixel) const {
+        Colour low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+        for (std::uint32_t k = 0; k < first_; ++k) {
+            Seen& seen = pixel.seen[k];
+            seen = trace(k, pixel, first_width_);
+            if (seen.kind != pixel.seen[0].kind) pixel.is_mixed = true;
+            const Colour light = full_light(seen);
+            add(light, 1 / static_cast<float>(first_), pixel.light);
+            for (std::size_t c = 0; c < 3; ++c) {
+                low[c] = std::min(low[c], light[c]);
+                high[c] = std::max(high[c], light[c]);
+            }
+            if (seen.kind == Seen::Kind::background) continue;
+            pixel.sun += asked_sun(seen, k, pixel);
+            pixel.sky += asked_sky(seen, k, pixel);
+        }
+        if (contrast(low, high) > contrast_in_pixel) pixel.is_mixed = true;
+    }
+
+    bool is_edge(const Pixel& pixel) {
+        bool found = pixel.is_mixed;
+        visit_around(pixel, 1, [&](const Pixel& other) {
+            found = found || other.seen[0].kind != pixel.seen[0].kind ||
+                    contrast(other.light, pixel.light) > contrast_beside;
+        });
+        return found;
+    }
+
+    void ask_sky(Pixel& pixel) const {
+        for (std::uint32_t number = first_; number < sky_rounds * first_; ++number) {
+            pixel.more_sky += asked_sky(pixel.seen[number % first_], number, pixel);
+        }
+    }
+
+    /// Of a pixel whose rays meet the same thing.
+    Colour even_light(const Pixel& pixel) {
+        if (pixel.seen[0].kind == Seen::Kind::background) return pixel.light;
+        Tally sun = pixel.sun;
+        if (around(pixel, &Pixel::sun).is_partial()) {
+            for (std::uint32_t number = first_; number < sun_rounds * first_; ++number) {
+                sun += asked_sun(pixel.seen[number % first_], number, pixel);
+            }
+        }
+        const Seen& own = pixel.seen[0];
+        const float near = 3 * tracer_.pixel_at(own.place);
+        Tally sky;
+        visit_around(pixel, filter_reach, [&](const Pixel& other) {
+            const Seen& there = other.seen[0];
+            if (other.is_edge || dot(own.normal, there.normal) < 0.9F ||
+                std::abs(dot(own.normal, there.place - own.place)) > near) {
+                return;
+            }
+            sky += other.more_sky;
+        });
+        Colour light{0, 0, 0};
+        for (std::uint32_t k = 0; k < first_; ++k) {
+            const float part = 1 / static_cast<float>(first_);
+            add(pixel.seen[k].always, part, light);
+            add(pixel.seen[k].of_sun, part * sun.share(), light);
+            add(pixel.seen[k].of_sky, part * sky.share(), light);
+        }
+        return light;
+    }
+
+    /// Of all rays that a pixel may have.
+    Colour edge_light(const Pixel& pixel) {
+        all_.assign(pixel.seen.begin(), pixel.seen.begin() + first_);
+        const float width = 1 / static_cast<float>(options_.samples);
+        for (std::uint32_t k = first_; k < rays_; ++k) all_.push_back(trace(k, pixel, width));
+        Colour sum{0, 0, 0};
+        for (const Seen& each : all_) add(each.always, 1, sum);
+        add_light(&Seen::of_sun, sum, [&](const Seen& from, std::uint32_t number) {
+            return asked_sun(from, number, pixel);
+        });
+        add_light(&Seen::of_sky, sum, [&](const Seen& from, std::uint32_t number) {
+            return asked_sky(from, number, pixel);
+        });
+        for (float& channel : sum) channel /= static_cast<float>(rays_);
+        return sum;
+    }
+
+    /// Adds the light of one source that reaches `all_`; `asks(from, number)` tests its visibility
+    /// for sample `number`.
+    template <typename Asks>
+    void add_light(Colour Seen::*light, Colour& sum, const Asks& asks) const {
+        Colour found{0, 0, 0};
+        Tally tally;
+        std::uint32_t number = 0;
+        const auto ask_all = [&] {
+            for (const Seen& from : all_) {
+                ++number;
+                if (from.kind == Seen::Kind::background) continue;
+                const Tally answer = asks(from, number - 1);
+                tally += answer;
+                if (answer.seen > 0) add(from.*light, 1, found);
+            }
         };
         ask_all();
-        const bool differs = reached > 0 && reached < lit;
-        for (std::uint32_t k = 1; differs && k < rounds; ++k) ask_all();
-        add(found, differs ? 1.0F / rounds : 1.0F, sum);
+        const bool is_partial = tally.is_partial();
+        for (std::uint32_t round = 1; is_partial && round < edge_rounds; ++round) ask_all();
+        add(found, is_partial ? 1.0F / edge_rounds : 1.0F, sum);
     }
 
-    Seen trace(const Ray& ray) const {
-        if (const auto hit = caster_.nearest(ray)) return surface(ray, *hit);
-        if (options_.ground) return ground(ray);
-        Seen nothing;
-        nothing.always = background;
-        return nothing;
-    }
-
-    Seen surface(const Ray& ray, const Hit& hit) const {
-        const auto& [a, b, c] = mesh_.triangles[hit.triangle];
-        const float w = 1 - hit.u - hit.v;
-        Vector3 normal =
-            unit(mesh_.normals[a] * w + mesh_.normals[b] * hit.u + mesh_.normals[c] * hit.v);
-        Vector3 facet = unit(cross(mesh_.positions[b] - mesh_.positions[a],
-                                   mesh_.positions[c] - mesh_.positions[a]));
-        const float width = camera_.pixel() * hit.distance / static_cast<float>(options_.samples);
-        const Look look = look_({hit, ray.direction, width});
-        // Both sides are drawn: the visible one faces the viewer.
-        if (dot(facet, ray.direction) > 0) facet = -facet;
-        const float side = dot(normal, facet) < 0 ? -1.0F : 1.0F;
-        if (look.tilt != Vector3{}) normal = unit(normal + look.tilt);
-        if (side < 0) normal = -normal;
-        Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
-        if (options_.round_shadows) place = place + rounding(hit, side);
-        const Vector3 half = unit(sun_ - ray.direction);
-        const float gleam = shine * steady_power(std::max(0.0F, dot(normal, half)), 40);
-        const float bright = sun_light * std::max(0.0F, dot(normal, sun_));
-        Seen seen;
-        for (std::size_t k = 0; k < 3; ++k) {
-            seen.of_sun[k] = look.light[k] * bright + gleam;
-            seen.of_sky[k] = look.light[k] * sky_light;
-        }
-        seen.place = place;
-        seen.normal = normal;
-        seen.is_lit = true;
-        return seen;
-    }
-
-    /// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
-    /// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
-    Vector3 rounding(const Hit& hit, float side) const {
-        const auto& corners = mesh_.triangles[hit.triangle];
-        const std::array<float, 3> weights = {1 - hit.u - hit.v, hit.u, hit.v};
-        Vector3 place, offset;
-        for (std::size_t k = 0; k < 3; ++k) {
-            place = place + mesh_.positions[corners[k]] * weights[k];
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vector3 normal = mesh_.normals[corners[k]] * side;
-            const float below = std::min(0.0F, dot(place - mesh_.positions[corners[k]], normal));
-            offset = offset - normal * (weights[k] * below);
-        }
-        return offset;
-    }
-
-    /// The background, darkened by the surface's shadow.
-    Seen ground(const Ray& ray) const {
-        Seen seen;
-        seen.always = background;
-        const Vector3 up = options_.view.up;
-        const float fall = dot(ray.direction, up);
-        if (fall > -1e-3F) return seen;
-        const float distance = (ground_ - dot(ray.origin, up)) / fall;
-        if (distance <= 0) return seen;
-        const Vector3 place = ray.origin + ray.direction * distance;
-        // Far from the surface there is no shadow to test.
-        if (length(place - box_.centre()) > 1.5F * size_) return seen;
-        const float sun = sun_light * std::max(0.0F, dot(up, sun_));
-        const float full = sun + sky_light;
-        for (std::size_t k = 0; k < 3; ++k) {
-            seen.always[k] = background[k] * (1 - ground_shade);
-            seen.of_sun[k] = background[k] * ground_shade * (sun / full);
-            seen.of_sky[k] = background[k] * ground_shade * (sky_light / full);
-        }
-        seen.place = place + up * (size_ * 1e-4F);
-        seen.normal = up;
-        seen.is_lit = true;
-        return seen;
-    }
-
-    /// Whether a point of the sun's disc is visible.
-    bool sees_sun(const Seen& from, Point disc) const {
-        const Vector3 to_sun = unit(sun_ + sun_frame_.tangent * (sun_radius * disc.x) +
-                                    sun_frame_.bitangent * (sun_radius * disc.y));
-        return dot(from.normal, to_sun) > 0 && !caster_.is_blocked({from.place, to_sun}, INFINITY);
-    }
-
-    /// Whether the sky is visible in the direction that projects to this point of the unit disc:
-    /// uniform points give cosine-weighted directions.
-    bool sees_sky(const Seen& from, Point disc) const {
-        const Frame round_normal = frame_of(from.normal);
-        const float height = std::sqrt(std::max(0.0F, 1 - disc.x * disc.x - disc.y * disc.y));
-        const Vector3 to_sky =
-            round_normal.tangent * disc.x + round_normal.bitangent * disc.y + from.normal * height;
-        return !caster_.is_blocked({from.place, to_sky}, size_);
-    }
-
-    const TriangleMesh& mesh_;
-    const SurfaceLook& look_;
+    const Tracer& tracer_;
     const DrawOptions& options_;
-    const RayCaster& caster_;
-    Camera camera_;
-    Box box_;
-    float size_;
-    float ground_ = 0;
-    Vector3 sun_;
-    Frame sun_frame_;
+    std::uint32_t rays_, first_;
+    float first_width_;  ///< Of what a first ray stands for, in pixels.
+    std::int64_t left_ = 0, top_ = 0;
+    std::vector<Pixel> room_;  ///< The tile and the pixels around it.
+    std::vector<Seen> all_;    ///< The rays of one pixel.
 };
 
 }  // namespace
@@ -240,12 +338,13 @@ Image draw(const TriangleMesh& mesh, const RayCaster& caster, const SurfaceLook&
            const DrawOptions& options, Team& team) {
     const Tracer tracer(mesh, look, options, caster);
     Image image(options.width, options.height);
-    team.run([&](int index) {
-        std::vector<Seen> seen;
-        for (std::int64_t y = index; y < options.height; y += team.size()) {
-            for (std::int64_t x = 0; x < options.width; ++x) {
-                image.at(x, y) = tracer.pixel(x, y, seen);
-            }
+    const std::int64_t columns = (options.width + tile_side - 1) / tile_side;
+    const std::int64_t rows = (options.height + tile_side - 1) / tile_side;
+    std::atomic<std::int64_t> next{0};
+    team.run([&](int) {
+        TileDrawer drawer(tracer, options);
+        for (std::int64_t tile = next++; tile < columns * rows; tile = next++) {
+            drawer.draw(tile % columns * tile_side, tile / columns * tile_side, image);
         }
     });
     return image;

@@ -30,7 +30,7 @@ using SurfaceLook = std::function<Look(const Sight&)>;
 
 struct DrawOptions {
     std::int64_t width = 800, height = 600;  ///< Pixels, at least 1.
-    int samples = 4;  ///< The number of rays per pixel is samples × samples.
+    int samples = 4;  ///< A pixel has at most samples × samples rays, and 4 where they agree.
     View view;
     bool ground = true;
     bool round_shadows = false;  ///< Smooths shadows on large facets.

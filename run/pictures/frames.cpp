@@ -89,8 +89,8 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const Painter& p
         auto canvas = read_back(frame);
         if (!canvas) return tl::unexpected(canvas.error());
         const auto path = folder_ / frame_name(number, frame.stage, frame.step);
-        if (auto done =
-                write_png(path, painter.image(*canvas, automatic_range(values_)), depth, texts);
+        if (auto done = write_png(path, painter.image(*canvas, automatic_range(values_)), depth,
+                                  texts, PngEffort::fast);
             !done) {
             return tl::unexpected(done.error());
         }

@@ -118,7 +118,12 @@ TEST(EncodePng, LargerPicturesKeepEveryPixel) {
             }
         }
     }
-    EXPECT_EQ(test::decode(encoded(image, PngDepth::eight)).samples, expected);
+    const std::string small = encoded(image, PngDepth::eight);
+    const auto fast = encode_png(image, PngDepth::eight, {}, PngMeaning::colours, PngEffort::fast);
+    ASSERT_TRUE(fast);
+    EXPECT_EQ(test::decode(small).samples, expected);
+    EXPECT_EQ(test::decode(*fast).samples, expected);
+    EXPECT_LT(small.size(), fast->size());
 }
 
 TEST(EncodePng, SaysThatColoursAreSrgb) {

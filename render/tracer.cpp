@@ -1,0 +1,130 @@
+// Shading of surfaces from both sides, and of a ground plane that only receives shadows.
+#include "render/tracer.h"
+
+#include "picture/srgb.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+constexpr float sun_light = 0.72F;
+constexpr float sky_light = 0.42F;
+constexpr float sun_radius = 0.12F;    ///< Tangent of the sun's half width.
+constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's shadow takes away.
+constexpr float shine = 0.06F;
+constexpr Colour background{1, 1, 1};
+
+}  // namespace
+
+Tracer::Tracer(const TriangleMesh& mesh, const SurfaceLook& look, const DrawOptions& options,
+               const RayCaster& caster)
+    : mesh_(mesh),
+      look_(look),
+      options_(options),
+      caster_(caster),
+      camera_(mesh, options.view, options.width, options.height),
+      box_(bounds(mesh)),
+      size_(length(box_.high - box_.low)) {
+    sun_ = unit(camera_.backward() + camera_.up() * 0.9F - camera_.right() * 0.7F);
+    sun_frame_ = frame_of(sun_);
+    ground_ = dot(box_.low, options.view.up);
+}
+
+Seen Tracer::trace(float x, float y, float width) const {
+    const Ray ray = camera_.ray(x, y);
+    if (const auto hit = caster_.nearest(ray)) return surface(ray, *hit, width);
+    if (options_.ground) return ground(ray);
+    Seen nothing;
+    nothing.always = background;
+    return nothing;
+}
+
+Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
+    const auto& [a, b, c] = mesh_.triangles[hit.triangle];
+    const float w = 1 - hit.u - hit.v;
+    Vector3 normal =
+        unit(mesh_.normals[a] * w + mesh_.normals[b] * hit.u + mesh_.normals[c] * hit.v);
+    Vector3 facet = unit(
+        cross(mesh_.positions[b] - mesh_.positions[a], mesh_.positions[c] - mesh_.positions[a]));
+    const Look look = look_({hit, ray.direction, width * camera_.pixel() * hit.distance});
+    // Both sides are drawn: the visible one faces the viewer.
+    if (dot(facet, ray.direction) > 0) facet = -facet;
+    const float side = dot(normal, facet) < 0 ? -1.0F : 1.0F;
+    if (look.tilt != Vector3{}) normal = unit(normal + look.tilt);
+    if (side < 0) normal = -normal;
+    Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
+    if (options_.round_shadows) place = place + rounding(hit, side);
+    const Vector3 half = unit(sun_ - ray.direction);
+    const float gleam = shine * steady_power(std::max(0.0F, dot(normal, half)), 40);
+    const float bright = sun_light * std::max(0.0F, dot(normal, sun_));
+    Seen seen;
+    for (std::size_t k = 0; k < 3; ++k) {
+        seen.of_sun[k] = look.light[k] * bright + gleam;
+        seen.of_sky[k] = look.light[k] * sky_light;
+    }
+    seen.kind = Seen::Kind::surface;
+    seen.place = place;
+    seen.normal = normal;
+    return seen;
+}
+
+/// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
+/// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
+Vector3 Tracer::rounding(const Hit& hit, float side) const {
+    const auto& corners = mesh_.triangles[hit.triangle];
+    const std::array<float, 3> weights = {1 - hit.u - hit.v, hit.u, hit.v};
+    Vector3 place, offset;
+    for (std::size_t k = 0; k < 3; ++k) {
+        place = place + mesh_.positions[corners[k]] * weights[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3 normal = mesh_.normals[corners[k]] * side;
+        const float below = std::min(0.0F, dot(place - mesh_.positions[corners[k]], normal));
+        offset = offset - normal * (weights[k] * below);
+    }
+    return offset;
+}
+
+/// The background, darkened by the surface's shadow.
+Seen Tracer::ground(const Ray& ray) const {
+    Seen seen;
+    seen.always = background;
+    const Vector3 up = options_.view.up;
+    const float fall = dot(ray.direction, up);
+    if (fall > -1e-3F) return seen;
+    const float distance = (ground_ - dot(ray.origin, up)) / fall;
+    if (distance <= 0) return seen;
+    const Vector3 place = ray.origin + ray.direction * distance;
+    // Far from the surface there is no shadow to test.
+    if (length(place - box_.centre()) > 1.5F * size_) return seen;
+    const float sun = sun_light * std::max(0.0F, dot(up, sun_));
+    const float full = sun + sky_light;
+    for (std::size_t k = 0; k < 3; ++k) {
+        seen.always[k] = background[k] * (1 - ground_shade);
+        seen.of_sun[k] = background[k] * ground_shade * (sun / full);
+        seen.of_sky[k] = background[k] * ground_shade * (sky_light / full);
+    }
+    seen.kind = Seen::Kind::ground;
+    seen.place = place + up * (size_ * 1e-4F);
+    seen.normal = up;
+    return seen;
+}
+
+bool Tracer::sees_sun(const Seen& from, DiscPoint disc) const {
+    const Vector3 to_sun = unit(sun_ + sun_frame_.tangent * (sun_radius * disc.x) +
+                                sun_frame_.bitangent * (sun_radius * disc.y));
+    return dot(from.normal, to_sun) > 0 && !caster_.is_blocked({from.place, to_sun}, INFINITY);
+}
+
+bool Tracer::sees_sky(const Seen& from, DiscPoint disc) const {
+    const Frame frame = frame_of(from.normal);
+    const float height = std::sqrt(std::max(0.0F, 1 - disc.x * disc.x - disc.y * disc.y));
+    const Vector3 to_sky = frame.tangent * disc.x + frame.bitangent * disc.y + from.normal * height;
+    return !caster_.is_blocked({from.place, to_sky}, size_);
+}
+
+}  // namespace cascade

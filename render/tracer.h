@@ -1,0 +1,66 @@
+// The hit of a ray from the camera, and the light that reaches it.
+//
+// Lighting: a sun behind the viewer's left shoulder, a disc instead of a point for soft shadows,
+// and a uniform sky, which darkens hollows.
+#pragma once
+
+#include "render/camera.h"
+#include "render/draw.h"
+#include "render/ray_caster.h"
+
+namespace cascade {
+
+/// A point of the unit disc.
+struct DiscPoint {
+    float x = 0, y = 0;
+};
+
+/// The hit of a ray: its light is `always` plus the visible contributions of the sun and the sky.
+struct Seen {
+    enum class Kind : std::uint8_t { background, ground, surface };
+    Kind kind = Kind::background;  ///< The other two are lit by the sun and the sky.
+    Colour always{0, 0, 0};
+    Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
+    Vector3 place, normal;
+};
+
+/// Refers to its arguments, which must outlive it. Safe to use from several threads at once.
+class Tracer {
+public:
+    Tracer(const TriangleMesh& mesh, const SurfaceLook& look, const DrawOptions& options,
+           const RayCaster& caster);
+
+    /// Traces a ray through a point of the picture, in pixels from its upper left corner. The ray
+    /// samples a square of `width` pixels.
+    Seen trace(float x, float y, float width) const;
+
+    /// Whether a point of the sun's disc is visible.
+    bool sees_sun(const Seen& from, DiscPoint disc) const;
+
+    /// Whether the sky is visible in the direction that projects to this point of the unit disc:
+    /// uniform points give cosine-weighted directions.
+    bool sees_sky(const Seen& from, DiscPoint disc) const;
+
+    /// The width of a pixel at a point in space.
+    float pixel_at(const Vector3& place) const {
+        return camera_.pixel() * length(place - camera_.eye());
+    }
+
+private:
+    Seen surface(const Ray& ray, const Hit& hit, float width) const;
+    Seen ground(const Ray& ray) const;
+    Vector3 rounding(const Hit& hit, float side) const;
+
+    const TriangleMesh& mesh_;
+    const SurfaceLook& look_;
+    const DrawOptions& options_;
+    const RayCaster& caster_;
+    Camera camera_;
+    Box box_;
+    float size_;
+    float ground_ = 0;
+    Vector3 sun_;
+    Frame sun_frame_;
+};
+
+}  // namespace cascade
