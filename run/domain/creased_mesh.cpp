@@ -23,7 +23,7 @@ DrawnMesh creased_mesh(const SurfaceMesh& surface) {
     DrawnMesh drawn;
     drawn.middle = (facts.low + facts.high) * 0.5;
     drawn.scale = 1 / std::max({box.x, box.y, box.z});
-    // A point is as many positions as it has normals.
+    // A point becomes one position for each of its normals.
     drawn.mesh.positions.reserve(corners.points.size());
     drawn.mesh.normals.reserve(corners.points.size());
     for (std::size_t k = 0; k < corners.points.size(); ++k) {

@@ -1,4 +1,4 @@
-// A model as it is drawn: round where it is meant to be round, with edges where it has edges.
+// A model as it is drawn: smooth, except at sharp edges.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -6,11 +6,11 @@
 
 namespace cascade {
 
-/// What a surface is drawn as, and how it got there from space: (p − middle) × scale.
+/// The mesh to draw, and its map from space: (p − middle) × scale.
 struct DrawnMesh {
     TriangleMesh mesh;  ///< Triangles have the numbers and corners of the surface's.
     Vector3d middle;
-    double scale = 1;  ///< Makes the longest side of its box 1.
+    double scale = 1;  ///< Makes the longest side of the box 1.
 };
 
 /// Normals are averages over the triangles around a point, but not across edges at which these meet

@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// What a closed surface of one component can be bent into.
+/// The closed surface of one component to which it is homeomorphic.
 std::string kind_of(const MeshFacts& facts) {
     if (facts.boundaries > 0) {
         return counted(facts.boundaries, "boundary", "boundaries");

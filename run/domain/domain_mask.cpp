@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// Bits of the cells around one, whose own value is that of (i, j, k).
+/// The bits of the cells around cell (i, j, k) and of that cell itself.
 std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j,
                           std::int64_t k) {
     const std::int64_t reach = inside.layout().has_halo_slices() ? 1 : 0;

@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The first value inside the mask that no other beats; NaN if one is NaN.
+/// The first value inside the mask that no other exceeds in the given order; NaN if one is NaN.
 template <typename Beats>
 double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
     return field.visit([&](const auto& plane) -> double {

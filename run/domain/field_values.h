@@ -1,4 +1,4 @@
-// What the values of a field are, seen together.
+// Properties of all values of a field.
 #pragma once
 
 #include "core/plane.h"

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the files of a version of control groups are called.
+/// The names of the files of a version of control groups.
 struct GroupFiles {
     std::string_view limit, used, file_bytes_1, file_bytes_2;
 };
@@ -22,7 +22,7 @@ constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", 
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
                                "total_inactive_file", "total_active_file"};
 
-/// A number that is all of a file; nothing where there is none, as in "max".
+/// The number that a file consists of; nothing if there is none, as in "max".
 std::optional<std::uint64_t> number_in(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -30,7 +30,7 @@ std::optional<std::uint64_t> number_in(const fs::path& path) {
     return std::nullopt;
 }
 
-/// The number after a key in a file of lines "KEY NUMBER …"; 0 where there is none.
+/// The number after a key in a file of lines "KEY NUMBER …"; 0 if there is none.
 std::uint64_t number_of(const fs::path& path, std::string_view key) {
     std::ifstream file(path);
     std::string word, rest;
@@ -42,7 +42,7 @@ std::uint64_t number_of(const fs::path& path, std::string_view key) {
     return 0;
 }
 
-/// What is left below the limit of one group; nothing where it has none.
+/// What is left below the limit of one group; nothing if it has none.
 std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& names) {
     const auto limit = number_in(group / names.limit);
     const auto used = number_in(group / names.used);
@@ -54,12 +54,12 @@ std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& na
     return *limit - std::min(*limit, held);
 }
 
-/// The least that is left in a group and those above it, of which `top` is the last.
+/// The least that is left in a group or in one above it, up to `top`.
 std::optional<std::uint64_t> left_up_to(const fs::path& top, const std::string& group,
                                         const GroupFiles& names) {
     std::optional<std::uint64_t> least;
-    // Inside a container the path is often that of the machine, of which only the end is mounted,
-    // as the top.
+    // Inside a container, the path is often that of the host, of which only the last part is
+    // mounted, as the top.
     fs::path path = fs::path(group).lexically_normal().relative_path();
     while (true) {
         if (const auto left = left_in(top / path, names))

@@ -1,4 +1,4 @@
-// Every text is read once, through GrantedFiles; what is wrong is told at its place in the script.
+// Every text is read once, through GrantedFiles. Faults are reported at the text in the script.
 #include "run/domain/input_files.h"
 
 #include "core/check.h"
@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// What `parse` makes of a file that the script names.
+/// Parses a file that the script names.
 template <typename Parse>
 auto read_granted(const Script& script, const std::string& name, std::uint64_t largest,
                   const Parse& parse) -> decltype(parse(std::string_view())) {
@@ -75,7 +75,7 @@ void read_image(Script& script, const Node& node, InputFiles& files) {
               plane.converted(script.program->domain.precision));
 }
 
-/// What the model has in its points, or in a picture painted on it.
+/// The values that the model has at its points, or of a picture painted on it.
 void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, const ModelCells& model,
                    InputFiles& files) {
     const Precision precision = script.program->domain.precision;
@@ -96,7 +96,7 @@ void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, cons
 
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
     InputFiles files;
-    // A text is looked up, and its fault told, once.
+    // Each text is looked up, and its fault reported, once.
     std::set<std::pair<SlotSource::Kind, std::uint32_t>> known;
     const auto read_of = [&](const Formula& formula) {
         for (const Node& node : formula.nodes) {

@@ -1,5 +1,5 @@
-// What a script names in quotes: the arrays of `field("a.npy")`, the pictures of `image("a.png")`,
-// and on models `attr("name")` and `uvimage("a.png")`.
+// The files that a script names in quotes: arrays of `field("a.npy")`, pictures of `image("a.png")`
+// and, on models, `attr("name")` and `uvimage("a.png")`.
 #pragma once
 
 #include "core/plane.h"
@@ -14,24 +14,24 @@
 
 namespace cascade {
 
-/// Planes by what reads them and the number of their text in Literals::texts().
+/// Planes by the function that reads them and the number of their text in Literals::texts().
 class InputFiles {
 public:
-    using Kind = SlotSource::Kind;  ///< One of those of a text.
+    using Kind = SlotSource::Kind;  ///< A kind whose slots are named by a text.
 
     void add(Kind kind, std::uint32_t text, Field plane) {
         planes_[{kind, text}] = std::move(plane);
     }
     const Field& plane(Kind kind, std::uint32_t text) const { return planes_.at({kind, text}); }
 
-    /// Calls `look` with the text and the plane of each that is of a kind.
+    /// Calls `look` with the text and the plane of each that has this kind.
     template <typename Look>
     void each_of(Kind kind, const Look& look) const {
         for (const auto& [name, plane] : planes_) {
             if (name.first == kind) look(name.second, plane);
         }
     }
-    /// The same files, a plane made of each.
+    /// The same files, with a new plane made from each.
     template <typename Make>
     InputFiles mapped(const Make& make) const {
         InputFiles result;
@@ -44,9 +44,9 @@ private:
 };
 
 /// Reads every file that the mask or a starting value names, relative to the script's folder, and
-/// what starting values take of the points and the texture of a model (null on a grid). A missing
-/// file, a wrong type, a shape other than the grid's, and a name that the model does not know are
-/// diagnostics at the text in the script. Pictures are fitted to the grid.
+/// the values that starting values take from the points and the texture of a model (null on a
+/// grid). A missing file, a wrong type, a shape other than the grid's, and a name that the model
+/// does not know give diagnostics at the text in the script. Pictures are scaled to the grid.
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The surface that a domain lies on, as operators and pictures need it.
+// The surface that a domain lies on, for operators and pictures.
 #pragma once
 
 #include "core/plane.h"
@@ -10,11 +10,11 @@
 
 namespace cascade {
 
-/// The function of a domain's surface. It refers to `surface`.
+/// The map of a domain's surface. It refers to `surface`.
 SurfaceFunction function_of(const SurfaceSettings& surface);
 
-/// A plane for each MetricPlane, in their order; none where the domain has no surface or its cells
-/// count as squares all the same. Fails, naming the place, where the surface is singular.
+/// A plane for each MetricPlane, in their order; none if the domain has no surface or its cells
+/// count as squares. Fails, naming the place, where the surface is singular.
 Result<std::vector<Field>> metric_planes(const Program& program);
 
 }  // namespace cascade

@@ -37,12 +37,12 @@ namespace cascade {
 
 namespace {
 
-// Cells that are so much smaller than the mean are taken for no smaller: a step would have to be as
-// short.
+// A cell smaller than this part of the mean counts as this large, because steps would have to be
+// just as short.
 constexpr double least_area = 1e-3;
-// Of spread cells few of some thousand are so tight that their links weigh more than this over the
-// mean area: they are taken for larger, lest all others have to take shorter steps. Regular
-// hexagons have 3.46.
+// A few in some thousand spread cells are so tight that the sum of their links' weights exceeds
+// this over the mean area. They count as larger, so that they do not shorten the steps of all
+// cells. Regular hexagons have 3.46.
 constexpr double most_weight = 7.5;
 
 Result<MadeMesh> read_mesh(const ModelSettings& settings, const ModelAccess& access) {
@@ -55,7 +55,7 @@ Result<MadeMesh> read_mesh(const ModelSettings& settings, const ModelAccess& acc
     return failure(fmt::format("'{}': {}", settings.path, made.error().message), made.error().hint);
 }
 
-/// Where a formula of x, y and z is 0, it being above 0 inside.
+/// The surface where a formula of x, y and z is 0, with values above 0 inside.
 Result<SurfaceMesh> implicit_mesh(const ModelSettings& settings, const std::atomic<bool>& cancel) {
     const auto function = [&](std::span<const Vector3d> points, std::span<double> values) {
         BuiltinValues place{};
@@ -76,7 +76,7 @@ Result<SurfaceMesh> implicit_mesh(const ModelSettings& settings, const std::atom
 
 Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& access,
                               const std::atomic<bool>& cancel) {
-    // Fine enough for the smallest features, however many cells are asked for.
+    // Fine enough for the smallest features, whatever the number of cells.
     constexpr double edge = 0.02;
     const auto size = [&](std::size_t k, double otherwise) {
         return k < settings.sizes.size() ? settings.sizes[k] : otherwise;
@@ -130,8 +130,8 @@ CellKind kind_of(ModelCellKind kind) {
     CHECK(false, "a kind of cells");
 }
 
-/// Calls `write(row, column, cell, is_cell)` for all places of the rows; those after the last cell,
-/// which fill up the last row, are like it.
+/// Calls `write(row, column, cell, is_cell)` for all positions of the rows; the padding of the last
+/// row repeats the last cell.
 template <typename Write>
 void for_each_place(const ModelCells& model, const Write& write) {
     const std::size_t count = model.order.size();
@@ -143,7 +143,7 @@ void for_each_place(const ModelCells& model, const Write& write) {
     }
 }
 
-/// A plane of `value(cell, is_cell)`, a number, or an unsigned one where the plane is of words.
+/// A plane of `value(cell, is_cell)`: a number, or an unsigned integer for a plane of words.
 template <typename Value>
 Field plane_of_cells(const ModelCells& model, Precision precision, const Value& value) {
     Field field(PlaneLayout(model.grid), precision);
@@ -220,8 +220,8 @@ private:
         return {};
     }
 
-    /// From a file in the folder, or made and written there. Results are the same either way, so
-    /// that a file which cannot be written is no reason to stop.
+    /// Reads the cells from a file in the folder, or makes them and writes the file. Results are
+    /// the same either way, so a file that cannot be written is no reason to stop.
     Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache,
                                        const CellOptions& options) {
         const auto path = cache / (key_of(model_->mesh, options).text() + ".cells");
@@ -240,7 +240,7 @@ private:
         return std::move(kept->cells);
     }
 
-    /// Planes and links.
+    /// Makes planes and links.
     void measure() {
         const SurfaceCells& cells = model_->cells;
         const double total = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
@@ -287,7 +287,7 @@ private:
             Links(list, PlaneLayout(model_->grid), program_.domain.precision, model_->order);
     }
 
-    /// `value(k)` in cell k, a number or, of words, an unsigned one.
+    /// A plane of `value(k)` in cell k: a number, or an unsigned integer for words.
     template <typename Value>
     void put(ModelPlane plane, const Value& value) {
         model_->planes[static_cast<std::size_t>(plane)] =
@@ -304,7 +304,7 @@ private:
         const SurfaceMesh& mesh = model_->mesh;
         const SurfaceCells& cells = model_->cells;
         put(ModelPlane::number, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
-        // Sums by area do not see what fills up the last row.
+        // The padding of the last row does not count in sums by area.
         model_->planes[static_cast<std::size_t>(ModelPlane::area)] =
             plane_of_cells(*model_, program_.domain.precision, [&](std::size_t cell, bool is_cell) {
                 return is_cell ? areas[cell] : 0.0;
@@ -330,7 +330,7 @@ private:
         put(ModelPlane::nx, [&](std::size_t k) { return normals[k].x; });
         put(ModelPlane::ny, [&](std::size_t k) { return normals[k].y; });
         put(ModelPlane::nz, [&](std::size_t k) { return normals[k].z; });
-        // Turk's estimate, as a curvature in one over units.
+        // Turk's estimate, as a curvature in 1 / unit.
         std::vector<double> bends = turk_radii(mesh);
         for (double& radius : bends) radius = radius > 0 ? model_->unit / radius : 0;
         put(ModelPlane::curvature,

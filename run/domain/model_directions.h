@@ -1,4 +1,5 @@
-// In which directions the cells of a model are stretched: `directions` and `stretch` of a domain.
+// The directions in which the cells of a model are stretched: `directions` and `stretch` of a
+// domain.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,8 +11,8 @@
 namespace cascade {
 
 /// A direction and a ratio for each triangle. Directions are lines without a sign: v and −v are the
-/// same. Where what is asked for leaves one open, as an axis does that stands upright on the
-/// surface, it is filled from around. The same on any number of threads; means nothing if `cancel`
+/// same. Where the settings leave a direction open, such as an axis that is normal to the surface,
+/// it is filled from the neighbours. The same with any number of threads; meaningless if `cancel`
 /// became true.
 Anisotropy anisotropy_of(const DirectionSettings& settings, double stretch, const SurfaceMesh& mesh,
                          Team& team, const std::atomic<bool>& cancel);

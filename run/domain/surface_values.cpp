@@ -1,5 +1,4 @@
-// Each value is made when it is first read, and once; distances are capped where nothing is
-// reached.
+// Each value is made once, when it is first read; distances are capped where no path leads.
 #include "run/domain/surface_values.h"
 
 #include "core/near_name.h"
@@ -52,8 +51,8 @@ std::vector<double> key_values(const ModelCells& model, std::span<const double> 
                     smoothing * box.longest, team, cancel);
 }
 
-/// A coordinate of a texture as a place among `count` pixels: the one before it, the one after, and
-/// how far it is from the first to the second.
+/// A coordinate of a texture as a position among `count` pixels: the pixel before it, the one
+/// after, and the weight of the second.
 struct BetweenPixels {
     std::size_t before = 0, after = 0;
     double part = 0;

@@ -1,5 +1,5 @@
-// What is known of the cells of a model from places on its surface: distances, values of keys,
-// curvatures, and what its points and its texture have.
+// Values of a model's cells that come from places on its surface: distances, values of keys,
+// curvatures, and attributes of its points and its texture.
 #pragma once
 
 #include "core/parallel.h"
@@ -17,27 +17,26 @@
 
 namespace cascade {
 
-/// distance(…) where no way leads, in longest sides of the model. Larger than ways are, and small
-/// enough to be reckoned with in binary32.
+/// distance(…) where no path leads, in longest sides of the model. Larger than any path, and small
+/// enough for arithmetic in binary32.
 inline constexpr double unreachable_distance = 1000;
 
-/// How far keys(…) spreads each key's value if nothing is said: a standard deviation in longest
-/// sides.
+/// The default smoothing of keys(…): a standard deviation in longest sides.
 inline constexpr double usual_smoothing = 0.1;
 
-/// Planes that are made when they are first read, and kept. Program, model and team must stay;
-/// values may be added to the program. One thread at a time.
+/// Planes that are made when they are first read, and kept. Program, model and team must outlive
+/// this; values may be added to the program. Only one thread at a time.
 class SurfaceValues {
 public:
     SurfaceValues(const Program& program, const ModelCells& model, Team& team)
         : program_(program), model_(model), team_(team) {}
 
-    /// Those that formulas read. They mean nothing if `cancel` became true.
+    /// Computes the values that formulas read. They are meaningless if `cancel` became true.
     void make(std::span<const Formula* const> formulas, const std::atomic<bool>& cancel);
 
     /// Literals::surface_values()[number].
     const Field& value(std::uint32_t number);
-    /// One of those that are made when they are read.
+    /// One of the planes of a model that are made on demand.
     const Field& plane(ModelPlane plane);
 
 private:
@@ -52,13 +51,13 @@ private:
     std::map<ModelPlane, Field> planes_;
 };
 
-/// attr("name") in the cells, linear between points. Fails, in words, where the points of the model
-/// have nothing of that name.
+/// attr("name") in the cells, interpolated linearly between points. Fails if the points of the
+/// model have no attribute of that name.
 Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                               Precision precision);
 
-/// uvimage(…) in the cells: linear between the middles of four pixels. Places beyond 0 … 1 repeat
-/// the picture. Fails where the model has no texture coordinates.
+/// uvimage(…) in the cells, interpolated linearly between the centres of four pixels. Coordinates
+/// beyond 0 … 1 repeat the picture. Fails if the model has no texture coordinates.
 Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
                             Precision precision);
 

@@ -1,5 +1,5 @@
-// Compares bounds of eigenvalues with the stability interval of the solver; of Runge-Kutta-Legendre
-// the number of stages is taken that gains the most time per stage.
+// Compares bounds of eigenvalues with the stability interval of the solver. For
+// Runge-Kutta-Legendre it takes the number of stages that gains the most time per stage.
 #include "run/stage/automatic_speed.h"
 
 #include <algorithm>

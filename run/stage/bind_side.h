@@ -1,4 +1,5 @@
-// Values of sides that change with time: what their formulas read, along the side.
+// Values of sides that change with time: collects the values that their formulas read along the
+// side.
 #pragma once
 
 #include "core/parallel.h"
@@ -8,8 +9,8 @@
 
 namespace cascade {
 
-/// The value of a side of species number `species`, ready to be computed for any moment. What no
-/// moment changes is computed here, from the present state.
+/// The value of a side of species number `species`, ready to be computed for any moment. The parts
+/// that do not depend on the moment are computed here, from the present state.
 ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
                        const Compile& compile, const BindingContext& context, Team& team);
 

@@ -1,5 +1,5 @@
-// Factors that are constant are found once; those that change become the largest value of a plane,
-// an aggregate of each step.
+// Constant factors are computed once. A factor that changes is the largest value of a plane, an
+// aggregate of each step.
 #include "run/stage/bound_diffusion.h"
 
 #include "lang/lower/lower.h"
@@ -8,7 +8,7 @@ namespace cascade {
 
 namespace {
 
-/// The plan's results as temporaries after its own; their numbers.
+/// Turns the plan's results into temporaries after its own; returns their numbers.
 std::vector<std::uint32_t> results_to_temporaries(StepPlan& plan) {
     std::vector<std::uint32_t> planes;
     for (PassTarget& target : plan.passes.back().targets) {

@@ -1,4 +1,4 @@
-// The diffusion of a stage's species, made ready for the filters of semi-implicit solvers.
+// The diffusion of a stage's species, prepared for the filters of semi-implicit solvers.
 #pragma once
 
 #include "lang/calculus/diffusion.h"
@@ -12,26 +12,26 @@
 
 namespace cascade {
 
-/// Factors that stay as they are are found once, those that change in every step.
+/// Constant factors are computed once, the others in every step.
 class BoundDiffusion {
 public:
-    /// Each formula's largest value over the cells at the present state.
+    /// Returns the largest value of each formula over the cells at the present state.
     using Largest = std::function<std::vector<double>(std::span<const Formula* const>)>;
 
     BoundDiffusion(const Program& program, std::uint32_t stage, const Largest& largest);
 
-    /// The passes that come before those of a step: they write the changing factors to temporary
-    /// planes. Without passes where there are none.
+    /// The passes that precede those of a step and write the changing factors to temporary planes.
+    /// There are none if no factor changes.
     const StepPlan& before() const { return before_; }
 
-    /// Adds the factors to a problem that begins with the passes of before(): planes are reduced to
-    /// their largest values after those.
+    /// Adds the factors to a problem that begins with the passes of before(); after those, the
+    /// planes are reduced to their largest values.
     void add_to(StepProblem& problem) const;
 
 private:
     std::vector<DiffusionTerms<StepProblem::DiffusionFactor>> factors_;
     StepPlan before_;
-    std::vector<std::uint32_t> planes_;  ///< Temporary of each changing factor.
+    std::vector<std::uint32_t> planes_;  ///< The number of the temporary of each changing factor.
 };
 
 }  // namespace cascade

@@ -28,18 +28,18 @@ const Field& plane_of(const SlotSource& source, const BindingContext& context) {
 
 namespace {
 
-/// The halo is no part of a field's value: whoever reads neighbours fills it.
+/// The halo is not part of a field's value: code that reads neighbours fills it first.
 void fill_halo_of(const Field& field, const SideRules& sides) {
     fill_halo(const_cast<Field&>(field), sides);
 }
 
-/// Over how many cells means are taken; 0: over all.
+/// The number of cells that means are taken over; 0: all.
 std::int64_t cells_inside(const BindingContext& context) {
     if (context.grid.linked) return static_cast<std::int64_t>(context.model->count());
     return context.mask ? context.mask->cells : 0;
 }
 
-/// Does it ask for a component of a gradient on a model?
+/// Does it read a component of a gradient on a model?
 bool reads_gradients(const CellKernel& kernel) {
     return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
         const Op op = instruction.op;
@@ -69,9 +69,9 @@ public:
         for (const Pass& pass : plan_.passes) find_halos(pass);
     }
 
-    /// Which species are read at neighbours. Other plans of the same step may need more.
+    /// By species: is it read at neighbours? Other plans of the same step may need more.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
-    /// By register of the scheme: is it read at neighbours by any sweep?
+    /// By register of the scheme: does any sweep read it at neighbours?
     void set_halo_registers(const std::vector<bool>& registers) { halo_registers_ = registers; }
 
     StepProblem bind(const Compile& compile) {
@@ -119,13 +119,13 @@ private:
         return plane;
     }
 
-    /// Where rates read a species.
+    /// The plane of a species that rates read.
     std::uint32_t register_of(std::uint32_t species) const {
         if (sweep_ == nullptr) return old_register;
         return species < sweep_->renewed ? new_register : sweep_->inputs[0];
     }
 
-    /// Of a plane that is read at neighbours and does not change.
+    /// The plane of a value that is read at neighbours and does not change.
     SideRules sides_of(const SlotSource& source) const {
         if (source.kind == SlotSource::Kind::step_invariant) {
             return context_.step_invariants->boundaries[source.item];
@@ -225,7 +225,7 @@ private:
         result.plane.kind = PlaneRef::Kind::species;
         result.plane.in_register = new_register;
         if (form_ != nullptr) {
-            // Output after output, each of all species that are written.
+            // Outputs in order, each for all species that are written.
             const std::size_t written =
                 form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
             result.plane.in_register = sweep_->outputs[target.index / written];
@@ -242,18 +242,18 @@ private:
 
     const StepPlan& plan_;
     const BindingContext& context_;
-    const System* system_;  ///< None: no species is a register.
+    const System* system_;  ///< Null: no species is a register.
     std::uint32_t stage_;
-    const SweepForm* form_;  ///< Of a sweep; none for a plan that is no part of a scheme.
+    const SweepForm* form_;  ///< Of a sweep; null for a plan outside of a scheme.
     const Sweep* sweep_;
-    std::vector<double> read_at_;  ///< When rates read each output of the sweep.
+    std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
     StepProblem problem_;
     std::vector<bool> temporary_needs_halo_;
     std::vector<bool> halo_registers_;
 };
 
-/// Registers that rates are evaluated at: those of stages, the old step and the new one, which is
-/// the next old one. Kept rates and errors are read in the own cell only.
+/// The registers at which rates are evaluated: those of stages, the old step, and the new one,
+/// which becomes the old one. Kept rates and errors are only read in the cell itself.
 std::vector<bool> halo_registers(const Scheme& scheme) {
     std::vector<bool> registers(scheme.registers, false);
     registers[old_register] = registers[new_register] = true;
@@ -261,7 +261,7 @@ std::vector<bool> halo_registers(const Scheme& scheme) {
     return registers;
 }
 
-/// Are the rates at the end of a step those at the start of the next one to the bit? Not where they
+/// Are the rates at the end of a step bit for bit those at the start of the next one? Not if they
 /// read the number of the step or its length.
 bool rates_go_on(const StepPlan& plan) {
     for (const Pass& pass : plan.passes) {
@@ -279,8 +279,8 @@ bool rates_go_on(const StepPlan& plan) {
 
 namespace {
 
-/// When rates read what a sweep writes at neighbours: at the moment of the next sweep of which it
-/// is the input. What stays in the new step is read when the next step begins.
+/// The moment at which rates read the output of a sweep at neighbours: that of the next sweep that
+/// has it as input. The new step is read when the next step begins.
 std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number) {
     const std::span<const Sweep> later(scheme.sweeps.begin() + number + 1, scheme.sweeps.end());
     std::vector<double> moments;

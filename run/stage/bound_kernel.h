@@ -1,4 +1,4 @@
-// Puts the values of a run into the slots of plans.
+// Binds the slots of plans to the values of a run.
 #pragma once
 
 #include "core/plane.h"
@@ -19,47 +19,47 @@
 
 namespace cascade {
 
-/// What no step of a stage changes (plan_step_invariants), computed once.
+/// Step-invariant values (plan_step_invariants), computed once.
 struct StepInvariants {
-    std::vector<Field> planes;           ///< Where it varies; empty where it does not,
+    std::vector<Field> planes;           ///< If the value varies; empty if it does not,
     std::vector<double> numbers;         ///< and is one number.
     std::vector<Boundaries> boundaries;  ///< How the halo of each plane is filled.
 };
 
-/// Where slots find their values.
+/// Where slots get their values.
 struct BindingContext {
     std::span<const StageState> states;
     const InputFiles& files;
     std::int64_t steps = 0;  ///< Complete steps of the stage the kernel belongs to.
     Grid grid;
     Precision precision = Precision::single;
-    double t = 0;                             ///< Its time.
-    std::span<const Field> metric = {};       ///< By MetricPlane; empty without a surface.
-    const ModelCells* model = nullptr;        ///< None on grids.
-    const DomainMask* mask = nullptr;         ///< None where all cells belong to the domain.
-    SurfaceValues* surface_values = nullptr;  ///< Of a model.
-    const StepInvariants* step_invariants = nullptr;  ///< Of the steps that are bound.
+    double t = 0;                                     ///< The stage's time.
+    std::span<const Field> metric = {};               ///< By MetricPlane; empty without a surface.
+    const ModelCells* model = nullptr;                ///< Null on grids.
+    const DomainMask* mask = nullptr;                 ///< Null if all cells belong to the domain.
+    SurfaceValues* surface_values = nullptr;          ///< For a model.
+    const StepInvariants* step_invariants = nullptr;  ///< For the steps that are bound.
 };
 
-/// The plane of a slot that lies in one and is no temporary.
+/// The plane of a slot whose values lie in one, other than a temporary.
 const Field& plane_of(const SlotSource& source, const BindingContext& context);
 
-/// Makes a kernel runnable.
+/// Creates a kernel that can be run.
 using Compile = std::function<KernelPointer(const CellKernel&)>;
 
-/// The passes of a plan with all their slots. Species of `stage` are those of register 0 and
-/// results go to register 1, in order; planes that do not change have their halo filled here.
+/// The passes of a plan with all slots bound. Species of `stage` are those of register 0, and
+/// results go to register 1, in order. The halo of planes that do not change is filled here.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage);
 
-/// The passes of all sweeps of a scheme; `plans` are those of its forms (plan_sweep). Those of
-/// `before`, which may have none, come first: they write temporaries alone.
+/// The passes of all sweeps of a scheme; `plans` are those of its forms (plan_sweep). The passes of
+/// `before`, if any, come first and write only temporaries.
 StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
                         const StepPlan& before, const Compile& compile,
                         const BindingContext& context, const System& system, std::uint32_t stage);
 
-/// The passes of a plan that is no part of a stage's steps: no species is a register of it, and
-/// results go to register 1.
+/// The passes of a plan that is not part of a stage's steps: it reads no registers, and results go
+/// to register 1.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context);
 
 /// The name of species number `species`.

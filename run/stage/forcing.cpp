@@ -1,5 +1,5 @@
-// Samples the parts that depend on time alone, and finds from each sample how far they stay close
-// to it.
+// Samples the parts that depend on time alone, and computes for each sample how long they stay
+// close to it.
 #include "run/stage/forcing.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@ namespace cascade {
 
 namespace {
 
-/// Once a step ends within a pulse, estimates of errors know of it.
+/// Once a step ends within a pulse, error estimates know of it.
 constexpr double most_of_range = 0.3;
-/// No step is longer than a quarter of the time.
+/// No step is longer than this part of the time.
 constexpr std::size_t farthest = Forcing::intervals / 4;
 
 }  // namespace

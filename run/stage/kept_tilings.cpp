@@ -1,5 +1,4 @@
-// One line of numbers under a key of text; a tiling counts as sure when it was found twice in a
-// row.
+// One line of numbers under a key of text. A tiling is sure once it was found twice in a row.
 #include "run/stage/kept_tilings.h"
 
 #include "core/cache_sizes.h"

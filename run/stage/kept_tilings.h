@@ -1,9 +1,9 @@
-// What runs found out about tilings, kept for later stages of the process and, beside compiled
-// kernels, on disk for later processes.
+// The fastest tilings that runs have found, kept for later stages of the process and, beside
+// compiled kernels, on disk for later processes.
 //
-// A tiling is found again by all that decides how fast it is: this build, the processor, its
-// caches, the kernels of the steps, the grid and the number of threads. No result depends on what
-// is found.
+// The key of a tiling contains everything that determines its speed: this build, the processor, its
+// caches, the kernels of the steps, the grid and the number of threads. No result depends on the
+// tilings.
 #pragma once
 
 #include "core/kept_files.h"
@@ -24,15 +24,15 @@ struct FoundTiling {
 
 class KeptTilings {
 public:
-    /// Without a folder, or where `code`, all that decides code besides kernels, is not known and
-    /// empty, nothing is kept on disk.
+    /// `code` identifies the build and the processor. Nothing is kept on disk without a folder or
+    /// if `code` is empty.
     KeptTilings(const std::filesystem::path& folder, std::string code);
 
-    /// What was kept twice in a row, by this process or others.
+    /// The tiling that was found twice in a row, by this process or others.
     std::optional<Tiling> find(const std::string& key);
     void keep(const std::string& key, const Tiling& tiling);
 
-    /// What decides all keys: build, processor and caches.
+    /// The part that all keys have in common: build, processor and caches.
     const std::string& machine() const { return machine_; }
 
 private:
@@ -43,14 +43,14 @@ private:
     std::map<std::string, FoundTiling> known_;
 };
 
-/// As a line of text, and back; nothing where the text is another.
+/// To a line of text and back; nothing for any other text.
 std::string text_of(const FoundTiling& found);
 std::optional<FoundTiling> found_tiling_of(const std::string& text);
 
-/// Those of one stage.
+/// The tilings of one stage.
 class StageTilings final : public TilingMemory {
 public:
-    /// `kernels`: a hash of what the steps of `problem` run. `tilings` must outlive it.
+    /// `kernels` is a hash of the kernels of the steps of `problem`. `tilings` must outlive this.
     StageTilings(KeptTilings& tilings, const StepProblem& problem, std::uint64_t kernels);
 
     std::optional<Tiling> find(int threads) override;

@@ -11,7 +11,7 @@ std::filesystem::path usual_kernel_cache() {
     const auto variable = [](const char* name) { return std::getenv(name); };
     if (const char* folder = variable("CASCADE_KERNEL_CACHE")) return folder;
     const auto in_folder = [](const std::filesystem::path& folder) {
-        // The specification: what is relative is to be ignored.
+        // By the specification a relative path is ignored.
         const std::filesystem::path kernels = folder / "cascade" / "kernels";
         return folder.is_absolute() && may_keep_files_in(kernels) ? kernels
                                                                   : std::filesystem::path();

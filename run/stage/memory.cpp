@@ -29,8 +29,8 @@ std::string describe_sides(const Grid& grid) {
 
 namespace {
 
-/// Planes that live as long as a stage is run: temporaries of passes, the registers besides the old
-/// step, and the kept copy of the species.
+/// Planes that live while a stage is run: temporaries of passes, all registers but the old step,
+/// and the kept copy of the species.
 std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans,
                                    const Grid& grid) {
     const Stage& stage = program.stages[k];
@@ -43,7 +43,7 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     for (const SweepForm& form : scheme.forms) {
         temporaries = std::max(temporaries, plans.sweep(k, form).temporaries);
     }
-    // What no step changes is kept beside them, and computed with temporaries of its own.
+    // Step-invariants are kept besides, and computed with their own temporaries.
     const StepPlan& step_invariants = plans.step_invariants(k);
     temporaries = std::max(temporaries, step_invariants.temporaries) + step_invariants.result_count;
     Schedule schedule;
@@ -61,8 +61,8 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     return planes;
 }
 
-/// The elements of a plane and of those of the coarser grids that live beside it: of the one that
-/// is run and of the one before it.
+/// The elements of a plane and of those of the coarser grids that exist at the same time: the grid
+/// that is run and the one before it.
 std::int64_t plane_size(const Program& program, const Grid& grid) {
     std::int64_t size = PlaneLayout(grid).size(), coarse = 0;
     for (const Stage& stage : program.stages) {
@@ -75,8 +75,8 @@ std::int64_t plane_size(const Program& program, const Grid& grid) {
     return size + coarse;
 }
 
-/// Planes that choosing steps and stages takes for a moment: what bounds are computed in, or an
-/// eigenvalue is estimated with (two planes of each species and four vectors in double precision).
+/// Planes that choosing steps and stages needs temporarily: for computing bounds, or for estimating
+/// an eigenvalue (two planes of each species and four vectors in double precision).
 std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage,
                                const ModelFacts* model) {
     if (program.domain.model && model == nullptr) return 0;
@@ -99,8 +99,8 @@ double memory_of(const Program& program) {
 
 double memory_of(const Program& program, StagePlans& plans, const ModelFacts* model) {
     const Grid& grid = model ? model->grid : program.domain.grid;
-    // Every species, its last look at whether it has settled, and every varying parameter, of all
-    // stages: later stages and pictures may read any of them.
+    // Every species, its copy for `until: steady`, and every varying parameter of all stages,
+    // because later stages and pictures may read any of them.
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
         const System& system = program.systems[stage.system];

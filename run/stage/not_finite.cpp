@@ -1,5 +1,5 @@
-// Compares the step with the stability limits at the start and before the blow-up, and advises by
-// what that shows: shorter steps, or a look at the formulas.
+// Compares the step with the stability limits at the start and before the blow-up, and advises
+// accordingly: shorter steps, or a look at the formulas.
 #include "run/stage/not_finite.h"
 
 #include <fmt/format.h>
@@ -12,11 +12,11 @@ namespace cascade {
 
 namespace {
 
-/// What has grown without bound has passed this before it is infinite.
+/// A value that grows without bound passes this before it is infinite.
 constexpr double most_that_is_sane = 1e4;
 
-/// The smaller of the limits at both states; empty where neither has one. A state that has grown
-/// far beyond the starting values is spoiled, and looks stiff whatever the reaction is.
+/// The smaller of the limits at both states; empty if neither has one. A state that has grown far
+/// beyond the starting values is spoiled and looks stiff whatever the reaction is.
 std::optional<double> limit(const NotFiniteReport& report) {
     const auto start = longest_step(report.estimate_at_start, report.use);
     const bool is_spoiled =
@@ -27,8 +27,8 @@ std::optional<double> limit(const NotFiniteReport& report) {
     return start ? start : before;
 }
 
-/// Of what has grown without bound by steps that are stable: nobody knows whether the equations do
-/// so, or only such steps.
+/// For values that grew without bound by stable steps: either the equations do so, or only steps of
+/// this length.
 std::string advice_for_growth(const StepInUse& use) {
     if (is_adaptive(use.solver)) return "the reaction itself grows without bound here";
     return "either the reaction itself grows without bound here, or steps are too long to follow "

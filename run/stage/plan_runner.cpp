@@ -1,4 +1,4 @@
-// Binds a plan anew for each run, since planes may have moved, and runs its passes once.
+// Binds a plan again for each run, since planes may have moved, and runs its passes once.
 #include "run/stage/plan_runner.h"
 
 #include <array>
@@ -11,7 +11,7 @@ PlanRunner::PlanRunner(StepPlan plan, Compile compile)
     : plan_(std::move(plan)), compile_(std::move(compile)) {}
 
 std::vector<Field>& PlanRunner::run(const BindingContext& context, Team& team) {
-    // Values may lie elsewhere than in the last run.
+    // Values may have moved since the last run.
     problem_ = bind_plan(plan_, compile_, context);
     if (!runner_) {
         runner_.emplace(problem_);

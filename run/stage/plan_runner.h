@@ -1,4 +1,4 @@
-// Runs plans that are no steps: starting values, views, and numbers that steps are chosen by.
+// Runs plans other than steps: starting values, views, and numbers from which steps are chosen.
 #pragma once
 
 #include "core/parallel.h"
@@ -11,16 +11,16 @@
 
 namespace cascade {
 
-/// Runs a plan again and again. Its planes are made by the first run and used by all: fresh memory
-/// would cost more than the work.
+/// Runs a plan repeatedly. Its planes are allocated by the first run and reused, because fresh
+/// memory would cost more than the computation.
 class PlanRunner {
 public:
     PlanRunner(StepPlan plan, Compile compile);
     PlanRunner(const PlanRunner&) = delete;
     PlanRunner& operator=(const PlanRunner&) = delete;
 
-    /// Over the present values, rows shared by the team; one field per result, which the next run
-    /// overwrites. The grid and precision are those of the first run.
+    /// Computes the plan from the present values; the team shares the rows. Returns one field for
+    /// each result, which the next run overwrites. Grid and precision are those of the first run.
     std::vector<Field>& run(const BindingContext& context, Team& team);
 
 private:

@@ -1,4 +1,4 @@
-// Each report says what was seen, and advises a shorter step where a limit is known.
+// Each message says what was seen, and suggests a shorter step if a limit is known.
 #include "run/stage/result_doubts.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Words for results that are finite and all the same wrong.
+// Messages for results that are finite but wrong.
 #pragma once
 
 #include "run/stage/step_advice.h"
@@ -14,40 +14,40 @@ struct ChequerboardReport {
     std::string stage, species;
     StepInUse use;
     StabilityEstimate estimate;  ///< At that state.
-    bool flickers = false;       ///< Values jump back and forth from step to step, too.
+    bool flickers = false;       ///< Values also jump back and forth from step to step.
 };
 
-/// The warning; nothing where neither the step nor a rate that makes differences of neighbours grow
-/// explains it, as where a lattice is meant.
+/// The warning; nothing if neither the step nor a rate that makes differences of neighbours grow
+/// explains the alternation, which may then be a lattice.
 std::optional<std::string> describe(const ChequerboardReport& report);
 
 /// Values that jump back and forth from step to step.
 struct FlickerReport {
     std::string stage, species;
     StepInUse use;
-    std::optional<double> limit;  ///< Of the step, where one is known.
-    double part = 0;              ///< Of the cells.
-    double largest = 0;           ///< Jump.
+    std::optional<double> limit;  ///< Of the step, if one is known.
+    double part = 0;              ///< The part of the cells.
+    double largest = 0;           ///< The largest jump.
 };
 
-/// From this part of the cells on the user is warned.
+/// The user is warned from this part of the cells on,
 inline constexpr double flicker_threshold = 0.01;
-/// From this part of all changes on, in steps too long for a regular to and fro.
+/// or from this part of all changes on if steps are too long even for a regular oscillation.
 inline constexpr double undone_threshold = 0.4;
 
 /// The warning.
 std::string describe(const FlickerReport& report);
 
-/// Values that steps lead another way than shorter ones would, if they move at all.
+/// Values that move differently with shorter steps, if they move at all.
 struct AstrayReport {
     std::string stage, species;
     StepInUse use;
-    std::optional<double> limit;     ///< Of the step, where one is known.
-    std::int64_t steps = 0;          ///< So many further steps
-    double change = 0;               ///< move the values by so much (root mean square),
-    std::int64_t shorter_steps = 0;  ///< The number of shorter steps that take as long.
-    double change_of_shorter = 0;    ///< by so much,
-    double apart = 0;                ///< to values that differ by so much.
+    std::optional<double> limit;     ///< Of the step, if one is known.
+    std::int64_t steps = 0;          ///< The number of further steps,
+    double change = 0;               ///< and how far they move the values (root mean square).
+    std::int64_t shorter_steps = 0;  ///< The number of shorter steps that take as long,
+    double change_of_shorter = 0;    ///< and how far they move the values.
+    double apart = 0;                ///< The distance of the two results.
 };
 
 /// The warning.
@@ -56,12 +56,12 @@ std::string describe(const AstrayReport& report);
 /// Changes that rounding has swallowed.
 struct LostChangeReport {
     std::string stage, species;
-    double change = 0;  ///< What a step would add, on average over the cells in magnitude,
-    double value = 0;   ///< to values of this size (root mean square);
-    double lost = 0;    ///< so much over the stage.
+    double change = 0;  ///< The change in a step, as a mean of magnitudes over the cells;
+    double value = 0;   ///< the size of the values to which it is added (root mean square);
+    double lost = 0;    ///< the sum of the changes lost in the stage.
 };
 
-/// From this part of the values on, what is lost is worth a warning.
+/// A loss of this part of the values or more is worth a warning.
 inline constexpr double lost_change_threshold = 0.01;
 
 /// The warning.

@@ -1,4 +1,4 @@
-// To and from JSON. What is read may have been changed, so ranges are checked.
+// To and from JSON. The file may have been changed, so ranges are checked.
 #include "run/stage/saved_time.h"
 
 #include "ir/solver.h"
@@ -21,8 +21,8 @@ bool makes_sense(const Formation& formation) {
            is_length(formation.speed);
 }
 
-/// Stages of a stabilised solver are odd; steps of others on models are split into any number of
-/// parts.
+/// A stabilised solver has an odd number of stages. The steps of other solvers on models are split
+/// into any number of parts.
 bool makes_sense(std::uint32_t stages, Solver solver) {
     if (!is_stabilised(solver)) return stages <= most_substeps;
     return stages <= most_stages && (stages == 0 || stages % 2 == 1);

@@ -1,4 +1,4 @@
-// Keeps a limited number of moments, dropping every other one when there are too many, and judges
+// Keeps a limited number of moments, drops every other one when there are too many, and judges
 // trends by tenths of the stage's age.
 #include "run/stage/stage_course.h"
 
@@ -10,19 +10,19 @@ namespace cascade {
 
 namespace {
 
-/// When there are so many moments, every other one is forgotten.
+/// When there are this many moments, every other one is dropped.
 constexpr std::size_t most_moments = 40;
-/// Rows are left out where there are more cells.
+/// With more cells than this, rows are left out.
 constexpr std::int64_t most_cells = 1 << 15;
 
-/// A pattern is growing where deviation and range of every species have risen from tenth to tenth
-/// over the last three tenths of its age, over the last one by this part at least: going on for as
-/// long again would make it half as strong again, or more. Fronts that fill a plane and patterns
-/// that coarsen keep their range; waves and pulses do not rise in all species for so long.
+/// A pattern is growing if deviation and range of every species rose in each of the last three
+/// tenths of its age, in the last one at least by this part: as much time again would make it at
+/// least half as strong again. Fronts that fill a plane and patterns that coarsen keep their range;
+/// waves and pulses do not rise in all species for that long.
 constexpr double least_growth = 0.05;
 
-/// A pattern is fading where the deviation of each species is at most this part of the largest
-/// magnitude that the species has had, …
+/// A pattern is fading if the deviation of each species is at most this part of the species'
+/// largest magnitude so far, …
 constexpr double small_rest = 1e-3;
 /// … at most this part of its largest deviation …
 constexpr double part_of_before = 0.1;
@@ -62,7 +62,7 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
     if (species.empty()) return;
     if (!moments_.empty() && last().step >= step) moments_.pop_back();
     if (moments_.size() >= most_moments) {
-        // The first one stays: it is how the stage began.
+        // The first one stays, as the start of the stage.
         std::size_t kept = 1;
         for (std::size_t k = 2; k < moments_.size(); k += 2)
             moments_[kept++] = std::move(moments_[k]);
@@ -77,7 +77,7 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
     for (const Field& field : species)
         moment.species.push_back(spread_of(field, inside, every_row));
     moment.is_even = are_even(moment.species);
-    // Something small may stand between the rows.
+    // A small feature may lie between the rows.
     if (moment.is_even && every_row > 1) {
         for (std::size_t k = 0; k < species.size() && moment.is_even; ++k) {
             moment.is_even = spread_of(species[k], inside, 1).is_even();
@@ -110,7 +110,7 @@ double StageCourse::greatest_contrast() const {
     return greatest;
 }
 
-/// The moment nearest to a part of the present age.
+/// The moment nearest to this part of the present age.
 const Moment& StageCourse::at_age(double part) const {
     const double age = part * last().age;
     return *std::min_element(moments_.begin(), moments_.end(),
@@ -129,7 +129,7 @@ double StageCourse::growth(std::size_t species) const {
 bool StageCourse::is_growing(std::size_t species) const {
     const std::array<const Moment*, 4> course = {&at_age(0.7), &at_age(0.8), &at_age(0.9), &last()};
     for (std::size_t k = 1; k < course.size(); ++k) {
-        // Between looks that are too far apart nothing is known.
+        // If moments are too far apart, nothing is known about the time between them.
         if (course[k]->step <= course[k - 1]->step) return false;
         const Spread& before = course[k - 1]->species[species];
         const Spread& now = course[k]->species[species];

@@ -1,4 +1,4 @@
-// The course of a stage: how much its cells differed from each other, from its start to its end.
+// The course of a stage: how much its cells differed from each other, from start to end.
 #pragma once
 
 #include "core/plane.h"
@@ -14,41 +14,40 @@ namespace cascade {
 /// The species of a stage at one moment.
 struct Moment {
     std::int64_t step = 0;
-    double age = 0;               ///< Its time, or its steps where cells have times of their own.
-    std::vector<Spread> species;  ///< Over some of the rows where there are many cells.
-    bool is_even = false;         ///< All species are, over all cells.
+    double age = 0;               ///< Its time, or its steps if the time varies by cell.
+    std::vector<Spread> species;  ///< Over some of the rows if there are many cells.
+    bool is_even = false;         ///< All species are even over all cells.
 };
 
 /// How the pattern of a stage changes at its end.
 enum class Trend {
     none,     ///< Neither of the two below.
-    growing,  ///< Its amplitude rises in every species; going on would make it another picture.
-    fading,   ///< A small rest of what has been there still falls.
+    growing,  ///< Its amplitude rises in every species; more steps would change the picture.
+    fading,   ///< The small remains of an earlier pattern still decrease.
 };
 
-/// Remembers a few moments of a stage, more or less evenly over its steps. Keeps numbers only, so
-/// it costs no planes; the rows looked at have some ten thousand cells at most, so it costs no
-/// time.
+/// Remembers a few moments of a stage, spread roughly evenly over its steps. It keeps numbers only,
+/// so it costs no planes, and reads rows of some ten thousand cells at most, so it costs no time.
 class StageCourse {
 public:
     bool empty() const { return moments_.empty(); }
-    /// Is it time for another moment?
+    /// Is another moment due?
     bool is_due(std::int64_t step) const;
-    /// Adds a moment, or replaces the last one if that was at the same step. With `inside` the
-    /// cells count where it is not 0.
+    /// Adds a moment, or replaces the last one if that has the same step. With `inside`, cells
+    /// count where it is not 0.
     void look(std::int64_t step, double age, std::span<const Field> species, const Mask* inside);
 
     const Moment& first() const { return moments_.front(); }
     const Moment& last() const { return moments_.back(); }
     bool ended_even() const { return !empty() && last().is_even; }
-    /// The first of the even moments at the end; only where it ended even.
+    /// The first of the even moments at the end; only if the stage ended even.
     const Moment& even_since() const;
-    /// The largest deviation of a species so far, as a part of its largest magnitude so far; the
-    /// largest of all species.
+    /// The largest deviation of a species so far, divided by its largest magnitude so far; the
+    /// maximum over all species.
     double greatest_contrast() const;
 
     Trend trend() const;
-    /// Of a growing pattern: by which part the deviation of a species rose over the last tenth of
+    /// For a growing pattern: by which part the deviation of a species rose over the last tenth of
     /// the stage's age.
     double growth(std::size_t species) const;
 

@@ -1,4 +1,4 @@
-// The plans of a program's stages. Each is made when it is first asked for, and once.
+// The plans of a program's stages. Each is made on first use and kept.
 #pragma once
 
 #include "lang/lower/lower.h"
@@ -22,11 +22,11 @@ public:
           sweeps_(program.stages.size()) {}
 
     const PlanOptions& options() const { return options_; }
-    /// Of the starting values.
+    /// The plan of the starting values.
     const StepPlan& start(std::uint32_t stage);
-    /// Of what no step changes.
+    /// The plan of the step-invariants.
     const StepPlan& step_invariants(std::uint32_t stage);
-    /// Of a sweep of the rates.
+    /// The plan of a sweep of the rates.
     const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
 
 private:

@@ -13,10 +13,10 @@ namespace cascade {
 
 namespace {
 
-/// Of more species than these the first are named.
+/// If there are more species, only this number of them are named.
 constexpr std::size_t most_named = 4;
 /// A stage whose cells once differed by this part of a species' largest value had a pattern, and
-/// not just noise to grow one from.
+/// not only noise that could grow into one.
 constexpr double contrast_of_a_pattern = 0.05;
 
 /// "u = 1, v = 0".
@@ -71,7 +71,7 @@ double part_of_ones(const Mask& mask, const Mask* inside) {
     return cells > 0 ? ones / cells : 0;
 }
 
-/// Do the cells of all species differ by no more than the error that is allowed in a step?
+/// Do the cells of all species differ by no more than the tolerance of a step?
 bool differs_by_errors_alone(const Stage& stage, const StageCourse& course) {
     const auto& species = course.last().species;
     return std::all_of(species.begin(), species.end(), [&](const Spread& spread) {

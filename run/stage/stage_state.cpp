@@ -1,4 +1,4 @@
-// Gives each species its place in the list of those that solvers step.
+// Gives each species its number among those that solvers step.
 #include "run/stage/stage_state.h"
 
 #include "core/floating_point.h"

@@ -18,24 +18,24 @@ namespace cascade {
 /// Values of one stage's items.
 struct StageState {
     bool started = false;
-    bool done = false;           ///< All its steps are taken, or it has ended before.
+    bool done = false;           ///< All its steps are taken, or it has ended early.
     bool condition_met = false;  ///< Its `until` has ended it.
     std::int64_t steps = 0;      ///< Complete steps.
-    double t = 0;                ///< The time then; 0 where speed varies by cell.
-    TimeState time;              ///< What steps of other lengths go on from.
-    SteadyWatch watch;           ///< The last look of `until: steady(…)`.
+    double t = 0;                ///< Its time; 0 if `speed` varies by cell.
+    TimeState time;              ///< The state from which steps of other lengths go on.
+    SteadyWatch watch;           ///< The last evaluation of `until: steady(…)`.
     StageCourse course;          ///< Since it began, or went on from a saved run.
     std::vector<double>
         numbers;  ///< Of the run's precision, per item; meaningful where it is uniform.
-    std::vector<Field> fields;         ///< Per item; empty where uniform, and for species.
-    std::vector<Field> species;        ///< In order of the species' items.
-    std::vector<int> species_of_item;  ///< Per item; −1 for parameters.
-    Mask frozen;                       ///< Only where `frozen` varies.
-    std::vector<SideRules> sides;      ///< By species; empty where the boundary holds for all.
-    std::vector<Field> side_values;    ///< What the rules of sides point to.
-    std::vector<ChangingSide> changing_sides;  ///< Those with values that change with time.
+    std::vector<Field> fields;                 ///< Per item; empty where uniform, and for species.
+    std::vector<Field> species;                ///< In order of the species' items.
+    std::vector<int> species_of_item;          ///< Per item; −1 for parameters.
+    Mask frozen;                               ///< Only where `frozen` varies.
+    std::vector<SideRules> sides;              ///< By species; empty if the boundary holds for all.
+    std::vector<Field> side_values;            ///< The planes to which the rules of sides point.
+    std::vector<ChangingSide> changing_sides;  ///< The sides whose values change with time.
 
-    /// Sets how far the stage has come, and the values of sides to those of that moment.
+    /// Sets the progress of the stage, and the values of sides to those of that moment.
     void go_to(std::int64_t complete, double time_then);
 
     /// The plane of an item that varies (a species or a varying parameter).
@@ -45,11 +45,11 @@ struct StageState {
     }
 };
 
-/// A state with room for all items of a system, without a plane of any.
+/// A state with room for all items of a system, but without planes.
 StageState empty_state(const System& system);
 
-/// How far a stage has come: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" where
-/// only `until` ends it.
+/// The progress of a stage: "step 300 of 7000", "step 312, t = 4.5 of 30", or "step 312" if only
+/// `until` ends it.
 std::string describe_place(const Stage& stage, const StageState& state);
 
 }  // namespace cascade

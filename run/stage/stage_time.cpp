@@ -1,5 +1,5 @@
-// Builds the step's problem for the number of stages in use, and chooses steps by stability bounds,
-// estimates of errors and the forcing.
+// Builds the problem of a step for the number of stages in use, and chooses steps by stability
+// bounds, error estimates and the forcing.
 #include "run/stage/stage_time.h"
 
 #include "lang/calculus/derivative.h"
@@ -15,23 +15,22 @@ namespace cascade {
 
 namespace {
 
-/// Where nothing says how long a stage takes, steps of chosen length are no longer than a part of
-/// this.
+/// If a stage has no known duration, steps of chosen length are limited to a part of this one.
 constexpr double usual_duration = 10000;
 constexpr double most_of_duration = 0.05, most_of_duration_without_bound = 0.001;
-/// The first step is so much of Euler's longest; the estimate of errors knows of none before it.
+/// The first step is this part of Euler's longest, because no error estimate precedes it.
 constexpr double first_part = 0.25;
-/// Steps of so much of Euler's longest, and of the duration, gain nothing from being shorter.
+/// Steps shorter than these parts of Euler's longest and of the duration gain nothing.
 constexpr double least_part = 0.01, least_of_duration = 1e-6;
-/// Explicit steps are cheap beside the estimate of their error, which is made of one in so many at
-/// most,
+/// Explicit steps are cheap compared with the estimate of their error, which is made after at most
+/// this number of steps,
 constexpr std::int64_t most_stretch = 64, most_stretch_with_jumps = 8;
-/// and so often in the stage's time; more often where bounds or errors change.
+/// and at least this often in the stage's time; more often if bounds or errors change.
 constexpr double stretches_of_duration = 50;
 constexpr double same_bounds = 1.25, small_error = 0.5;
-/// Stages change where that saves so much: their temporaries are made anew.
+/// The number of stages changes only if that saves this part, because it means new temporaries.
 constexpr double worth_other_stages = 1.1;
-/// What is not known to be reaction or diffusion is taken for diffusion in the main.
+/// If it is unknown how much of a bound is reaction, most of it counts as diffusion.
 constexpr double share_of_reaction = 0.02;
 
 }  // namespace
@@ -71,7 +70,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     }
     if (stage_.time.chooses_steps()) forcing_ = forcing(program, stage);
     state_.time.clock.precision = program.domain.precision;
-    // A stage whose time is known goes on as it was.
+    // A resumed stage goes on as it was.
     if (state_.steps > 0 && state_.time.control.step > 0) return;
     state_.time = {};
     state_.time.clock.precision = program.domain.precision;
@@ -84,7 +83,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     if (state_.steps == 0 && stage_.time.steady) state_.watch.begin(state_.species);
 }
 
-/// Are steps or stages chosen by the state of the species?
+/// Does the state of the species determine steps or stages?
 bool StageTimer::chooses() const { return is_stabilised(stage_.time.solver) || chooses_by_error(); }
 
 bool StageTimer::chooses_by_error() const {
@@ -109,9 +108,9 @@ void StageTimer::set_first_step() {
     }
 }
 
-/// Cells of a model have links of different weights, and the largest decide which steps are stable:
-/// a script that is stable on the plane has to be so there. Explicit Euler is stable up to 2 over
-/// the largest eigenvalue.
+/// The links of a model's cells have different weights, and the largest decides which steps are
+/// stable; a script that is stable on the plane must be stable on a model, too. Explicit Euler is
+/// stable up to 2 over the largest eigenvalue.
 std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
     constexpr double safety = 0.95;
     const bool is_split =
@@ -151,12 +150,12 @@ RateBounds StageTimer::bounds() const {
             return {bounds[0], bounds[1], jumps_};
     }
     const double whole = tools_.estimate();
-    // What is explicit may be as fast as all of it: advection is no diffusion.
+    // The explicit part may be as fast as the whole, because advection is not diffusion.
     if (is_semi_implicit(stage_.time.solver)) return {whole, whole, jumps_};
     return {whole, share_of_reaction * whole, jumps_};
 }
 
-/// Stages for steps of a given length.
+/// The number of stages for steps of a given length.
 StepChoice StageTimer::choose_stages_at(std::int64_t step, TimeState& time) {
     state_.go_to(step, time.clock.at(step));
     time.stages = choose_stages(stage_.time.solver, bounds(), speed_);
@@ -171,7 +170,7 @@ double StageTimer::longest_step(bool is_bounded) const {
     return (is_bounded ? most_of_duration : most_of_duration_without_bound) * expected_duration();
 }
 
-/// Where bounds are not finite they are as good as unknown, and looked at again in the next step.
+/// Bounds that are not finite count as unknown and are computed again in the next step.
 void StageTimer::look_at_bounds(std::int64_t step, TimeState& time) {
     time.bounds = bounds();
     time.bounded_at = step;
@@ -209,7 +208,7 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     return {safe.length, &problem_of(time.stages, is_long), &problem_of(time.stages, true)};
 }
 
-/// The number of steps to the next estimate of an error.
+/// The number of steps to the next error estimate.
 std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState& time,
                                        bool rejected, double length, double longest) const {
     if (rejected || time.bounded_at < 0) return 1;
@@ -227,7 +226,7 @@ std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState
 bool StageTimer::has_ended(std::int64_t step, double t) {
     state_.go_to(step, t);
     if (stage_.time.until) return tools_.is_true(*stage_.time.until);
-    // Steps of different length in different cells are counted, not timed.
+    // If steps differ from cell to cell, steps are counted instead of time.
     const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
     return state_.watch.settled(state_.species, age, *stage_.time.steady, tools_.inside);
 }

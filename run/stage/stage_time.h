@@ -1,4 +1,4 @@
-// The time of one stage in a run: the passes of its solver, how long steps are, when it ends.
+// The time of one stage in a run: the passes of its solver, the length of steps, and the end.
 #pragma once
 
 #include "lang/program/models.h"
@@ -17,39 +17,39 @@
 
 namespace cascade {
 
-/// Into how many a step on a model is split at most.
+/// The largest number of parts into which a step on a model is split.
 inline constexpr std::uint32_t most_substeps = 10000;
 
 /// Computes some numbers from the present values.
 using NumberSource = std::function<std::vector<double>()>;
 
-/// What the time of a stage asks of the simulation it belongs to. All look at the present values.
+/// Queries of a stage's time to the simulation that it belongs to. All read the present values.
 struct StageTools {
     std::function<StepProblem(const Scheme&)> bind;
-    /// Makes what computes formulas that are the same in all cells, again and again.
+    /// Makes a function that computes formulas that are the same in all cells, to be called
+    /// repeatedly.
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
-    /// The values of a formula that reads constants and `t` alone, at n / Forcing::intervals of a
-    /// duration.
+    /// The values of a formula of constants and `t` alone, at n / Forcing::intervals of a duration.
     std::function<std::vector<double>(const Formula&, double duration)> over_time;
     std::function<bool(const Formula&)> is_true;
-    /// A bound of the eigenvalues by a power iteration, where there is none by rule.
+    /// Bounds the eigenvalues by a power iteration, if there is no bound by rule.
     std::function<double()> estimate;
-    const Mask* inside = nullptr;       ///< Of a mask or a model: the cells that count.
-    const ModelFacts* model = nullptr;  ///< Of the model that is the domain; null on grids.
+    const Mask* inside = nullptr;       ///< The cells that count, with a mask or on a model.
+    const ModelFacts* model = nullptr;  ///< Null on grids.
 };
 
 class StageTimer {
 public:
-    /// `state` is that of the stage; a stage that has not taken a step begins its time here.
+    /// `state` is the stage's; a stage that has not taken a step begins its time here.
     StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
 
-    /// Into so many parts each step is split, so that it is stable on the cells of a model.
+    /// The number of parts of each step that make it stable on the cells of a model.
     std::uint32_t substeps() const {
         return stage_.time.solver == Solver::euler ? state_.time.stages : 0;
     }
     /// The passes of the first step.
     const StepProblem& problem();
-    /// All of a schedule but its threads. `interval` as in Schedule.
+    /// A complete schedule except for its threads. `interval` as in Schedule.
     Schedule schedule(std::int64_t last_step, std::int64_t interval);
 
 private:
@@ -59,7 +59,7 @@ private:
     RateBounds bounds() const;
     Forcing forcing(const Program& program, std::uint32_t stage) const;
     void set_first_step();
-    double expected_duration() const;  ///< Finite, also where only `until` ends the stage.
+    double expected_duration() const;  ///< Finite, even if only `until` ends the stage.
     double longest_step(bool is_bounded) const;
     void look_at_bounds(std::int64_t step, TimeState& time);
     StepChoice choose_stages_at(std::int64_t step, TimeState& time);
@@ -74,22 +74,22 @@ private:
     StageTools tools_;
     std::uint32_t species_;
     bool uniform_speed_;
-    double speed_;                 ///< The item's value; 1 where it varies by cell.
-    double duration_;              ///< Infinite where there is none.
-    Forcing forcing_;              ///< Of steps of chosen length.
-    NumberSource bounds_by_rule_;  ///< Of RateBounds; none where there is no rule.
+    double speed_;                 ///< The item's value; 1 if it varies by cell.
+    double duration_;              ///< Infinite if there is none.
+    Forcing forcing_;              ///< For steps of chosen length.
+    NumberSource bounds_by_rule_;  ///< Computes RateBounds; null if there is no rule.
     bool jumps_ = false;           ///< Do rates jump at thresholds?
-    /// By the number of stages, and whether the error of the step is estimated.
+    /// By the number of stages, and by whether the error of the step is estimated.
     std::map<std::pair<std::uint32_t, bool>, StepProblem> problems_;
 };
 
-/// Is each step of a stage as long as its item `speed` says, which may vary by cell?
+/// Is the length of each step the item `speed`, which may vary by cell?
 bool steps_by_item(const Stage& stage);
 
 /// Is the error of every step estimated?
 bool judges_all_steps(const Stage& stage);
 
-/// The duration of a stage that has started; infinite where it has none.
+/// The duration of a stage that has started; infinite if it has none.
 double duration_of(const Stage& stage, const System& system, const StageState& state);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Proposes nine tenths of the limit, in two digits, and iterations that keep the time the same.
+// Suggests nine tenths of the limit, with two digits, and iterations that cover the same time.
 #include "run/stage/step_advice.h"
 
 #include <fmt/format.h>
@@ -9,10 +9,10 @@ namespace cascade {
 
 namespace {
 
-/// A speed to try: nine tenths of the limit, two digits.
+/// A speed to suggest: nine tenths of the limit, with two digits.
 double safe_speed(double limit) { return std::stod(fmt::format("{:.2g}", 0.9 * limit)); }
 
-/// `; iterations: N`, for as much time as before.
+/// `; iterations: N` for the same time.
 std::string iterations_for(double speed, const StepInUse& use) {
     const double count = std::ceil(static_cast<double>(use.iterations) * use.speed / speed);
     const bool is_possible = use.iterations > 0 && use.speed > speed && count <= 1e9;
@@ -42,7 +42,7 @@ std::string advise(double limit, const StepInUse& use) {
         used, speed, iterations_for(speed, use));
     if (use.diffusion_limits && !std::isnan(use.speed)) {
         text += ", or longer steps: 'solver: rkl1; speed: auto";
-        // In place of the iterations.
+        // Replaces the iterations.
         if (use.iterations > 0) {
             text +=
                 fmt::format("; duration: {:.6g}", static_cast<double>(use.iterations) * use.speed);

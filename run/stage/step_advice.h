@@ -1,4 +1,4 @@
-// What to write in place of a time step that is too long.
+// Suggests what to write if a time step is too long.
 #pragma once
 
 #include "ir/solver.h"
@@ -12,27 +12,27 @@ namespace cascade {
 
 /// How a stage takes its steps.
 struct StepInUse {
-    double speed = 0;  ///< The length of a step; NaN where it varies by cell.
+    double speed = 0;  ///< The length of a step; NaN if it varies by cell.
     Solver solver = Solver::euler;
-    bool is_chosen = false;  ///< By `speed: auto` or an adaptive solver.
-    std::int64_t iterations =
-        0;  ///< After so many the stage ends; 0 where its duration or `until` ends it.
-    /// Diffusion limits the step and not the reaction, so that stages of Runge-Kutta-Legendre take
-    /// far longer ones.
+    bool is_chosen = false;       ///< By `speed: auto` or an adaptive solver.
+    std::int64_t iterations = 0;  ///< The number of steps after which the stage ends; 0 if its
+                                  ///< duration or `until` ends it.
+    /// Diffusion limits the step, not the reaction, so stages of Runge-Kutta-Legendre can be far
+    /// longer.
     bool diffusion_limits = false;
 };
 
 /// The longest stable step of the solver in use, whose stability interval may be longer than that
-/// of explicit Euler. Empty where the estimate has none, where the solver has no such limit, and
-/// where it is less than 10⁻⁹ of the step in use: then the state has been spoiled already.
+/// of explicit Euler. Empty if the estimate has no eigenvalue, if the solver has no such limit, and
+/// if the limit is less than 10⁻⁹ of the step in use, because the state is then spoiled already.
 std::optional<double> longest_step(const StabilityEstimate& estimate, const StepInUse& use);
 
-/// Is a step so much longer than the limit that this may have spoiled a run? Where it varies by
-/// cell nobody knows, so it is taken to be.
+/// Does the step exceed the limit by so much that this may have spoiled the run? If the step varies
+/// by cell, the answer is yes.
 bool is_too_long(const StepInUse& use, double limit);
 
 /// "the largest stable speed is about 0.83 and this stage's is 1; try 'speed: 0.75; iterations:
-/// 400'", which is the same time, and the solver for long steps where one is worth it.
+/// 400'", which covers the same time, and the solver for long steps if it is worth it.
 std::string advise(double limit, const StepInUse& use);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Says of kernels that they are interpreted.
+// Reports kernels that are interpreted.
 #include "run/stage/step_kernels.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The kernels of a stage's steps, and what is to be said of them.
+// The kernels of a stage's steps, and the remarks on them.
 #pragma once
 
 #include "core/run_control.h"
@@ -19,27 +19,26 @@ public:
 
     void add(KernelPointer kernel) { kernels_.push_back(std::move(kernel)); }
 
-    /// A kernel belongs to the steps, however it is run.
+    /// Adds a kernel of the steps to the identity, whatever runs it.
     void identify(const CellKernel& kernel) {
         identity_ = 0x100000001b3 * (identity_ ^ hash(kernel));
     }
     /// A hash of all of them so far.
     std::uint64_t identity() const { return identity_; }
 
-    /// Says of kernels that could not be compiled, as far as that is known, that they are
-    /// interpreted.
+    /// Reports the kernels that are known to have failed to compile and are interpreted.
     void warn_of_refused(RunControl& control) {
         for (const KernelPointer& kernel : kernels_) {
             if (const Failure* const refusal = kernel->refusal()) warn(*refusal, control);
         }
     }
-    /// May more of them be refused yet?
+    /// May more of them fail yet?
     bool is_provisional() const {
         return std::any_of(kernels_.begin(), kernels_.end(),
                            [](const KernelPointer& kernel) { return kernel->is_provisional(); });
     }
 
-    /// Says that a kernel is interpreted; the same reason is given once.
+    /// Reports that a kernel is interpreted; each reason is given once.
     void warn(const Failure& refusal, RunControl& control);
 
 private:

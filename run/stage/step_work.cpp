@@ -59,7 +59,7 @@ private:
         CHECK(known != kernels_.end(), "the kernels of a problem are known");
         const KernelCost cost = cost_of(known->second, problem_.grid.stencil(), work_.links);
         work_.cost += cost;
-        // Two slots may be one plane.
+        // Two slots may refer to one plane.
         std::set<PlaneKey> read;
         for (const auto& field : pass.fields) read.insert(key_of(field));
         touched_.insert(read.begin(), read.end());
@@ -70,7 +70,7 @@ private:
         link_bytes_ = std::max(link_bytes_, cost.link_bytes);
     }
 
-    /// A tree over the cells: each is loaded once and joins the others once.
+    /// A tree over the cells: each cell is loaded once and combined once.
     void add(const StepProblem::Reduction& reduction) {
         work_.cost.operations += 1;
         work_.cost.loads += 1;
@@ -81,8 +81,8 @@ private:
 
     const StepProblem& problem_;
     const KnownKernels& kernels_;
-    double word_;            ///< Bytes.
-    double link_bytes_ = 0;  ///< Of a cell, of the pass that reads most.
+    double word_;            ///< Bytes of a number.
+    double link_bytes_ = 0;  ///< Per cell, for the pass that reads most.
     std::set<PlaneKey> touched_;
     std::set<const std::uint8_t*> masks_;
     StepWork work_;

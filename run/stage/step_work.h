@@ -1,4 +1,4 @@
-// What a step of a stage costs: operations, loads and stores, bytes that go through memory.
+// What a step of a stage costs: operations, loads and stores, and bytes of memory traffic.
 #pragma once
 
 #include "ir/kernel_cost.h"
@@ -9,24 +9,24 @@
 
 namespace cascade {
 
-/// Per cell and step, where nothing else is said.
+/// Per cell and step, unless stated otherwise.
 struct StepWork {
     KernelCost cost;  ///< Of all passes and aggregates.
-    /// Each pass reads the planes it reads once and writes those it writes once, from whatever
-    /// memory; with the links of cells that lie on no grid. What a cache fetches of a line before
-    /// it is written is not counted.
+    /// Each pass counts the planes that it reads and those that it writes once, wherever they are
+    /// stored, and the links of cells on no grid. Cache lines that are fetched before they are
+    /// written do not count.
     double bytes = 0;
     double working_set =
-        0;             ///< Bytes of all planes, masks and links that a step touches, in all cells.
-    double links = 0;  ///< Of a cell, those included that fill up slices; 0 on grids.
-    std::size_t passes = 0;  ///< In a step.
-    bool has_waves = false;  ///< Waves are filtered besides, which is counted nowhere.
+        0;             ///< Bytes of all planes, masks and links that a step uses, in all cells.
+    double links = 0;  ///< Links of a cell, with the padding of slices; 0 on grids.
+    std::size_t passes = 0;  ///< Passes in a step.
+    bool has_waves = false;  ///< The step also filters waves, which is not counted.
 };
 
-/// The kernels of a problem as what they were made of.
+/// The source kernels of a problem.
 using KnownKernels = std::unordered_map<const Kernel*, CellKernel>;
 
-/// The work of a step; every kernel of the problem is known.
+/// The work of a step; the source of every kernel of the problem must be known.
 StepWork work_of(const StepProblem& problem, const KnownKernels& kernels);
 
 }  // namespace cascade

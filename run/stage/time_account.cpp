@@ -1,4 +1,5 @@
-// A clock that is read whenever the scope changes; the time since then goes to the scope that ends.
+// A clock that is read whenever the scope changes; the time since the last change goes to the scope
+// that ends.
 #include "run/stage/time_account.h"
 
 #include <ctime>

@@ -1,7 +1,7 @@
 // Where the time of a run goes, for `--timing`.
 //
-// The account is kept by the thread that runs: at each moment it does one thing, and a scope within
-// a scope takes the time over. So the parts add up to everything by construction.
+// The thread that runs keeps the account. It does one thing at each moment, and a nested scope
+// takes over the time of the outer one. The parts therefore add up to the whole by construction.
 #pragma once
 
 #include "ir/backend.h"
@@ -17,11 +17,11 @@
 
 namespace cascade {
 
-/// What time is spent on.
+/// The categories of time.
 enum class Spent : std::uint8_t {
-    reading,    ///< Scripts, the files they use, and their check.
-    cells,      ///< Of a model, and what formulas read of places on it.
-    starting,   ///< Starting values, masks, and what no step changes.
+    reading,    ///< Scripts with the files they use, and the check.
+    cells,      ///< The cells of a model, and the values that formulas read from places on it.
+    starting,   ///< Starting values, masks and step-invariants.
     compiling,  ///< From checked formulas to code.
     stepping,
     drawing,  ///< Pictures, frames, logs, files.
@@ -38,17 +38,17 @@ public:
         std::array<double, spent_count> seconds{};  ///< By Spent.
         std::int64_t steps = 0;
         std::int64_t cells = 0;
-        int threads = 1;    ///< That took its last steps.
-        Stepping stepping;  ///< How these went through memory.
+        int threads = 1;    ///< The number of threads of its last steps.
+        Stepping stepping;  ///< How these steps passed through memory.
     };
 
-    /// Begins now, with the rest.
+    /// Begins now, with `rest`.
     TimeAccount();
 
-    /// While it lives time is spent on one thing; scopes nest. Of no account it does nothing.
+    /// Charges time to one category while it lives; scopes nest. Does nothing without an account.
     class Scope {
     public:
-        /// Of a stage, by number; without one, of the stage of the scope around it.
+        /// Of a stage, by number; without one, of the stage of the enclosing scope.
         Scope(TimeAccount* account, Spent what, std::optional<std::uint32_t> stage = std::nullopt);
         ~Scope();
         Scope(const Scope&) = delete;
@@ -60,18 +60,18 @@ public:
         std::optional<std::uint32_t> stage_;
     };
 
-    /// The stage of a number, which is there from now on.
+    /// The stage with this number, added if it is new.
     Stage& stage(std::uint32_t number);
 
-    /// Where kernels came from, up to the last step.
+    /// The origins of kernels, up to the last step.
     KernelCounts kernels;
 
     const std::vector<Stage>& stages() const { return stages_; }
-    /// Seconds so far, in all stages and outside of them. Settles what is going on.
+    /// Seconds so far, in all stages and outside of them. Includes the current scope up to now.
     double seconds(Spent what);
     /// Seconds since the account began: the sum of all parts.
     double seconds();
-    /// Processor time that the program took before, most of it to load its libraries.
+    /// Processor time of the program before that, mostly for loading libraries.
     double seconds_before() const { return before_; }
 
 private:
@@ -81,7 +81,7 @@ private:
     Clock::time_point since_;
     Spent what_ = Spent::rest;
     std::optional<std::uint32_t> stage_;
-    std::array<double, spent_count> outside_{};  ///< Of no stage.
+    std::array<double, spent_count> outside_{};  ///< Outside of stages.
     std::vector<Stage> stages_;
 };
 
