@@ -1,4 +1,4 @@
-// What is simplified, function by function.
+// Simplifications, function by function.
 #include "lang/calculus/algebra.h"
 
 #include "lang/program/fold.h"
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// What is known without computing anything.
+/// Values that are known without computation.
 std::optional<NodeId> Algebra::simpler(Function function, const Operands& operands) {
     const auto [a, b, c] = std::array{operands[0], operands[1], operands[2]};
     const Node& first = (*this)[a];

@@ -1,13 +1,13 @@
-// Expression graphs that simplify themselves, for formulas about formulas (derivatives): values
-// that reach a user's pattern are computed by formulas as they were written.
+// Expression graphs that simplify themselves, for formulas derived from formulas (derivatives).
+// Values of patterns are always computed by formulas as they were written.
 #pragma once
 
 #include "lang/program/flatten.h"
 
 namespace cascade {
 
-/// Numbers are computed. Sums and products are simplified where a 0, a 1 or two numbers meet; a
-/// product with 0 is 0, whatever the other factor.
+/// Constants are folded. Sums and products are simplified if an operand is 0 or 1 or both are
+/// numbers. A product with 0 is 0, even if the other factor may be infinite or NaN.
 class Algebra : public ExpressionGraph {
 public:
     NodeId call(Function function, std::initializer_list<NodeId> operands,
@@ -26,14 +26,14 @@ private:
     std::optional<NodeId> simpler(Function function, const Operands& operands);
 };
 
-/// The rules of calculus give up on formulas larger than this, which cost more than they tell.
+/// The rules of calculus give up on larger formulas, which would cost more than they are worth.
 inline constexpr std::size_t most_calculus_nodes = 100'000;
 
 /// The rates of a system in one graph.
 struct FlatRates {
-    Algebra algebra;  ///< Holds the nodes of the rates first and whatever is made of them after.
+    Algebra algebra;  ///< Holds the nodes of the rates first, then nodes made from them.
     Flattening flattening{algebra};
-    std::size_t count = 0;  ///< Nodes that the rates are made of are below this.
+    std::size_t count = 0;  ///< The nodes below this number belong to the rates.
 
     explicit FlatRates(const System& system) {
         flattening.add_rates(system);

@@ -1,5 +1,5 @@
-// Derivatives of rates: forwards, one species at a time, through a list of parts that definitions
-// and rates share.
+// Derivatives of rates by forward accumulation, one species at a time, over a list of parts that
+// definitions and rates share.
 #include "lang/calculus/derivative.h"
 
 #include "core/check.h"
@@ -15,8 +15,8 @@ namespace cascade {
 
 namespace {
 
-/// The slopes by a species of all parts of the rates. Empty where there is no rule for one that a
-/// rate needs, and where they are too many.
+/// The slopes by a species of all parts of the rates. Empty if there is no rule for a part that a
+/// rate needs, or if there are too many slopes.
 std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
                                                   std::uint32_t species) {
     IdVector<NodeId, Slopes> slopes;
@@ -29,8 +29,8 @@ std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& 
     return slopes;
 }
 
-/// The bounds of one line of the matrix of slopes: of a rate by every species, or of every rate by
-/// a species.
+/// The bounds of one row or column of the matrix of slopes: of a rate by every species, or of every
+/// rate by one species.
 class LineBound {
 public:
     explicit LineBound(Algebra& algebra)
@@ -50,11 +50,11 @@ public:
     }
 
     NodeId whole() const { return whole_; }
-    /// Without the growth of waves.
+    /// Without growth of waves.
     NodeId at_rest() { return algebra_.sum(algebra_.magnitude(own_), others_); }
     bool has_cross_diffusion() const { return !cross_diffusion_.empty(); }
 
-    /// What waves of all lengths grow by at most, or the reaction alone.
+    /// The largest growth of waves of any length, or the reaction alone.
     NodeId reaction() {
         NodeId most = algebra_.magnitude(own_);
         for (const double x : lengths()) most = algebra_.maximum(most, growth(x));
@@ -62,9 +62,9 @@ public:
     }
 
 private:
-    /// The parts x of the largest gain at which waves are looked at. Growth that is linear in x is
-    /// largest at an end; where operators lie in each other, between: steps of √2 miss 4 % of a
-    /// parabola at most.
+    /// The values of x, relative to the largest gain, at which the growth of waves is evaluated.
+    /// Growth that is linear in x is largest at an end; for nested operators it may be largest in
+    /// between. Steps of √2 miss 4 % of a parabola at most.
     std::vector<double> lengths() const {
         std::size_t degree = 0;
         for (const auto* diffusions : {&own_diffusion_, &cross_diffusion_}) {
@@ -112,7 +112,7 @@ Formula over_domain(Algebra& algebra, NodeId part) {
                                                    : algebra.call(Function::domain_max, {part}));
 }
 
-/// The matrix of slopes, by rate and species, as its rows and its columns.
+/// The matrix of slopes by rate and species, as rows and columns.
 class SlopeMatrix {
 public:
     SlopeMatrix(Algebra& algebra, std::size_t species)
@@ -134,8 +134,8 @@ public:
         return largest(algebra_, parts);
     }
 
-    /// A matrix has the eigenvalues of its transpose: where one species drags another along, as
-    /// bait does cells, its column may say less growth than the other's row.
+    /// A matrix has the eigenvalues of its transpose. If one species drags another along, as bait
+    /// does cells, its column may give a smaller bound than the other's row.
     NodeId reaction() {
         const NodeId by_rows = growth_in(rows_);
         const auto crosses = [](const LineBound& row) { return row.has_cross_diffusion(); };

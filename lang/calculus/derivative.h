@@ -1,4 +1,5 @@
-// Derivatives of a system's rates by its species, found by the rules of calculus and simplified.
+// Derivatives of a system's rates with respect to its species, by the rules of calculus and
+// simplified.
 #pragma once
 
 #include "lang/program/models.h"
@@ -8,29 +9,30 @@
 
 namespace cascade {
 
-/// ∂(rate of species item `of`) / ∂(value of species item `by` in the same cell), what operators
-/// read of neighbours and what is taken over the domain held fixed. Definitions and other rates are
-/// put in. Empty where a function without a rule depends on the species.
+/// ∂(rate of species item `of`) / ∂(value of species item `by` in the same cell). Values that
+/// operators read at neighbours, and aggregates, are held constant. Definitions and other rates are
+/// expanded. Empty if a function without a rule depends on the species.
 std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage,
                                        std::uint32_t of, std::uint32_t by);
 
-/// Bounds of the Jacobian J of the rates in a state, each one number: the largest of all cells (an
-/// aggregate over the domain). Coefficients of operators are taken at the cell itself; see
+/// Bounds of the Jacobian J of the rates in a state. Each is one number, the largest over all cells
+/// (an aggregate over the domain). Coefficients of operators are taken at the cell itself; see
 /// slopes.h.
 struct JacobianBound {
-    /// Of the magnitude of the eigenvalues: the largest Σ |J_ij| of a row i, j being species and
-    /// cells (S. Gerschgorin, 1931). It bounds the step of an explicit method, or its stages.
+    /// Of the magnitude of the eigenvalues: the largest Σ |J_ij| of a row i, where i and j are
+    /// pairs of a species and a cell (S. Gerschgorin, 1931). It limits the step, or the number of
+    /// stages, of an explicit method.
     Formula whole;
-    /// Of what stages do not tame: the reaction, waves, and the growth that operators cause, as
-    /// -lap(c) does in lap(c^3 - c - lap(c)). It bounds the step of a stabilised method.
+    /// Of the part that stages do not stabilise: the reaction, waves, and the growth that operators
+    /// cause, as -lap(c) does in lap(c^3 - c - lap(c)). It limits the step of a stabilised method.
     Formula reaction;
-    /// Does a rate jump where a species passes a threshold? The reaction is faster there than it
-    /// says.
+    /// Does a rate jump where a species passes a threshold? The reaction is then faster there than
+    /// the bound.
     bool jumps = false;
 };
 
-/// Empty as above, or where the formulas become too large. `model` is what is known of the model
-/// that is the domain; null on grids.
+/// Empty as above, or if the formulas become too large. `model` has facts about the model that is
+/// the domain; null on grids.
 std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage,
                                             const ModelFacts* model = nullptr);
 

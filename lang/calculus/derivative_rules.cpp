@@ -1,11 +1,11 @@
-// The rules of calculus: the column `slope` of lang/vocabulary/elementary.def.
+// The rules of calculus, from the column `slope` of lang/vocabulary/elementary.def.
 #include "lang/calculus/derivative_rules.h"
 
 namespace cascade {
 
 namespace {
 
-/// Formulas of a rule, written as they are on paper.
+/// Lets rules be written like formulas on paper.
 struct Term {
     Algebra* algebra;
     NodeId id;
@@ -49,7 +49,8 @@ Term clamp_slope(Term v, Term low, Term high, std::size_t n) {
     return n == 1 ? where(is_low, one, zero) : where(is_low, zero, where(is_high, one, zero));
 }
 
-/// Of 3 p² − 2 p³ with p = (v − a) / (b − a) inside 0 … 1. There is no rule by a and b.
+/// The derivative of 3 p² − 2 p³ with p = (v − a) / (b − a) inside 0 … 1. There is no rule for a
+/// and b.
 std::optional<Term> smooth_step_slope(Term a, Term b, Term v, std::size_t n) {
     if (n != 2) return std::nullopt;
     const Term p = (v - a) / (b - a), zero = v.number(0), one = v.number(1);
@@ -66,7 +67,7 @@ std::optional<Term> slope_of(Algebra& algebra, const Node& call, std::size_t n) 
 #define CASCADE_ELEMENTARY(id, value, kernel, slope) case Function::id: return slope;
 #include "lang/vocabulary/elementary.def"
         // clang-format on
-        // mean + spread · noise, the noise at most 1 in magnitude.
+        // Mean + spread · noise, where |noise| ≤ 1.
         case Function::random: return one;
         default: return std::nullopt;
     }
@@ -75,7 +76,7 @@ std::optional<Term> slope_of(Algebra& algebra, const Node& call, std::size_t n) 
 }  // namespace
 
 std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n) {
-    const Node copy = call;  // It may be one of the algebra's, whose list grows.
+    const Node copy = call;  // A copy, since `call` may refer into the algebra's list, which grows.
     const auto slope = slope_of(algebra, copy, n);
     if (!slope) return std::nullopt;
     return slope->id;

@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// ∂(the call)/∂(its operand n), where its function has a rule for it. Operators of derivatives
-/// have none here: lang/calculus/slopes.h.
+/// ∂(the call)/∂(its operand n), if its function has a rule for it. Operators of derivatives have
+/// none here: see lang/calculus/slopes.h.
 std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Forwards through the parts of the rates: each as a sum of operators applied to the species.
+// Goes forwards through the parts of the rates and writes each as a sum of operators applied to the
+// species.
 #include "lang/calculus/diffusion.h"
 
 #include "lang/calculus/derivative_rules.h"
@@ -14,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// How a part changes with the species: itself, then the operators of DiffusionTerms.
+/// How a part changes with the species: directly, then through the operators of DiffusionTerms.
 struct Operators {
     NodeId own;
     DiffusionTerms<NodeId> terms{};
@@ -25,7 +26,7 @@ public:
     Linearisation(FlatRates& rates, std::uint32_t species)
         : rates_(rates), algebra_(rates.algebra), species_(species), zero_(algebra_.number(0)) {}
 
-    /// The operators of all parts; fewer where they become too many.
+    /// The operators of all parts; fewer if there are too many nodes.
     IdVector<NodeId, Operators> run() && {
         found_.reserve(rates_.count);
         while (found_.size() < rates_.count && algebra_.size() < most_calculus_nodes) {
@@ -66,7 +67,7 @@ private:
         const bool is_vector = node.type == ValueType::vector;
         for (std::size_t n = 0; n < node.operand_count; ++n) {
             const NodeId operand = node.operands[n];
-            // The change of a factor times a gradient is a drift.
+            // A factor that depends on the species, times a gradient, is drift.
             if (is_vector && algebra_[operand].type != ValueType::vector) continue;
             if (is_nothing(found_[operand])) continue;
             const auto partial = partial_derivative(algebra_, node, n);
@@ -85,7 +86,7 @@ private:
         for (std::size_t k = 0; k < diffusion_terms; ++k) add_one(sum.terms[k], operators.terms[k]);
     }
 
-    /// Higher powers than there are, and lap of one axis' operator, are left out.
+    /// Drops powers beyond the last, and lap of an operator along one axis.
     Operators laplacian(const Operators& of) const {
         Operators result = nothing();
         result.terms[0] = of.own;
@@ -99,8 +100,8 @@ private:
         return result;
     }
 
-    /// a11 dxx + a22 dyy + 2 a12 dxy, of which no wave is damped more than by (a11 + |a12|) dxx +
-    /// (a22 + |a12|) dyy: the symbol of dxy is no larger than the mean of those of dxx and dyy.
+    /// a11 dxx + a22 dyy + 2 a12 dxy damps no wave more than (a11 + |a12|) dxx + (a22 + |a12|) dyy:
+    /// the symbol of dxy is no larger than the mean of those of dxx and dyy.
     Operators directed(const Node& node) {
         Operators result = nothing();
         const NodeId own = found_[node.operands[0]].own;

@@ -1,4 +1,5 @@
-// What of each rate is diffusion of its own species: what semi-implicit solvers take implicitly.
+// The part of each rate that is diffusion of its own species, which semi-implicit solvers take
+// implicitly.
 #pragma once
 
 #include "ir/diffusion.h"
@@ -9,15 +10,15 @@
 
 namespace cascade {
 
-/// A formula for each factor of a species' diffusion; without nodes where it is 0. The largest
-/// value over the cells is what counts.
+/// A formula for each factor of a species' diffusion; no nodes if it is 0. Its largest value over
+/// the cells is used.
 using SpeciesDiffusion = DiffusionTerms<Formula>;
 
-/// The rate of each species, linearised by the species itself at the present state with factors
-/// that vary as if they did not: what stands before lap, lap(lap), …, dxx, dyy, dzz. div(k *
-/// grad(e)) is k lap(e); of diffuse the part across axes is added to both sides of the diagonal,
-/// whose damping is then no less than the whole. All else (advection, tensors in fluxes, what draws
-/// random numbers, other species) is no part of it.
+/// The diffusion of each species: its rate is linearised by the species itself at the present
+/// state, as if factors were the same in all cells, and the factors of lap, lap(lap), …, dxx, dyy,
+/// dzz are collected. div(k * grad(e)) counts as k lap(e). The part of diffuse across the axes is
+/// added to both diagonal entries, so that they damp at least as much as the whole. Everything else
+/// (advection, tensors in fluxes, random numbers, other species) is left out.
 std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage);
 
 /// Can the formula's value change while a stage runs?

@@ -1,4 +1,4 @@
-// Comparisons whose operands may be NaN.
+// Finds comparisons whose operands may be NaN.
 #include "lang/calculus/lost_numbers.h"
 
 #include "lang/program/nodes_of_rates.h"
@@ -9,7 +9,7 @@
 #include <utility>
 
 namespace cascade {
-/// Can it make a NaN of finite numbers?
+/// Can it produce a NaN from finite numbers?
 bool LostNumbers::makes_nan(const Node& node) const {
     const auto second = [&]() -> const Node& { return flat_.algebra[node.operands[1]]; };
     switch (info(node.function).behaviour) {
@@ -36,7 +36,7 @@ void LostNumbers::know_all_parts() {
                 may = may || may_be_nan_[operand];
                 is_of_file = is_of_file || reads_file_[operand];
             }
-            // A comparison is 0 or 1, whatever is compared.
+            // A comparison is 0 or 1, even of NaN.
             may = may && !is_of_file && !is_comparison(node.function);
         }
         may_be_nan_.push_back(may);
@@ -48,8 +48,8 @@ bool LostNumbers::is_random(NodeId root) const {
     return holds_in(flat_.algebra.formula(root), is_draw);
 }
 
-/// Finds the comparisons of a formula and the conditions under which they matter. It does not
-/// recurse, however deep a formula is.
+/// Finds the comparisons of a formula and the conditions under which they matter, without
+/// recursion, so that formulas may be of any depth.
 class LostNumbers::Search {
 public:
     Search(Algebra& algebra, const IdVector<NodeId, bool>& may_be_nan)
@@ -70,10 +70,10 @@ public:
 
 private:
     static constexpr std::size_t none = SIZE_MAX;
-    /// Formulas of users have a few.
+    /// Users' formulas have a few.
     static constexpr std::size_t most_found = 64, most_guards = 64;
 
-    /// A part that must not be 0, or that must be, and the guards around it.
+    /// A part that must not be 0, or must be 0, and the guards around it.
     struct Guard {
         NodeId part;
         bool is_zero = false;
@@ -87,7 +87,7 @@ private:
         return guards_.size() - 1;
     }
 
-    /// What is read twice is looked at once.
+    /// A node that is read twice is visited once.
     void visit_later(NodeId id, std::size_t guard) {
         if (seen_[id] || (guard != none && guards_[guard].depth > most_guards)) return;
         seen_[id] = true;

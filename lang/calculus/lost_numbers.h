@@ -1,4 +1,4 @@
-// Where a NaN is lost on its way through a formula, so that no value of a species ever shows it.
+// Finds places where a NaN in a formula is lost, so that no species ever shows it.
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -8,27 +8,27 @@
 
 namespace cascade {
 
-/// A part of a formula that may be NaN, and whose NaN nobody would see.
+/// A part of a formula that may be NaN unnoticed.
 struct LostNumber {
-    Formula is_lost;  ///< Not 0 in cells where that has happened.
+    Formula is_lost;  ///< Not 0 in the cells where that happens.
     Span span;        ///< Of the part.
 };
 
-/// Looks through formulas of a system.
+/// Searches the formulas of a system.
 class LostNumbers {
 public:
     explicit LostNumbers(const System& system) : flat_(system) {}
 
-    /// The operands of comparisons in a formula that may be NaN by a root, a logarithm, a quotient,
-    /// a power or an arc: a comparison with NaN is false. Not where a condition around it decides
-    /// that the comparison does not matter, as in `if(u > 0, sqrt(u) < 1, 0)` or `u > 0 and sqrt(u)
-    /// < 1`. Formulas that draw random numbers have none here, for they would draw others, and so
-    /// have parts that read files, in which NaN may be meant.
+    /// The operands of comparisons in a formula that may be NaN because of a root, a logarithm, a
+    /// quotient, a power or an arc function: a comparison with NaN is false. Operands are left out
+    /// if a condition decides that the comparison does not matter, as in `if(u > 0, sqrt(u) < 1,
+    /// 0)` or `u > 0 and sqrt(u) < 1`. Formulas that draw random numbers are left out, because a
+    /// check would draw others, and so are parts that read files, in which NaN may be meant.
     std::vector<LostNumber> in_comparisons(const Formula& formula);
     std::vector<LostNumber> in_rate(std::uint32_t item);
 
-    /// The whole formula, if it may be NaN in the same way: that of a bound, which is none where it
-    /// is NaN, or of a condition.
+    /// The whole formula of a bound or a condition, if it may be NaN in the same way: a bound that
+    /// is NaN holds nothing.
     std::vector<LostNumber> as_whole(const Formula& formula);
 
 private:

@@ -1,4 +1,5 @@
-// By how much operators multiply waves, on the plane and on a surface, and values of vectors.
+// The factors by which operators multiply waves, on the plane and on a surface, and the values of
+// vectors.
 #include "lang/calculus/slopes.h"
 
 #include "core/check.h"
@@ -17,10 +18,10 @@ NodeId SlopeRules::metric(MetricPlane plane) {
     return algebra_.leaf(NodeKind::metric, static_cast<std::uint32_t>(plane));
 }
 
-/// 2 / h: a difference across a face counts both cells. On a surface times what Ṽ⁻¹ makes of it;
-/// the second direction has parts of columns and of rows.
+/// 2 / h: a difference across a face counts both cells. On a surface it is multiplied by entries of
+/// Ṽ⁻¹; the second direction has parts along columns and along rows.
 NodeId SlopeRules::gradient_gain(std::size_t axis) {
-    // A gradient and a divergence are a Laplacian, whose parts are those of three axes.
+    // A gradient and a divergence make a Laplacian, which has parts along three axes.
     if (links_) return number(std::sqrt(2 * *links_ / 3));
     const NodeId plane = number(2 / grid_.spacing);
     if (!has_metric_) return plane;
@@ -29,8 +30,8 @@ NodeId SlopeRules::gradient_gain(std::size_t axis) {
     return product(plane, sum(size(MetricPlane::inverse_12), size(MetricPlane::inverse_22)));
 }
 
-/// The largest factor of an operator that makes all waves decay. Of lap: neighbours count 1 each
-/// and the cell as much as all of them; of a tensor its trace counts (see times_tensor).
+/// The largest factor of an operator that makes all waves decay. For lap, each neighbour counts 1
+/// and the cell as much as all of them; for a tensor, its trace counts (see times_tensor).
 std::optional<NodeId> SlopeRules::diffusion_gain(const Node& node) {
     const double along_axis = 4 / (grid_.spacing * grid_.spacing);
     switch (node.function) {
@@ -62,7 +63,7 @@ std::optional<NodeId> SlopeRules::diffusion_gain(const Node& node) {
     return product(number(4), sum(in_columns, product(product(r, r), a22)));
 }
 
-/// Of the other operators, and of aggregates.
+/// The gains of the other operators and of aggregates.
 std::optional<NodeId> SlopeRules::other_gain(const Node& node) {
     const double h = grid_.spacing;
     const Derivative derivative = derivative_of(node.function);
@@ -81,8 +82,8 @@ NodeId SlopeRules::derivative(NodeId of, std::size_t axis) {
     return algebra_.call(functions[axis], {of});
 }
 
-/// A vector's components at the cell itself. Operands come before what reads them, so that they
-/// have been noted.
+/// The components of a vector at the cell itself. Operands come before their readers, so they have
+/// been recorded.
 void SlopeRules::note_components(NodeId vector, const Node& node) {
     if (!components_.contains(vector)) components_.emplace(vector, components_of(node));
 }

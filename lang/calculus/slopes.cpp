@@ -60,7 +60,8 @@ Slope SlopeRules::through_other(const Slope& slope, NodeId gain) {
     return {zero_, far, {}, far, slope.jumps};
 }
 
-/// A factor's slope in a product that goes to faces: what of it is diffusion there cannot be told.
+/// The slope of a factor in a product that is averaged at faces, where diffusion cannot be told
+/// from the rest.
 Slope SlopeRules::as_other(const Slope& slope, NodeId factor) {
     const NodeId far = product(slope.far, magnitude(factor));
     return {product(slope.own, factor), far, {}, far, slope.jumps};
@@ -78,7 +79,7 @@ std::optional<Slopes> SlopeRules::slopes_of(NodeId id, std::uint32_t species,
         for (const Slope& slope : before[operand]) depends |= !is_zero(slope);
     }
     if (node.type == ValueType::tensor) {
-        // A tensor that turns with a species has no rule.
+        // There is no rule for a tensor that turns with a species.
         if (depends) return std::nullopt;
         return slopes;
     }
@@ -128,7 +129,7 @@ Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     Slope slope = zero();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!has_axis(axis)) continue;
-        // A central difference reads as far as two faces and has half the gain of one.
+        // A central difference spans two faces and has half the gain of one.
         const NodeId along = magnitude(derivative(node.operands[0], axis));
         add(slope, through_other(inner, product(along, gradient_gain(axis))));
     }
@@ -162,7 +163,7 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
     return slope;
 }
 
-/// What is averaged at faces counts half as a wave: (c + E)/2 − (c + W)/2 leaves (E − W)/2.
+/// A value that is averaged at faces counts half as a wave: (c + E)/2 − (c + W)/2 leaves (E − W)/2.
 Slope SlopeRules::of_divergence(const Slopes& flux) {
     Slope slope = zero();
     Node vector;
@@ -189,8 +190,8 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
             slope.diffusion[k] = sum(slope.diffusion[k], product(gain, along.diffusion[k]));
         }
     }
-    // On a model components make no flux: that of the cell itself is bounded as those of neighbours
-    // are.
+    // On a model components make no flux, so the change of the cell's own value is bounded like
+    // those of its neighbours.
     if (changes && !links_) slope.own = algebra_.call(Function::div, {algebra_.add(vector)});
     return slope;
 }
@@ -245,8 +246,8 @@ std::optional<Slopes> SlopeRules::of_product(const Node& node,
     return slopes;
 }
 
-/// Of a gradient the diagonal is enough: p² a11 + q² a22 + 2 p q √(1 − p²) √(1 − q²) a12 is the
-/// symbol of div(A grad e) in units of 4/h², p and q being sines; it is never above a11 + a22 where
+/// For a gradient the diagonal is enough: in units of 4/h², with sines p and q, the symbol of div(A
+/// grad e) is p² a11 + q² a22 + 2 p q √(1 − p²) √(1 − q²) a12, which never exceeds a11 + a22 if
 /// a12² ≤ a11 a22.
 Slopes SlopeRules::times_tensor(NodeId tensor, const Slopes& flux) {
     const Node node = algebra_[tensor];

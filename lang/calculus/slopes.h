@@ -1,11 +1,11 @@
-// How parts of a formula change with a species: by the own cell's value and through operators
+// How parts of a formula change with a species, through the cell's own value and through operators
 // (internal to derivative.cpp).
 //
-// Through operators the coefficients count as if they were the same all around ("frozen"): then an
-// operator is a factor for each wave. Those of diffusion make no wave grow and the shortest one
-// decay fastest: the factor is −gain · x with x from 0 (long waves) to 1. After several of them it
-// is a polynomial of x, of which the coefficients are kept; so is what decays kept apart from what
-// may grow.
+// For operators, coefficients count as if they were the same all around the cell ("frozen"); an
+// operator then multiplies each wave by a factor. Operators of diffusion make no wave grow and damp
+// the shortest one most: the factor is −gain · x, with x from 0 (long waves) to 1. Several of them
+// in each other give a polynomial of x, whose coefficients are kept, so that decay and possible
+// growth stay separate.
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -22,28 +22,28 @@ namespace cascade {
 /// The change of a number, or of one component of a vector at the faces.
 struct Slope {
     NodeId own;  ///< The derivative by the cell's own value, without operators.
-    /// Σ of the magnitudes of the derivatives through operators and aggregates, by all cells: no
+    /// Σ of the magnitudes of the derivatives through operators and aggregates, over all cells: no
     /// wave is multiplied by more. Never below 0.
     NodeId far;
-    /// What of it is diffusion: diffusion[k] is the coefficient of (−x)^(k+1). Of a vector's
-    /// component [k] is the factor of the gradient of what would be (−x)^k, so that its divergence
+    /// The part that is diffusion: diffusion[k] is the coefficient of (−x)^(k+1). For a vector's
+    /// component, [k] is the factor of the gradient of what would be (−x)^k, so that its divergence
     /// has the same coefficients.
     std::vector<NodeId> diffusion;
-    /// The magnitude of what is not: waves that travel, mixed derivatives, aggregates.
+    /// The magnitude of the rest: waves that travel, mixed derivatives, aggregates.
     NodeId other;
-    /// Does it jump where the species passes a threshold? No derivative knows of it.
+    /// Does it jump where the species passes a threshold? The derivatives do not show this.
     bool jumps = false;
 };
-/// Of a number the first one; of a vector one for each axis.
+/// For a number the first one; for a vector one for each axis.
 using Slopes = std::array<Slope, 3>;
 
 class SlopeRules {
 public:
-    /// `model` may be null where nothing beyond the own cell is asked for.
+    /// `model` may be null if only the cell's own value is needed.
     SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model);
 
-    /// The slopes of part `id` by species item `species`, given those of all parts before it. Empty
-    /// where the part depends on the species and there is no rule for it.
+    /// The slopes of part `id` by species item `species`, given those of all earlier parts. Empty
+    /// if the part depends on the species and has no rule.
     std::optional<Slopes> slopes_of(NodeId id, std::uint32_t species,
                                     const IdVector<NodeId, Slopes>& before);
 
@@ -66,10 +66,10 @@ private:
     std::optional<Slopes> of_product(const Node& node, const IdVector<NodeId, Slopes>& before);
     Slopes times_tensor(NodeId tensor, const Slopes& flux);
 
-    // Gains of operators, which the surface changes, and values of vectors.
+    // Gains of operators, which depend on the surface, and values of vectors.
     std::optional<NodeId> diffusion_gain(const Node& node);
     std::optional<NodeId> other_gain(const Node& node);
-    NodeId gradient_gain(std::size_t axis);  ///< Of the derivative along a direction, by faces.
+    NodeId gradient_gain(std::size_t axis);  ///< Of the derivative along a direction, with faces.
     NodeId metric(MetricPlane plane);
     void note_components(NodeId vector, const Node& node);
     std::array<NodeId, 3> components_of(const Node& node);

@@ -1,4 +1,4 @@
-// Marks parts bottom-up, then takes the largest ones that depend on nothing but time.
+// Marks parts bottom-up, then takes the largest ones that depend on time alone.
 #include "lang/calculus/time_parts.h"
 
 #include "lang/calculus/algebra.h"
@@ -9,10 +9,10 @@ namespace cascade {
 
 namespace {
 
-/// What is known of a part of a formula.
+/// Facts about a part of a formula.
 struct Kind {
-    bool is_of_time = false;  ///< It reads constants and `t` alone,
-    bool reads_time = false;  ///< and `t` among them.
+    bool is_of_time = false;  ///< It reads only constants and `t`,
+    bool reads_time = false;  ///< and `t` is among them.
 };
 
 Kind kind_of(const Node& node, const IdVector<NodeId, Kind>& before, const Program& program,

@@ -1,4 +1,4 @@
-// What of a system's rates depends on the time alone.
+// The parts of a system's rates that depend on time alone.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// The largest parts of a stage's rates that read `t` and are a function of it and of constants
-/// alone: the same in all cells, whatever the species are. In u' = exp(-(t - 50)^2) * sx - u that
-/// is the exponential.
+/// The largest parts of a stage's rates that read `t` and otherwise only constants. They are the
+/// same in all cells and independent of the species. In u' = exp(-(t - 50)^2) * sx - u this is the
+/// exponential.
 std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Places are computed from the numbers of columns, rows and slices; those of a model's cells lie in
-// planes.
+// Places are computed from the numbers of columns, rows and slices. The cells of a model have
+// theirs in planes.
 #include "lang/lower/cell_place.h"
 
 #include "core/check.h"
@@ -8,7 +8,8 @@
 
 namespace cascade::lowering {
 
-/// The column, row or slice: beyond a side that of the opposite cell, or of the cell at the side.
+/// The number of the column, row or slice; beyond a side, that of the opposite cell or of the cell
+/// at the side.
 ValueId CellPlace::number(int axis) {
     const Grid& grid = assembly_.program().domain.grid;
     const std::array sides{grid.width, grid.height, grid.depth};
@@ -35,7 +36,7 @@ ValueId CellPlace::coordinate(int axis, std::int64_t side) {
     const ValueId number = builder_.apply(Op::bits_to_number, this->number(axis));
     const ValueId centre = builder_.add(number, builder_.number(0.5));
     const ValueId place = builder_.divide(centre, builder_.number(static_cast<double>(side)));
-    builder_.keep(place);  // Where a cell lies is one number everywhere.
+    builder_.keep(place);  // Not contracted, so the place is the same in all formulas.
     return place;
 }
 
@@ -50,7 +51,7 @@ ValueId CellPlace::builtin(Builtin builtin) {
         case Builtin::sz: return coordinate(2, grid.depth);
         case Builtin::t: return assembly_.time(at_);
         case Builtin::step: return assembly_.step();
-        // A plane lies flat, and looks up.
+        // The normal of a plane is (0, 0, 1).
         case Builtin::nx:
         case Builtin::ny:
         case Builtin::curvature:
@@ -88,7 +89,7 @@ ValueId CellPlace::content() {
     return builder_.number(std::pow(grid.spacing, axes));
 }
 
-/// The hash of a draw knows columns and rows; slices other than the first change the draw.
+/// The hash of a draw takes column and row; slices other than the first modify the result.
 ValueId CellPlace::draw(ValueId draw) {
     if (assembly_.program().domain.model) {
         builder_.set_cell(of_model(ModelPlane::number));

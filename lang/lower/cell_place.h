@@ -1,4 +1,4 @@
-// Where a cell is: what functions of the place are made of (internal to lowering).
+// The place of a cell, from which functions of the place are computed (internal to lowering).
 #pragma once
 
 #include "ir/space.h"

@@ -13,10 +13,10 @@ namespace cascade::lowering {
 
 namespace {
 
-/// What ends further on in a formula is not shown.
+/// Parts of a formula after this node are not shown.
 constexpr NodeId longest_shown{60};
 
-/// What the script does not contain: entries of a tensor, and what operators are made of on a
+/// Nodes that the script does not contain: entries of a tensor, and the parts of operators on a
 /// surface.
 std::string describe_made(const PlanGraph& graph, const Node& node) {
     const bool is_sine = node.calls(Function::sin);
@@ -26,7 +26,7 @@ std::string describe_made(const PlanGraph& graph, const Node& node) {
     return "an entry of a tensor";
 }
 
-/// How a node is written, or what it is called.
+/// The text of a node, or its name.
 std::string name_of(const PlanGraph& graph, NodeId id) {
     const std::string& name = graph.name(id);
     if (!name.empty()) return name;
@@ -90,8 +90,7 @@ std::string describe(const PlanGraph& graph, const PassPlanner& planner, const S
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
     }
-    std::vector<std::pair<std::string, std::size_t>>
-        step_invariants;  // With the number of each name.
+    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // By name, with its number.
     for (const NodeId id : graph.ids()) {
         if (!planner.is_needed(id) || !planner.is_step_invariant(id)) continue;
         std::string words = describe_step_invariant(graph, id);

@@ -1,4 +1,4 @@
-// The walk that all passes share, and the small passes.
+// The traversal that all passes share, and the small passes.
 #include "lang/lower/graph_passes.h"
 
 #include <limits>
@@ -7,7 +7,7 @@ namespace cascade::lowering {
 
 namespace {
 
-/// tensor(a1, a2, theta) is made of its entries, and diffuse takes one.
+/// Replaces tensor(a1, a2, theta) by its entries; diffuse takes a tensor.
 class Tensors : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -27,7 +27,7 @@ class Tensors : public GraphPass {
     }
 };
 
-/// lap(a, e) of an a that is the same in all cells is a * lap(e).
+/// Turns lap(a, e) into a * lap(e) if a is the same in all cells.
 class EvenWeights : public GraphPass {
 public:
     EvenWeights(const Expressions& from, const PassContext& context)
@@ -43,7 +43,7 @@ private:
     IdVector<NodeId, bool> is_uniform_;
 };
 
-/// Where cells have areas, those count.
+/// Weights aggregates by the areas of cells.
 class Areas : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -60,7 +60,7 @@ class Areas : public GraphPass {
     }
 };
 
-/// An aggregate over the domain takes outside of the mask what changes nothing.
+/// Replaces the operand of an aggregate outside of the mask by a value without effect.
 class MaskedAggregates : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -70,7 +70,7 @@ class MaskedAggregates : public GraphPass {
             node.function == Function::domain_sum || node.function == Function::domain_mean;
         const Node& of = graph()[node.operands[0]];
         const bool is_item = of.kind == NodeKind::own || of.kind == NodeKind::earlier;
-        // Items that vary are 0 there.
+        // Items that vary are 0 outside.
         if (adds && is_item && differs_by_cell(of, false, context().program, context().stage)) {
             return keep(node);
         }

@@ -1,8 +1,8 @@
-// The passes of lowering, each of which makes one expression graph of another (internal to
+// The passes of lowering, each of which turns one expression graph into another (internal to
 // lowering).
 //
-// lower_expressions.cpp has the list. After the last pass a graph knows of cells, planes and links
-// alone: what a surface, a model or a mask changes about an operator is written out.
+// lower_expressions.cpp has the list. After the last pass a graph contains only cells, planes and
+// links: the effects of a surface, a model or a mask on operators are written out.
 #pragma once
 
 #include "lang/program/flatten.h"
@@ -14,22 +14,22 @@
 
 namespace cascade::lowering {
 
-/// The expressions of a plan on their way through the passes.
+/// The expressions of a plan between passes.
 struct Expressions {
     ExpressionGraph graph;
-    std::vector<NodeId> roots;  ///< The values that are asked for.
+    std::vector<NodeId> roots;  ///< The requested values.
     std::vector<Origin> origins;
-    /// What a user calls the values of definitions and rates; the first name of a node counts.
+    /// The names of definitions and rates; the first name of a node counts.
     std::vector<std::pair<NodeId, std::string>> names;
 };
 
-/// The cells that expressions are about.
+/// The cells to which expressions apply.
 enum class Extent : std::uint8_t {
-    domain,  ///< Those inside the mask, where there is one.
-    grid,    ///< All, whatever the mask.
+    domain,  ///< Those inside the mask, if there is one.
+    grid,    ///< All, even with a mask.
 };
 
-/// What passes know besides the graph.
+/// Further arguments of passes.
 struct PassContext {
     const Program& program;
     std::uint32_t stage = 0;
@@ -37,11 +37,11 @@ struct PassContext {
 
     bool has_metric() const { return program.domain.surface && program.domain.surface->has_metric; }
     bool has_model() const { return program.domain.model.has_value(); }
-    /// Are there cells of the grid that are no part of the domain?
+    /// Are there cells of the grid outside of the domain?
     bool has_mask() const { return program.domain.mask && extent == Extent::domain; }
 };
 
-/// A pass goes through the nodes that roots need, operands first, and makes something of each in a
+/// A pass goes through the nodes that roots need, operands first, and replaces each by nodes of a
 /// new graph.
 class GraphPass {
 public:
@@ -52,14 +52,14 @@ public:
     Expressions run();
 
 protected:
-    /// What becomes of a node whose operands are those of the new graph already.
+    /// Replaces a node whose operands are nodes of the new graph already.
     virtual NodeId image_of(const Node& node) = 0;
-    /// The node as it is, where it was written.
+    /// Copies the node, with the place where it was written.
     NodeId keep(const Node& node) { return graph().add(node, from_.graph.written(at_)); }
 
     ExpressionGraph& graph() { return to_.graph; }
     const PassContext& context() const { return context_; }
-    /// The node of the old graph whose image is made.
+    /// The node of the old graph that is being replaced.
     NodeId at() const { return at_; }
     const ExpressionGraph& old() const { return from_.graph; }
     NodeId image(NodeId old) const { return images_[old]; }
@@ -89,11 +89,11 @@ Expressions leave_out_masked_cells(const Expressions& from, const PassContext& c
 /// The nodes that a list of them needs, directly or through others.
 IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, const std::vector<NodeId>& roots);
 
-/// Which nodes are the same in all cells.
+/// Finds the nodes that are the same in all cells.
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);
 
-/// The difference across a side, for a derivative `value` along its outward unit normal: on a
-/// surface cells have lengths. Of surfaces whose rows and columns meet at right angles there.
+/// The difference across a side, from a derivative `value` along its outward unit normal: on a
+/// surface cells have lengths. Only for surfaces whose rows and columns meet at right angles there.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side);
 
 }  // namespace cascade::lowering

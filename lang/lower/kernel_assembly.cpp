@@ -1,4 +1,4 @@
-// Slots by the names of what they hold.
+// Finds slots by names of their contents.
 #include "lang/lower/kernel_assembly.h"
 
 #include "core/check.h"
@@ -22,8 +22,8 @@ SlotSource::Kind slot_of_text(Function function) {
 
 namespace cascade::lowering {
 
-/// No name of the language holds a dot or begins with a bracket, so that no two kinds of names can
-/// meet.
+/// No name of the language contains a dot or begins with a bracket, so different kinds of names
+/// cannot collide.
 std::string KernelAssembly::name_of(const SlotSource& source) const {
     using Kind = SlotSource::Kind;
     const auto item_name = [&](std::uint32_t stage) {
@@ -42,7 +42,7 @@ std::string KernelAssembly::name_of(const SlotSource& source) const {
         case Kind::attribute: return of_text(Function::attr);
         case Kind::texture: return of_text(Function::uvimage);
         case Kind::surface_value: {
-            // The numbers of a long list would not fit into a name; this one is as unlike others.
+            // A long list of numbers would not fit into a name; this one is just as distinct.
             const SurfaceValue& value = program_.literals->surface_values()[source.item];
             return fmt::format("({} {})", info(value.function).spelling, source.item);
         }
@@ -88,7 +88,7 @@ ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item, Offset at)
     return builder_.mask(slot);
 }
 
-/// The stage's speed, unless the time loop gives steps another length.
+/// The stage's speed, unless the time loop chooses the length of steps.
 ValueId KernelAssembly::time_step(Offset at) {
     const StageTime& time = stage().time;
     if (!time.has_duration() && !time.chooses_steps())
@@ -96,14 +96,14 @@ ValueId KernelAssembly::time_step(Offset at) {
     return uniform({SlotSource::Kind::time_step, stage_, 0});
 }
 
-/// One time for all cells is kept by the time loop.
+/// A time that is the same in all cells comes from the time loop.
 ValueId KernelAssembly::time(Offset at) {
     const std::uint32_t speed = system().speed_item();
     if (stage().uniform[speed]) return uniform({SlotSource::Kind::time, stage_, 0});
     return builder_.multiply(step(), time_step(at));
 }
 
-/// A word has a bit for each of the cells around and for the cell itself, by their offsets.
+/// A word has one bit for each of the cells around and for the cell itself, by their offsets.
 ValueId KernelAssembly::inside(Offset at) {
     const ValueId bit = builder_.word(only(at));
     const ValueId around = field({SlotSource::Kind::neighbourhood, 0, 0});

@@ -1,4 +1,4 @@
-// One kernel in the making, whose slots say where their values come from (internal to lowering).
+// Assembles one kernel and records where the values of its slots come from (internal to lowering).
 #pragma once
 
 #include "ir/builder.h"
@@ -9,10 +9,10 @@
 
 namespace cascade::lowering {
 
-/// The kernel computes over the cells of a stage.
+/// The kernel computes the cells of a stage.
 class KernelAssembly {
 public:
-    /// Where `frozen` varies it is read as a mask, or as a plane like other items.
+    /// If `frozen` varies, it is read as a mask, or as a plane like other items.
     KernelAssembly(const Program& program, std::uint32_t stage, bool frozen_is_mask)
         : program_(program),
           stage_(stage),
@@ -25,24 +25,24 @@ public:
     const Stage& stage() const { return program_.stages[stage_]; }
 
     std::uint32_t field_slot(const SlotSource& source);
-    /// What the cell at an offset has in a plane.
+    /// The value of a plane in the cell at an offset.
     ValueId field(const SlotSource& source, Offset at = {});
     ValueId uniform(const SlotSource& source);
 
-    /// The value of an item of any stage, and of this one.
+    /// The value of an item of any stage, and of one of this stage.
     ValueId item(std::uint32_t stage, std::uint32_t item, Offset at = {});
     ValueId item(std::uint32_t item) { return this->item(stage_, item); }
     /// Complete steps when the step begins.
     ValueId step() { return uniform({SlotSource::Kind::step, stage_, 0}); }
-    /// The word of that step in draws.
+    /// The number of that step as a word for draws.
     ValueId draw_word() { return builder_.draw_word(uniform({SlotSource::Kind::draw, stage_, 0})); }
-    /// The length of the step that is taken.
+    /// The length of the current step.
     ValueId time_step(Offset at);
     /// The time when rates are evaluated.
     ValueId time(Offset at);
-    /// Other than 0 where the cell at an offset is inside the mask.
+    /// Not 0 if the cell at an offset is inside the mask.
     ValueId inside(Offset at);
-    /// A value inside the mask, and what is said outside of it.
+    /// A value inside the mask, and another one outside of it.
     ValueId within_mask(ValueId value, float outside);
 
     BoundKernel finish() &&;

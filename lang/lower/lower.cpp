@@ -41,11 +41,11 @@ namespace {
 
 using namespace lowering;
 
-/// What a view has outside of the mask.
+/// The value of views outside of the mask.
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-/// The uniform items that need an aggregate over the domain, directly or through others: they can
-/// be computed only where there are cells.
+/// The uniform items that need an aggregate over the domain, directly or through others, and can
+/// only be computed when there are cells.
 std::vector<bool> items_of_aggregates(const Stage& stage) {
     std::vector<bool> late(stage.items.size(), false);
     for (const std::uint32_t item : stage.order) {

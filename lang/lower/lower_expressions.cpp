@@ -1,4 +1,4 @@
-// The list of passes from flat formulas to what cells compute.
+// The list of passes from flat formulas to the expressions that cells compute.
 #include "lang/lower/lower_expressions.h"
 
 #include <algorithm>
@@ -24,25 +24,24 @@ bool is_operator(const Node& node) {
 }
 bool is_of_cell(const Node& node) { return is_operator(node) || node.kind == NodeKind::builtin; }
 
-/// Before the first pass definitions and rates have been replaced by what they stand for
+/// Before the first pass, definitions and rates have been replaced by their expressions
 /// (lang/program/flatten.h), and equal expressions are one node.
 constexpr std::array passes{
-    // A tensor's operands are its entries a11, a12 and a22; diffuse has two: a tensor and what is
-    // differentiated.
+    // After this pass a tensor's operands are its entries a11, a12 and a22; diffuse has two
+    // operands, a tensor and the value to differentiate.
     PassInfo{"tensors", always, is_tensor, write_out_tensors},
-    // lap, grad2 and derivatives along the surface are differences along columns and rows times
-    // planes of the metric; vectors are what flows through faces, not what points along the
-    // surface.
+    // After this pass lap, grad2 and derivatives along the surface are differences along columns
+    // and rows times planes of the metric. Vectors are fluxes through faces, not directions along
+    // the surface.
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
-    // Places and normals are planes of the model. There are no vectors: what div took is a sum of
-    // lap(weight, e).
+    // After this pass places and normals are planes of the model. There are no vectors: the operand
+    // of div has become a sum of lap(weight, e).
     PassInfo{"links", has_model, is_of_cell, spread_over_links},
-    // The weight of lap(weight, e) differs from cell to cell.
+    // After this pass the weight of each lap(weight, e) differs from cell to cell.
     PassInfo{"weights", has_model, is_operator, take_out_even_weights},
-    // Sums and means over the domain count cells by their areas; there is no mean but a quotient
-    // of sums.
+    // After this pass sums over the domain weight cells by area, and a mean is a quotient of sums.
     PassInfo{"areas", has_areas, is_aggregate, weigh_by_areas},
-    // What aggregates take has no effect on them outside of the mask.
+    // After this pass the operands of aggregates have no effect outside of the mask.
     PassInfo{"mask", has_mask, is_aggregate, leave_out_masked_cells},
 };
 

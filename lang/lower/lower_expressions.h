@@ -1,4 +1,4 @@
-// From formulas to the expression graph of a plan (internal to lowering).
+// Turns formulas into the expression graph of a plan (internal to lowering).
 #pragma once
 
 #include "lang/lower/plan_graph.h"
@@ -12,40 +12,39 @@
 
 namespace cascade::lowering {
 
-/// The starting values of items of a stage, each of which may read those before it.
+/// The starting values of items of a stage. Each may read those before it.
 Expressions flat_start(const Program& program, std::uint32_t stage,
                        std::span<const std::uint32_t> items);
-/// The rates of a stage's species, in the order of System::rate_order, and then the bounds of its
-/// invariants: every plan of a step numbers their nodes alike.
+/// The rates of a stage's species, in the order of System::rate_order, then the bounds of its
+/// invariants. All plans of a step thus number their nodes alike.
 Expressions flat_step(const Program& program, std::uint32_t stage);
 /// The values of formulas.
 Expressions flat_formulas(std::span<const Formula* const> formulas, const Noise& noise = {});
 
-/// A pass of lowering: on which domains it changes something, about which nodes, and what makes one
-/// graph of another.
+/// A pass of lowering: the domains on which it is needed, the nodes that it changes, and the
+/// function that turns one graph into another.
 struct PassInfo {
     std::string_view name;
     bool (*is_about)(const PassContext& context);
     bool (*changes)(const Node& node);
     Expressions (*run)(const Expressions& from, const PassContext& context);
 };
-/// All of them, in order.
+/// All passes, in order.
 std::span<const PassInfo> graph_passes();
 
-/// Is called with the name of a pass and the expressions after it, "flatten" before the first.
+/// Called with the name of a pass and the expressions after it, and first with "flatten".
 using PassWatch = std::function<void(std::string_view pass, const Expressions& after)>;
 
 /// Runs the passes.
 Expressions lower_expressions(Expressions flat, const PassContext& context,
                               const PassWatch& watch = {});
 
-/// Calls watch(stage, what, pass, after) for what becomes of a program's starting values, steps and
-/// pictures.
+/// Calls watch(stage, what, pass, after) for a program's starting values, steps and pictures.
 using LoweringWatch = std::function<void(const PassContext& context, std::string_view what,
                                          std::string_view pass, const Expressions& after)>;
 void watch_lowering(const Program& program, const LoweringWatch& watch);
 
-/// A line for each node.
+/// Prints a line for each node.
 std::string print(const Expressions& expressions, const PassContext& context);
 
 }  // namespace cascade::lowering

@@ -1,10 +1,10 @@
-// Reading around a cell where not all cells of the grid belong to the domain.
+// Reads values around a cell if not all cells of the grid belong to the domain.
 //
-// Nothing flows through the border of a mask, as through a `noflux` side: where a cell beside lies
-// outside, the cell itself stands in for it. What stands in for a diagonal neighbour is what would
-// be found there on the small grid of a rectangle: the one inside of the two that lie between; the
-// mean of both where both are, which is the corner that a border turns around; the cell itself
-// where neither is. Cells outside hold no values that anything inside depends on.
+// Nothing flows through the border of a mask, as through a `noflux` side: a neighbour outside is
+// replaced by the cell itself. A diagonal neighbour is replaced by what the small grid of a
+// rectangle would have there: by the one inside of the two cells in between; by the mean of both if
+// both are inside, where the border turns a corner; by the cell itself if neither is. No cell
+// inside depends on the values of cells outside.
 #include "lang/lower/lower_pass.h"
 
 namespace cascade::lowering {
@@ -13,14 +13,14 @@ ValueId NodeValues::chosen(Offset inside, ValueId value, ValueId otherwise) cons
     return builder_.select(assembly_.inside(inside), value, otherwise);
 }
 
-/// The value of the cell that is a step along an axis from the one at `from`, or what stands in.
+/// The value of the cell one step along an axis from the cell at `from`, or of its replacement.
 ValueId NodeValues::beside(NodeId id, Offset from, Offset step) const {
     const ValueId value = number_at(id, from + step);
     if (!graph_.has_mask() || graph_.is_uniform(id)) return value;
     return chosen(from + step, value, number_at(id, from));
 }
 
-/// The value at an offset from the own cell, or what stands in.
+/// The value at an offset from the cell itself, or its replacement.
 ValueId NodeValues::beside(NodeId id, Offset offset) const {
     const ValueId value = number_at(id, offset);
     if (!graph_.has_mask() || graph_.is_uniform(id) || offset.is_own()) return value;

@@ -1,4 +1,4 @@
-// What each kind of node is.
+// Lowers each kind of node.
 #include "lang/lower/lower_node.h"
 
 #include "core/check.h"
@@ -32,7 +32,7 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
     }
     // A tensor is its three entries.
     if (node.function == Function::tensor) return {in.number(0), in.number(1), in.number(2)};
-    // Numbers choose between colours and mix them channel by channel.
+    // `if` and `mix` of colours work channel by channel.
     const std::size_t channels = node.type == ValueType::colour ? 3 : 1;
     Value value{};
     for (std::size_t channel = 0; channel < channels; ++channel) {
@@ -52,7 +52,7 @@ Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
     const Node& node = in.node();
     switch (node.kind) {
         case NodeKind::number: return {assembly.builder().number(node.number)};
-        case NodeKind::text: return {};  // Its reader looks at the node itself.
+        case NodeKind::text: return {};  // Its reader uses the node itself.
         case NodeKind::own: return {assembly.item(in.graph.stage(), node.index, in.at)};
         case NodeKind::earlier: return {assembly.item(node.stage, node.index, in.at)};
         case NodeKind::builtin:

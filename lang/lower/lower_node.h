@@ -1,5 +1,5 @@
-// Nodes of an expression graph to instructions, each from the values of its operands (internal to
-// lowering).
+// Turns nodes of an expression graph into instructions, given the values of their operands
+// (internal to lowering).
 #pragma once
 
 #include "lang/lower/cell_place.h"
@@ -9,7 +9,7 @@
 
 namespace cascade::lowering {
 
-/// A value in a cell: a number in the first place, or three of a colour or a tensor.
+/// A value in a cell: one number, or the three of a colour or a tensor.
 using Value = std::array<ValueId, 3>;
 
 /// A node in the cell at an offset.
@@ -24,10 +24,10 @@ struct NodeInCell {
     ValueId number(std::size_t k) const { return values[k][0]; }
 };
 
-/// The value of a node that is no operator and no vector.
+/// The value of a node that is neither an operator nor a vector.
 Value lower_node(KernelAssembly& assembly, const NodeInCell& node);
 
-/// Where the value of a node lies that is a plane from the start (PlanGraph::is_plane).
+/// The plane of a node that is in one from the start (PlanGraph::is_plane).
 SlotSource plane_source(const PlanGraph& graph, NodeId id);
 
 // Kinds of calls.

@@ -1,5 +1,5 @@
-// Operators as differences of the values of neighbouring cells. c is the cell itself, N, S, E, W, U
-// and D the ones around; h is the side of a cell. Spec/numerics.md has the same formulas.
+// Operators as differences between values of neighbouring cells. c is the cell itself; N, S, E, W,
+// U and D are its neighbours; h is the side of a cell. Spec/numerics.md has the same formulas.
 #include "lang/lower/lower_pass.h"
 
 #include "core/check.h"
@@ -63,7 +63,7 @@ ValueId Stencils::stencil(const Node& node) {
     CHECK(false, "lowering: every operator has its differences");
 }
 
-/// Sums over the links of a cell. |∇e|² is half of the Laplacian of e² less e times that of e.
+/// Sums over the links of a cell. |∇e|² is half of the Laplacian of e² minus e times that of e.
 ValueId Stencils::over_links(const Node& node) {
     const NodeId operand = node.reads().back();
     const std::uint32_t slot = slot_of_plane(operand);
@@ -97,8 +97,8 @@ ValueId Stencils::laplacian(NodeId operand) {
     if (axes_.has(2)) add(2, -1), add(2, 1);
     const auto neighbours = static_cast<double>(2 * axes_.present.size());
     const ValueId centre = builder_.multiply(builder_.number(neighbours), own(operand));
-    // As the operation on a plane rounds it, so that contraction cannot tell which of the two was
-    // taken.
+    // Rounded like the operation on a plane, so that contraction cannot tell which of the two is in
+    // use.
     builder_.keep(centre);
     return scaled(builder_.subtract(*sum, centre), factor);
 }
@@ -142,7 +142,7 @@ ValueId Stencils::squared_gradient(NodeId operand) {
     return sum.value_or(builder_.number(0));
 }
 
-/// Σ v · (v > 0 ? c − W : E − c) / h: from where it flows.
+/// Σ v · (v > 0 ? c − W : E − c) / h: upwind.
 ValueId Stencils::advection(const Node& node) {
     const std::uint32_t velocities = node.operand_count - 1;
     const NodeId operand = node.operands[velocities];

@@ -1,4 +1,4 @@
-// Palettes as arithmetic.
+// Palettes as arithmetic operations.
 #include "core/check.h"
 #include "core/palette.h"
 #include "lang/lower/lower_node.h"
@@ -9,7 +9,7 @@ namespace cascade::lowering {
 ///
 ///     colour = c0 + Σ (c[k+1] − c[k]) · clamp(position · (n − 1) − k, 0, 1)
 ///
-/// A position that is no number gives colour_of_nan.
+/// A NaN as position gives colour_of_nan.
 Value lower_palette(KernelAssembly& assembly, const NodeInCell& in) {
     KernelBuilder& builder = assembly.builder();
     const Palette* palette =

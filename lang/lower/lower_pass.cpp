@@ -1,4 +1,4 @@
-// Operands first: the values that a pass computes, node by node.
+// Computes the values of a pass node by node, operands first.
 #include "lang/lower/lower_pass.h"
 
 #include "core/check.h"
@@ -65,11 +65,11 @@ void PassLowering::compute(NodeId id) {
         for_each_offset(values_.needs(id), [&](Offset offset) {
             const Value value = compute_at(id, offset);
             values_.slot(id, offset.number()) = value;
-            // It may lie in a plane, or be computed again where it is read.
+            // Otherwise it is in a plane, or is computed again where it is read.
             builder_.keep(value[0]);
         });
     }
-    // What no step changes may be computed once, without contraction.
+    // A step-invariant may be computed once, without contraction.
     if (pass_.graph.is_step_invariant(id)) builder_.keep_from(first);
 }
 

@@ -1,8 +1,8 @@
-// One pass: the nodes that it needs, where it needs them, and their instructions (internal to
-// lowering).
+// Lowers one pass: finds the nodes that it needs, and where, and emits their instructions (internal
+// to lowering).
 //
-// Going backwards through the nodes it is found at which cells, or for vectors at which faces, each
-// is needed (pass_needs.cpp); going forwards they are computed there, each once (lower_pass.cpp).
+// Going backwards through the nodes, it finds the cells or, for vectors, the faces at which each is
+// needed (pass_needs.cpp). Going forwards, each is computed there once (lower_pass.cpp).
 #pragma once
 
 #include "lang/lower/lower_node.h"
@@ -16,49 +16,49 @@
 
 namespace cascade::lowering {
 
-/// Numbers of what nodes have become, by node.
+/// The numbers given to nodes, by node.
 struct Storage {
-    IdVector<NodeId, std::uint32_t> temporary;       ///< Where it is written.
-    IdVector<NodeId, std::uint32_t> aggregate;       ///< Where it is an aggregate.
-    IdVector<NodeId, std::uint32_t> step_invariant;  ///< Where it is known before the first pass.
+    IdVector<NodeId, std::uint32_t> temporary;       ///< If it is written.
+    IdVector<NodeId, std::uint32_t> aggregate;       ///< If it is an aggregate.
+    IdVector<NodeId, std::uint32_t> step_invariant;  ///< If it is known before the first pass.
 };
 
-/// The decisions as one pass sees them.
+/// The decisions of the planner, for one pass.
 struct PassView {
     const PlanGraph& graph;
     const PassPlanner& planner;
     const Storage& storage;
     std::uint32_t pass = 0;
 
-    /// Has an earlier pass written it? The planes of open nodes have no halo.
+    /// Has an earlier pass written it? Planes of open nodes have no halo.
     bool is_plane_at(NodeId id, Offsets where) const {
         return planner.is_plane_in(id, pass) && (where == own_cell || !graph.is_open(id));
     }
-    /// Is it read from its plane, or an aggregate from its number?
+    /// Is it read from its plane or, for an aggregate, from its number?
     bool is_source(NodeId id, Offsets where) const {
         return is_aggregate(graph[id]) || planner.is_step_invariant(id) || is_plane_at(id, where);
     }
-    /// The operation `laplacian` reads a plane as it is.
+    /// Is it a plane that the operation `laplacian` can read directly?
     bool can_read_as_plane(NodeId id) const {
         return !graph.is_uniform(id) && (planner.is_step_invariant(id) || graph.is_plane(id) ||
                                          (planner.is_plane_in(id, pass) && !graph.is_open(id)));
     }
-    /// Where it is read from that is a source or a plane from the start.
+    /// The source of a node that is a source, or a plane from the start.
     SlotSource source(NodeId id) const;
 };
 
 using Needs = IdVector<NodeId, std::uint32_t>;
-/// At which offsets (Offsets), or for vectors at which faces (by their numbers), each node is
-/// needed so that these are known in the own cell.
+/// The offsets (Offsets) or, for vectors, the faces (by number) at which each node must be computed
+/// to get `wanted` in the cell itself.
 Needs needs_of(const PassView& pass, std::span<const NodeId> wanted);
 
-/// The values that a pass computes, and reading them around a cell.
+/// The values that a pass computes, and access to them around a cell.
 class NodeValues {
 public:
     NodeValues(const PlanGraph& graph, KernelAssembly& assembly, Needs needs);
 
     std::uint32_t needs(NodeId id) const { return needs_[id]; }
-    /// By the number of an offset or of a face.
+    /// By the number of the offset or face.
     Value& slot(NodeId id, std::uint32_t where) { return values_[place(id, where)]; }
     const Value& at(NodeId id, Offset offset) const {
         return values_[place(id, graph_.is_uniform(id) ? Offset{}.number() : offset.number())];
@@ -66,15 +66,16 @@ public:
     ValueId number_at(NodeId id, Offset offset) const { return at(id, offset)[0]; }
     ValueId face(NodeId id, Face face) const { return values_[place(id, face.number())][0]; }
 
-    // Where not all cells of the grid belong to the domain, others stand in (lower_mask.cpp).
-    /// The value at an offset from the own cell.
+    // If not all cells of the grid belong to the domain, other cells replace those outside
+    // (lower_mask.cpp).
+    /// The value at an offset from the cell itself.
     ValueId beside(NodeId id, Offset offset) const;
-    /// The value in the cell that is a step along an axis from the one at `from`.
+    /// The value in the cell one step along an axis from the cell at `from`.
     ValueId beside(NodeId id, Offset from, Offset step) const;
     ValueId entry_beside(NodeId tensor, std::size_t entry, Offset offset) const;
     ValueId chosen(Offset inside, ValueId value, ValueId otherwise) const;
 
-    /// Where the factor is 1 nothing is multiplied.
+    /// Multiplies unless the factor is 1.
     ValueId scaled(ValueId value, double factor) const;
 
 private:
@@ -84,15 +85,15 @@ private:
     KernelAssembly& assembly_;
     KernelBuilder& builder_;
     Needs needs_;
-    IdVector<NodeId, std::uint32_t> first_;  ///< The first value of a node.
+    IdVector<NodeId, std::uint32_t> first_;  ///< By node: the number of its first value.
     std::vector<Value> values_;
 };
 
-/// The value of an operator in the own cell (lower_operators.cpp).
+/// Lowers operators: the value in the cell itself (lower_operators.cpp).
 ValueId lower_stencil(const PassView& pass, KernelAssembly& assembly, const NodeValues& values,
                       NodeId id);
 
-/// Vectors at faces, and their divergence (lower_vectors.cpp).
+/// Lowers vectors at faces, and their divergence (lower_vectors.cpp).
 class Fluxes {
 public:
     Fluxes(const PassView& pass, KernelAssembly& assembly, const NodeValues& values);
@@ -105,11 +106,11 @@ private:
     ValueId tensor_entry(NodeId tensor, std::size_t entry, Face face) const;
     ValueId gradient(NodeId operand, Face face) const;
     ValueId through_sides(NodeId flux, Face face, ValueId value);
-    /// What decides whether a flux passes the sides of the grid.
+    /// Whether a flux passes the sides of the grid.
     struct Crossing {
-        bool goes_across = false;  ///< It may be other than 0 where everything is mirrored.
+        bool goes_across = false;  ///< It may not be 0 even if everything is mirrored.
         bool has_species = false;
-        std::array<bool, side_count> is_open{};  ///< A species in it is not mirrored there.
+        std::array<bool, side_count> is_open{};  ///< A species in it is not mirrored at this side.
     };
     void find_what_crosses_sides();
 
@@ -118,15 +119,15 @@ private:
     KernelBuilder& builder_;
     const NodeValues& values_;
     const Grid& grid_;
-    IdVector<NodeId, Crossing> crossings_;  ///< Empty until it is asked.
+    IdVector<NodeId, Crossing> crossings_;  ///< By node; empty until computed.
 };
 
 class PassLowering {
 public:
-    /// Computes what these nodes need, and them, in the own cell.
+    /// Computes these nodes in the cell itself, and everything that they need.
     PassLowering(const PassView& pass, KernelAssembly& assembly, std::span<const NodeId> wanted);
 
-    /// The value in the own cell of a node that was wanted.
+    /// The value, in the cell itself, of a node that was wanted.
     const Value& value(NodeId id) const { return values_.at(id, Offset{}); }
 
 private:

@@ -1,4 +1,4 @@
-// Functions of the place of a cell, and random ones: shapes, lattices of seeds, noise, draws.
+// Functions of a cell's place, and random ones: shapes, lattices of seeds, noise, draws.
 #include "core/check.h"
 #include "core/hash.h"
 #include "lang/lower/lower_node.h"
@@ -23,7 +23,7 @@ std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string
     return fnv1a(fmt::format("{}\n", occurrence), key);
 }
 
-/// Every occurrence of a random function in a formula has numbers of its own.
+/// Every occurrence of a random function in a formula has its own numbers.
 Draw draw_of(KernelAssembly& assembly, const NodeInCell& in) {
     const auto& [formula, noise] = *in.graph.origin(in.id);
     const auto first = formula->nodes.begin(), last = first + in.graph.position(in.id).index() + 1;
@@ -58,9 +58,8 @@ ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& in) {
     CHECK(false, "lowering: every shape has a meaning");
 }
 
-/// White noise in space and time: of a step of length dt in cells of content h^d it has the
-/// variance strength² / (dt h^d), so that what it adds over a time and an area does not depend on
-/// either.
+/// White noise in space and time: in a step of length dt, in cells of content h^d, it has the
+/// variance strength² / (dt h^d), so that its integral over a time and an area depends on neither.
 ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& in) {
     KernelBuilder& builder = assembly.builder();
     CellPlace place(assembly, in.at);

@@ -1,8 +1,8 @@
 // Vectors at faces, and their divergence.
 //
-// A face lies between a cell and the next one along an axis. What the flux through it is made of is
-// averaged over the two cells, (c + E) / 2, and differences are taken across it, so both cells see
-// the same number and what leaves one arrives in the other: sums are conserved to rounding.
+// A face lies between a cell and the next one along an axis. Factors of the flux through it are
+// averaged over the two cells, (c + E) / 2, and differences are taken across it. Both cells thus
+// see the same flux, and sums are conserved to rounding.
 #include "lang/lower/lower_pass.h"
 
 #include "core/check.h"
@@ -87,9 +87,9 @@ ValueId Fluxes::at_face(NodeId id, Face where) const {
     return builder_.multiply(average(a, where), values_.face(b, where));
 }
 
-/// Nothing flows out of the mask, nor through a side where all species of a flux are mirrored.
-/// Differences across it are 0 by themselves; other vectors, and what a tensor turns out of the
-/// side's direction, are cut off there.
+/// Nothing flows out of the mask, nor through a side at which all species of a flux are mirrored.
+/// Differences across such a side are 0 anyway; other vectors, and components that a tensor turns
+/// towards the side, are set to 0 there.
 void Fluxes::find_what_crosses_sides() {
     const Stage& stage = graph_.program().stages[graph_.stage()];
     const System& system = graph_.program().system_of(graph_.stage());

@@ -1,5 +1,6 @@
-// The greatest flow, from one wanted part after the other. What a search reaches without getting to
-// the sink never will get there: later flows cannot enter it, so no search looks at it again.
+// Finds the maximum flow from one needed part after the other. Nodes that a failed search has
+// reached never lead to the sink later, since no later flow can enter them, so no search visits
+// them again.
 #include "lang/lower/minimum_cut.h"
 
 #include <algorithm>
@@ -31,8 +32,8 @@ void MinimumCut::want(std::uint32_t part) {
     }
 }
 
-/// Lets more flow from a node to the sink; false, with all nodes marked that it reaches, if no more
-/// can.
+/// Increases the flow from a node to the sink. Returns false, with all nodes marked that it can
+/// reach, if that is impossible.
 bool MinimumCut::augment(std::uint32_t from) {
     std::vector<bool> seen(edges_of_.size(), false);
     std::vector<std::uint32_t> came_by(edges_of_.size());

@@ -1,9 +1,10 @@
-// Operators on the cells of a model, which have links to their neighbours and no rows and columns.
+// Operators on the cells of a model, which have links to their neighbours instead of rows and
+// columns.
 //
-// What reads neighbours is a sum over links (ir/operations.def). A flux is known as what flows
-// through each link, so vectors are sums of gradients times numbers, and div takes each of them by
-// itself: div(a * grad(e)) is lap(a, e), the sum over the links of w (a_i + a_j) / 2 (e_j - e_i).
-// Spec/models.md has the formulas, and lang/check/check_model.cpp refuses the rest.
+// Operators are sums over links (ir/operations.def). A flux is known as the flow through each link.
+// Vectors are therefore sums of gradients times numbers, and div takes each term by itself: div(a *
+// grad(e)) is lap(a, e), the sum over the links of w (a_i + a_j) / 2 (e_j - e_i). Spec/models.md
+// has the formulas, and lang/check/check_model.cpp refuses everything else.
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
@@ -23,7 +24,7 @@ class ModelOperators : public GraphPass {
     /// A vector as a sum of gradients of numbers, each times a number.
     using Gradients = std::vector<std::pair<NodeId, NodeId>>;  ///< Of, factor.
 
-    /// What a vector is, from what its operands are. Gradients of the same are one.
+    /// A vector as such a sum, from those of its operands. Gradients of the same value are merged.
     Gradients sum_of_gradients(const Node& node) {
         const Node& written = old()[at()];
         const auto gradients_of = [&](std::size_t k) { return gradients_.at(written.operands[k]); };
@@ -81,13 +82,13 @@ class ModelOperators : public GraphPass {
         }
         if (node.type == ValueType::vector) {
             gradients_.emplace(at(), sum_of_gradients(node));
-            return NodeId{};  // Nothing but div reads it.
+            return NodeId{};  // Only div reads it.
         }
         if (node.calls(Function::div)) return divergence(gradients_.at(old()[at()].operands[0]));
         return keep(node);
     }
 
-    std::unordered_map<NodeId, Gradients> gradients_;  ///< Of the vectors of the old graph.
+    std::unordered_map<NodeId, Gradients> gradients_;  ///< By vector of the old graph.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Readers first: where a pass needs the operands of what it computes.
+// Finds, readers first, where a pass needs the operands of its nodes.
 #include "lang/lower/lower_pass.h"
 
 namespace cascade::lowering {
@@ -16,9 +16,10 @@ public:
         for (const NodeId id : wanted) need(id, own_cell);
         for (const NodeId id : needs_.ids_backwards()) {
             if (needs_[id] == 0) continue;
-            // What is the same in all cells is computed once.
+            // A uniform value is computed once.
             if (graph_.is_uniform(id) && !is_vector(graph_[id])) needs_[id] = own_cell;
-            // An open node may be read from its plane in the own cell and computed beside it.
+            // An open node may be read from its plane in the cell itself and recomputed at
+            // neighbours.
             const bool is_read = pass_.is_source(id, own_cell) && !is_vector(graph_[id]);
             const std::uint32_t computed = is_read ? needs_[id] & ~own_cell : needs_[id];
             if (computed != 0 && !pass_.is_source(id, needs_[id])) need_operands(id, computed);

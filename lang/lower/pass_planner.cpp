@@ -101,8 +101,8 @@ void PassPlanner::mark_needed(std::span<const NodeId> roots) {
     }
 }
 
-/// Would computing the node at so many places take more than it is worth? Looks at no more nodes
-/// than that.
+/// Would computing the node at this number of places cost more than a plane? Visits no more nodes
+/// than needed to tell.
 bool PassPlanner::is_expensive(NodeId id, std::uint32_t places) const {
     std::uint32_t cost = 0;
     std::vector<NodeId> seen, open{id};
@@ -147,7 +147,7 @@ void PassPlanner::decide(NodeId id) {
         provide(last, reach(stencil_offsets(node, axes_)) & ~own_cell, id);
     } else if (differs && (node.type == ValueType::vector || function == Function::div) &&
                !graph_.is_linked()) {
-        // Vectors are known at faces, which takes what they are made of in the cells beside.
+        // Vectors at faces need their parts in the cells on both sides.
         for (const NodeId operand : node.reads()) {
             if (is_number(graph_[operand])) {
                 provide(operand, axes_.crosswise() & ~own_cell, id);
@@ -161,7 +161,7 @@ void PassPlanner::decide(NodeId id) {
     decide_own(id);
 }
 
-/// When the values of a node are known that is computed from its operands.
+/// The first pass in which the values of a node that is computed from its operands are known.
 void PassPlanner::decide_own(NodeId id) {
     const Node& node = graph_[id];
     const Function function = node.function;
@@ -175,7 +175,7 @@ void PassPlanner::decide_own(NodeId id) {
         const bool is_moved =
             reads_beside && (is_vector || k + 1 == node.operand_count || graph_.is_linked());
         pass_[id] = std::max(pass_[id], pass_[operand]);
-        // Those of open nodes are looked for where they are read: more may be written until then.
+        // Planes of open nodes are found where they are read, since more may be written until then.
         if (!graph_.is_open(id) && !graph_.is_open(operand)) {
             beside_[id] = std::max(beside_[id], pass_beside(operand));
         }
@@ -186,7 +186,7 @@ void PassPlanner::decide_own(NodeId id) {
     if (is_vector) beside_[id] = pass_[id];
 }
 
-/// Calls visit(node) for the nodes, not open, that an open one is made of at neighbours.
+/// Calls visit(node) for the nodes, not open, from which an open node is recomputed at neighbours.
 template <typename Visit>
 void PassPlanner::for_each_closed(NodeId open, const Visit& visit) const {
     IdVector<NodeId, bool> seen(graph_.size(), false);
@@ -205,11 +205,11 @@ void PassPlanner::for_each_closed(NodeId open, const Visit& visit) const {
     }
 }
 
-/// When the values of an operand are known that neighbours have.
+/// The first pass in which the values of an operand at neighbours are known.
 std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
     const Node& node = graph_[operand];
     std::uint32_t pass = 0;
-    if (node.type == ValueType::tensor) {  // Its entries may have been written for another reader.
+    if (node.type == ValueType::tensor) {  // Another reader may have had its entries written.
         for (const NodeId entry : node.reads()) {
             pass = std::max(pass, pass_beside(entry));
         }
@@ -222,7 +222,7 @@ std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
     return written_[operand] ? pass_[operand] + 1 : beside_[operand];
 }
 
-/// Makes an operand known at neighbours: by a plane, or by computing it there.
+/// Provides an operand at neighbours, by a plane or by computing it there.
 void PassPlanner::provide(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     if (places == 0 || graph_.is_uniform(operand) || is_plane(operand)) return;
@@ -242,7 +242,7 @@ void PassPlanner::provide_over_links(NodeId operand, NodeId reader) {
     choices_.push_back({operand, reader, 0, true, true, false});
 }
 
-/// Computes an operand at neighbours from the nodes that have planes, or can have them.
+/// Computes an operand at neighbours from nodes that are in planes, or can be.
 void PassPlanner::provide_open(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     for_each_closed(operand, [&](NodeId id) { provide(id, offsets, reader); });

@@ -1,4 +1,4 @@
-// Which nodes of formulas are computed in which pass (internal to lowering).
+// Decides which nodes of formulas are computed in which pass (internal to lowering).
 #pragma once
 
 #include "lang/lower/plan_graph.h"
@@ -11,7 +11,7 @@
 
 namespace cascade::lowering {
 
-/// A cell beside another one: each offset −1, 0 or 1.
+/// A cell near another one: each offset is −1, 0 or 1.
 struct Offset {
     int dx = 0, dy = 0, dz = 0;
 
@@ -23,7 +23,7 @@ struct Offset {
     constexpr std::uint32_t number() const {
         return static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
     }
-    /// One cell forwards along an axis (0, 1, 2), or backwards.
+    /// One cell forwards or backwards along an axis (0, 1, 2).
     static constexpr Offset along(int axis, int by) {
         return {axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0};
     }
@@ -39,12 +39,12 @@ using Offsets = std::uint32_t;
 constexpr Offsets only(Offset offset) { return Offsets{1} << offset.number(); }
 inline constexpr Offsets own_cell = only(Offset{});
 
-/// The cells that stand in for those of a set that lie outside of the domain (lower_mask.cpp), and
-/// the set itself: the own cell, and for a diagonal one the two that lie between.
+/// A set of offsets with those of the cells that may replace cells outside of the domain
+/// (lower_mask.cpp): the cell itself and, for a diagonal neighbour, the two cells in between.
 Offsets with_stand_ins(Offsets offsets);
 
-/// A face between two cells and a component of a vector there: the face lies between cell `cell()`
-/// and the next one along `axis`; `side` 0 is the face after the own cell, 1 the one before it.
+/// A face between two cells and a component of a vector there. The face lies between cell `cell()`
+/// and the next one along `axis`; `side` 0 is the face after the cell itself, 1 the one before it.
 struct Face {
     int axis = 0;
     int component = 0;
@@ -68,19 +68,19 @@ struct Axes {
 
     explicit Axes(const Grid& grid);
     bool has(int axis) const;
-    Offsets crosswise() const;     ///< The own cell and the next ones along all axes.
-    Offsets pair(int axis) const;  ///< The two cells beside along an axis.
+    Offsets crosswise() const;     ///< The cell itself and its neighbours along all axes.
+    Offsets pair(int axis) const;  ///< The two neighbours along an axis.
     Offsets diagonal(int first, int second) const;  ///< The four cells across two axes.
 };
 
-/// The offsets at which a stencil reads its last operand; the own cell is among them.
+/// The offsets at which a stencil reads its last operand, including the cell itself.
 Offsets stencil_offsets(const Node& stencil, const Axes& axes);
 
-/// About how many operations of a kernel a node takes, its operands being known.
+/// The approximate number of kernel operations of a node, given its operands.
 int operations_of(const Node& node);
 
 /// The number of operations on a cell that take a core as long as writing a plane and reading it
-/// back (about twelve bytes of traffic a cell).
+/// back (about twelve bytes a cell).
 inline constexpr int operations_of_writing = 40;
 /// Reading a plane alone is a third of that traffic.
 inline constexpr int operations_of_reading = operations_of_writing / 3;
@@ -88,35 +88,36 @@ inline constexpr int operations_of_reading = operations_of_writing / 3;
 /// The decisions about the nodes of a graph.
 class PassPlanner {
 public:
-    /// `roots` are needed in the own cell, in the last pass. `step_invariants` nodes are known
-    /// before the first: those that vary lie in planes.
+    /// `roots` are needed in the cell itself, in the last pass. The nodes `step_invariants` are
+    /// known before the first pass; those that vary are in planes.
     PassPlanner(const PlanGraph& graph, std::span<const NodeId> roots, Materialise materialise,
                 std::span<const NodeId> step_invariants = {});
 
     std::uint32_t pass_count() const { return pass_count_; }
     bool is_needed(NodeId node) const { return needed_[node]; }
-    /// Is it one of those that are known before the first pass?
+    /// Is it known before the first pass?
     bool is_step_invariant(NodeId node) const { return step_invariant_[node]; }
     /// Is the node written to a temporary plane?
     bool is_written(NodeId node) const { return written_[node]; }
-    /// The pass in which it can first be computed in the own cell; a written node is computed then.
+    /// The first pass in which it can be computed in the cell itself; a node that is written is
+    /// computed then.
     std::uint32_t pass_of(NodeId node) const { return pass_[node]; }
     /// Is it read from a plane in `pass`?
     bool is_plane_in(NodeId node, std::uint32_t pass) const {
         return written_[node] && pass_[node] < pass;
     }
-    /// How an operand is provided at the neighbours at which its reader needs it.
+    /// How an operand is provided at the neighbours where its reader needs it.
     struct OperandChoice {
         NodeId operand, reader;
-        std::uint32_t places = 0;  ///< The largest number of neighbours.
-        bool is_written = false;   ///< To a plane; else it is recomputed there.
+        std::uint32_t places = 0;  ///< The largest number of neighbours at which it is needed.
+        bool is_written = false;   ///< To a plane; otherwise it is recomputed at the neighbours.
         bool is_forced = false;    ///< It cannot be recomputed.
-        bool is_open = false;      ///< It has to be: see PlanGraph::is_open.
+        bool is_open = false;      ///< It must be recomputed: see PlanGraph::is_open.
     };
-    /// Of all operands that are no planes and vary, in order of their readers.
+    /// All operands that vary and are not planes, in order of their readers.
     const std::vector<OperandChoice>& choices() const { return choices_; }
     const Axes& axes() const { return axes_; }
-    /// Where an operand is needed that operators read at `offsets`.
+    /// The offsets at which an operand is needed if its value is read at `offsets`.
     Offsets reach(Offsets offsets) const {
         return graph_.has_mask() ? with_stand_ins(offsets) : offsets;
     }
@@ -139,10 +140,10 @@ private:
     Materialise materialise_;
     std::uint32_t pass_count_ = 1;
     IdVector<NodeId, bool> needed_, written_, step_invariant_;
-    IdVector<NodeId, bool> stays_;          ///< Cannot be computed for a neighbour.
-    IdVector<NodeId, std::uint32_t> pass_;  ///< The first in which the own cell's value is known …
+    IdVector<NodeId, bool> stays_;  ///< By node: it cannot be computed for a neighbour.
     IdVector<NodeId, std::uint32_t>
-        beside_;  ///< … and the values of neighbours, planes being read.
+        pass_;  ///< By node: the first pass in which its value in the cell itself is known …
+    IdVector<NodeId, std::uint32_t> beside_;  ///< … and its values at neighbours, read from planes.
     std::vector<OperandChoice> choices_;
 };
 

@@ -21,7 +21,7 @@ ReductionKind kind_of(Function function) {
     }
 }
 
-/// Calls visit(source) for all that a pass reads.
+/// Calls visit(source) for everything that a pass reads.
 template <typename Visit>
 void for_each_read(Pass& pass, const Visit& visit) {
     for (Reduction& reduction : pass.reductions) visit(reduction.operand);
@@ -85,7 +85,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
     }
     for (const NodeId id : aggregates_) {
         if (planner_.pass_of(id) != pass) continue;
-        // It is taken of a whole plane, however early the pass is that writes it.
+        // An aggregate needs a whole plane, however early the pass that writes it.
         const PassView after{graph_, planner_, storage_, planner_.pass_count()};
         plan_.passes[pass].reductions.push_back({kind_of(graph_[id].function),
                                                  after.source(graph_[id].operands[0]),
@@ -113,7 +113,7 @@ StepPlan PlanBuilder::finish() && {
     return std::move(plan_);
 }
 
-/// Temporaries get the numbers of planes; a plane is free after the last pass that reads it.
+/// Numbers the planes of temporaries; a plane is free again after the last pass that reads it.
 void PlanBuilder::share_temporaries() {
     std::vector<std::size_t> last_read(plan_.temporaries, 0);
     for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {

@@ -1,4 +1,4 @@
-// From a graph of expressions to a plan of passes (internal to lowering).
+// Turns a graph of expressions into a plan of passes (internal to lowering).
 #pragma once
 
 #include "lang/lower/lower_pass.h"
@@ -13,30 +13,30 @@ namespace cascade::lowering {
 
 struct PlanRequest {
     const PlanGraph& graph;
-    std::span<const NodeId> wanted;  ///< What the results are made of, in the own cell.
+    std::span<const NodeId> wanted;  ///< The nodes from which results are made, in the cell itself.
     PlanOptions options;
     bool frozen_is_mask = false;
-    /// Species that take the first field slots of the last pass.
+    /// The species in the first field slots of the last pass.
     std::span<const std::uint32_t> first_slots = {};
-    /// What is known before the first pass, in the order of the numbers.
+    /// The nodes known before the first pass, in the order of their numbers.
     std::span<const NodeId> step_invariants = {};
-    /// With fewer roundings. Bits do not depend on what is computed once for all steps, but may on
-    /// which operands are written to planes.
+    /// Compute with fewer roundings. Bits then do not depend on which values are computed once for
+    /// all steps, but may depend on which operands are written to planes.
     bool contracts = false;
 };
 
-/// Plans and lowers the passes. The last one stays open for results, which are made of the values
-/// that were wanted; then the plan is finished.
+/// Plans and lowers the passes. The last one stays open until results have been added from the
+/// wanted values; then the plan is finished.
 class PlanBuilder {
 public:
     explicit PlanBuilder(const PlanRequest& request);
 
     KernelAssembly& last_pass() { return *last_; }
-    /// The value that was wanted of a node, in the last pass.
+    /// The value of a wanted node in the last pass.
     const Value& value(NodeId id) const { return values_->value(id); }
     void result(const std::string& name, ValueId value) { last_->builder().result(name, value); }
 
-    /// Gives temporaries that live at different times one plane.
+    /// Lets temporaries that live at different times share a plane.
     StepPlan finish() &&;
 
 private:
@@ -51,12 +51,13 @@ private:
     Storage storage_;
     std::vector<std::vector<NodeId>> written_;  ///< By pass.
     std::vector<NodeId> aggregates_;
-    std::unique_ptr<KernelAssembly> last_;  ///< The kernel of the pass that is open.
-    std::unique_ptr<PassLowering> values_;  ///< Its values.
+    std::unique_ptr<KernelAssembly> last_;  ///< The kernel of the open pass.
+    std::unique_ptr<PassLowering> values_;  ///< The values of that kernel.
     StepPlan plan_;
 };
 
-/// What the passes do and why: a line for the plan and one for each pass and each decision.
+/// Describes the passes and the reasons for them: one line for the plan, for each pass and for each
+/// decision.
 std::string describe(const PlanGraph& graph, const PassPlanner& planner, const StepPlan& plan);
 
 }  // namespace cascade::lowering

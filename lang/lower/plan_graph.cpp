@@ -1,9 +1,9 @@
-// What is known of a node follows from what is known of its operands.
+// Facts about a node follow from facts about its operands.
 //
-// What stands beyond the sides of the grid (spec/domain.md, "Beyond the sides"): a species is there
-// what its sides say, a function what it makes of its operands there. So lap(f(u)) + lap(g) is
-// lap(f(u) + g), also at the sides. What is mirrored: the values of operators, what is drawn or
-// drawn as a shape, parameters, files.
+// Values beyond the sides of the grid (spec/domain.md, "Beyond the sides"): a species has the value
+// that its sides say, and a function is computed from the values of its operands there. So
+// lap(f(u)) + lap(g) is lap(f(u) + g) at the sides, too. Values of operators, random numbers,
+// shapes, parameters and files are mirrored.
 #include "lang/lower/plan_graph.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Beyond beyond_of(SideKind first, SideKind second) {
     return first == SideKind::periodic ? Beyond::periodic : Beyond::mirrored;
 }
 
-/// Of an item of a stage that varies.
+/// For an item of a stage, if it varies.
 Axes3 beyond_of_item(const Program& program, std::uint32_t stage, std::uint32_t item) {
     const System& system = program.system_of(stage);
     const auto& sides = program.stages[stage].sides;
@@ -44,7 +44,7 @@ Axes3 beyond_of_item(const Program& program, std::uint32_t stage, std::uint32_t 
     return beyond;
 }
 
-/// Of a function of two parts.
+/// For a function of two operands.
 Beyond together(Beyond a, Beyond b) {
     if (a == Beyond::anything || a == b) return b;
     return b == Beyond::anything ? a : Beyond::itself;
@@ -65,7 +65,7 @@ PlanGraph::PlanGraph(Expressions expressions, const PassContext& context,
     names_.insert(expressions_.names.begin(), expressions_.names.end());
 }
 
-/// Parameters keep the values that they have when the stage starts, and earlier stages are over.
+/// Parameters keep their starting values, and earlier stages are over.
 bool PlanGraph::is_step_invariant(const Node& node, Invariance what) const {
     switch (node.kind) {
         case NodeKind::own:
@@ -98,7 +98,7 @@ std::array<Beyond, 3> PlanGraph::beyond(const Node& node, bool is_uniform) const
             for (const NodeId operand : node.reads()) {
                 beyond[axis] = together(beyond[axis], facts_[operand].beyond[axis]);
             }
-            // Operators, shapes, draws, files: periodic where everything in them is.
+            // Operators, shapes, draws, files: periodic if everything in them is.
             if (!varies_by_cell(node.function)) continue;
             if (beyond[axis] == Beyond::anything) beyond[axis] = usual[axis];
             if (beyond[axis] == Beyond::itself) beyond[axis] = Beyond::mirrored;

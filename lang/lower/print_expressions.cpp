@@ -1,4 +1,4 @@
-// Graphs as text, one line for each node that is needed, as kernels are printed.
+// Prints graphs like kernels, one line for each node that is needed.
 #include "lang/lower/lower_expressions.h"
 #include "lang/print/print_formula.h"
 

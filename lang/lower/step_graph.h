@@ -8,12 +8,12 @@
 
 namespace cascade::lowering {
 
-/// All formulas of a stage's step: every plan of it numbers their nodes alike.
+/// All formulas of a stage's step. Every plan of the step numbers their nodes alike.
 struct StepGraph {
     PlanGraph graph;
     std::vector<NodeId> rates;            ///< By item.
     std::vector<NodeId> bounds;           ///< By invariant.
-    std::vector<NodeId> step_invariants;  ///< What is computed once.
+    std::vector<NodeId> step_invariants;  ///< The values that are computed once.
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options);
 };

@@ -1,5 +1,5 @@
-// Readers first for where nodes are needed, operands first for the network of costs, readers first
-// again for what has to be known in a step.
+// Three walks: readers first to find where nodes are needed, operands first to build the network of
+// costs, and readers first again to find which values a step needs.
 #include "lang/lower/step_invariants.h"
 
 #include "lang/lower/minimum_cut.h"
@@ -13,12 +13,12 @@ namespace cascade::lowering {
 
 namespace {
 
-/// Does it take operations of each cell that a plane could save?
+/// Does it take operations in each cell that a plane could save?
 bool is_costly(const PlanGraph& graph, NodeId id) {
     return graph.is_step_invariant(id) && !graph.is_uniform(id) && !graph.is_plane(id);
 }
 
-/// The nodes for which is_chosen(node) holds that can be reached by nodes for which it does not.
+/// The first nodes on the way from the roots to operands for which is_chosen(node) holds.
 template <typename Chosen>
 std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId> roots,
                                   const Chosen& is_chosen) {
@@ -66,18 +66,18 @@ public:
     }
 
 private:
-    /// An operator along an axis of one cell reads nothing, but its operand is a node all the same.
+    /// An operator along an axis of one cell reads nothing, but still has a node as operand.
     void need(NodeId id, std::uint32_t places) {
         places_[id] = std::max({places_[id], places, std::uint32_t{1}});
     }
 
-    /// A node that is computed in every step needs its operands in the own cell, or around it.
+    /// A node that is computed in every step needs its operands in the cell itself, or around it.
     void need_operands(NodeId id) {
         const Node& node = graph_[id];
         const bool is_operator = node.kind == NodeKind::call && !graph_.is_uniform(id);
         const bool at_faces = is_operator && node.type == ValueType::vector;
         for (std::uint32_t k = 0; k < node.operand_count; ++k) {
-            // What lasts is computed wherever its reader is.
+            // A step-invariant is computed wherever its reader is.
             std::uint32_t places = graph_.is_step_invariant(id) ? places_[id] : 1;
             if (at_faces) {
                 places = count(axes_.crosswise());
@@ -112,8 +112,8 @@ private:
     Axes axes_;
     MinimumCut cut_;
     IdVector<NodeId, std::uint32_t>
-        places_;  ///< At how many cells a node is needed, about; 0: nowhere.
-    IdVector<NodeId, std::uint32_t> number_;  ///< In the network, of costly nodes.
+        places_;  ///< By node: the approximate number of cells at which it is needed; 0: none.
+    IdVector<NodeId, std::uint32_t> number_;  ///< By expensive node: its number in the network.
 };
 
 }  // namespace

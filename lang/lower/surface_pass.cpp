@@ -1,9 +1,9 @@
-// Operators on a surface: what they measure there, written in columns and rows.
+// Operators on a surface, expressed in columns and rows.
 //
-// p, q and r are the entries 11, 12 and 22 of Ṽ⁻¹, s is the area of the cell (surface/
-// parameter_surface.h). A gradient on the surface is Ṽ⁻ᵀ∇. What flows through the faces of a cell
-// is s Ṽ⁻¹ times the flux: vectors are kept in that form, so that their differences are what they
-// are on the plane, and a gradient is a tensor times ∇. Spec/surfaces.md has the formulas.
+// p, q and r are the entries 11, 12 and 22 of Ṽ⁻¹, and s is the area of the cell
+// (surface/parameter_surface.h). A gradient on the surface is Ṽ⁻ᵀ∇. The flow through the faces of a
+// cell is s Ṽ⁻¹ times the flux. Vectors are kept as such flows, so that their divergence is that of
+// the plane, and a gradient is a tensor times ∇. Spec/surfaces.md has the formulas.
 #include "lang/lower/graph_passes.h"
 
 #include <optional>
@@ -32,7 +32,7 @@ class SurfaceOperators : public GraphPass {
         return call(Function::tensor, {a11, a12, a22}, ValueType::tensor);
     }
 
-    /// Ṽ⁻¹ A Ṽ⁻ᵀ: what A is in columns and rows.
+    /// Ṽ⁻¹ A Ṽ⁻ᵀ: A in terms of columns and rows.
     NodeId in_cells(NodeId of) {
         const auto [a11, a12, a22, x, y, z] = graph()[of].operands;
         const NodeId p = this->p(), q = this->q(), r = this->r();
@@ -43,14 +43,14 @@ class SurfaceOperators : public GraphPass {
         return tensor(along, mixed, times(times(r, r), a22));
     }
 
-    /// s Ṽ⁻¹ A Ṽ⁻ᵀ: times ∇e it is what flows of the flux A grad(e).
+    /// s Ṽ⁻¹ A Ṽ⁻ᵀ: times ∇e it is the flow of the flux A grad(e).
     NodeId flow_tensor(NodeId of) {
         const auto [a11, a12, a22, x, y, z] = graph()[in_cells(of)].operands;
         const NodeId along = times(s(), a11), mixed = times(s(), a12);
         return tensor(along, mixed, times(s(), a22));
     }
 
-    /// What flows of grad(e).
+    /// The flow of grad(e).
     NodeId flow_of_gradient(NodeId gradient) {
         const NodeId along = metric(graph(), MetricPlane::flow_11);
         const NodeId mixed = metric(graph(), MetricPlane::flow_12);
@@ -58,7 +58,7 @@ class SurfaceOperators : public GraphPass {
         return call(Function::multiply, {of, gradient}, ValueType::vector);
     }
 
-    /// What flows of vector(along, across), both on the surface.
+    /// The flow of vector(along, across), with both components on the surface.
     NodeId flow_of_vector(NodeId along, NodeId across) {
         const NodeId area = s();
         const NodeId column = in_columns(along, across);
@@ -73,8 +73,8 @@ class SurfaceOperators : public GraphPass {
         return sum_of_products(p(), along, q, across);
     }
 
-    /// What flows of A v: A goes to the gradients and vectors that the old v is made of. Nodes come
-    /// before what reads them, so that their order is one to build in.
+    /// The flow of A v: A is applied to the gradients and vectors of which the old v is made. Nodes
+    /// come before their readers, so they can be built in this order.
     NodeId flow_times_tensor(NodeId a, NodeId v) {
         IdVector<NodeId, bool> reached(v.index() + 1, false);
         IdVector<NodeId, NodeId> flows(reached.size());
@@ -160,9 +160,8 @@ Expressions lay_on_surface(const Expressions& from, const PassContext& context) 
     return SurfaceOperators(from, context).run();
 }
 
-/// The derivative over √g, g being the entry of Ṽ⁻¹Ṽ⁻ᵀ on the diagonal: that of the cell, since
-/// coefficients of flows are mirrored as well, and so what flows is the derivative times the length
-/// of the face.
+/// The derivative over √g, where g is the diagonal entry of Ṽ⁻¹Ṽ⁻ᵀ in the cell itself. Coefficients
+/// of flows are mirrored, too, so the flow is the derivative times the length of the face.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side) {
     if (!context.has_metric()) return value;
     const NodeId p = metric(graph, MetricPlane::inverse_11);

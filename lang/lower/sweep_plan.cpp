@@ -1,4 +1,4 @@
-// The plans of sweeps: what a form says of the rates and inputs of every species.
+// The plans of sweeps: the form applied to the rates and inputs of every species.
 #include "core/check.h"
 #include "lang/lower/lower.h"
 #include "lang/lower/step_graph.h"
@@ -13,7 +13,7 @@ namespace {
 
 using namespace lowering;
 
-/// The results of a sweep: what its form says of the rates and inputs of every species.
+/// The results of a sweep: the form applied to the rates and inputs of every species.
 class SweepEmitter {
 public:
     SweepEmitter(const Program& program, std::uint32_t stage, const SweepForm& form)
@@ -61,7 +61,7 @@ private:
         return std::find(species_.begin(), species_.end(), item) != species_.end();
     }
 
-    /// A species in an input, in the own cell. Formulas read input 0.
+    /// A species in an input, in the cell itself. Formulas read input 0.
     ValueId input(PlanBuilder& plan, std::uint32_t input, std::uint32_t item) const {
         if (input == 0) return plan.last_pass().field({SlotSource::Kind::item, stage_, item});
         return plan.last_pass().field({SlotSource::Kind::input, input, item});
@@ -82,8 +82,8 @@ private:
                 break;
             case SweepTerm::Source::rate:
                 value = plan.value(rates_[item])[0];
-                // A method that puts a step together from rates, or filters them, would otherwise
-                // let a held cell pull at others.
+                // Otherwise a method that combines or filters rates would let a cell at its bound
+                // affect others.
                 if (kind != SweepOutput::Kind::change) break;
                 if (const auto held = is_held(plan, item)) {
                     value = builder.select(*held, builder.number(0), value);
@@ -149,8 +149,8 @@ private:
         }
     }
 
-    /// Does a value stand at a bound in input 0, which its rate would carry it beyond? Empty where
-    /// nothing bounds it.
+    /// Is a value in input 0 at a bound that its rate would carry it across? Empty if there is no
+    /// bound.
     std::optional<ValueId> is_held(PlanBuilder& plan, std::uint32_t item) const {
         KernelBuilder& builder = plan.last_pass().builder();
         const ValueId zero = builder.number(0);

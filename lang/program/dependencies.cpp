@@ -1,4 +1,4 @@
-// Which values read which.
+// Finds which values read which.
 #include "lang/program/dependencies.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// One pass over the flat list of nodes, in which operands come first.
+// One loop over the flat list of nodes, in which operands come first.
 #include "lang/program/evaluate.h"
 
 #include "core/check.h"

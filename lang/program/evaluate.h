@@ -1,5 +1,5 @@
-// Formulas evaluated at one place in binary64, while a script is prepared: shapes of surfaces and
-// whatever else is needed more exactly than cells compute it.
+// Evaluates formulas at one place in binary64 while a script is prepared: shapes of surfaces and
+// other values that must be more exact than those of cells.
 #pragma once
 
 #include "lang/program/program.h"
@@ -11,8 +11,8 @@ namespace cascade {
 /// Values of the built-in names, by Builtin.
 using BuiltinValues = std::array<double, builtin_count>;
 
-/// The value of a formula of numbers, built-in values and functions of numbers; the checker lets
-/// nothing else into such formulas (checking::Context::position).
+/// The value of a formula of numbers, built-in values and functions of numbers. The checker admits
+/// nothing else in such formulas (checking::Context::position).
 double evaluate(const Formula& formula, const BuiltinValues& builtins);
 
 }  // namespace cascade

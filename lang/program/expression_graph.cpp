@@ -1,4 +1,4 @@
-// Nodes are found again by a hash of all that tells one from another.
+// Finds equal nodes by a hash of everything that distinguishes them.
 #include "lang/program/expression_graph.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ NodeId ExpressionGraph::add(const Node& node, Written written) {
         if (is_same(nodes_[id], node) && (!is_draw(node) || written_[id] == written)) return id;
     }
     known_[place] = nodes_.next();
-    nodes_.push_back(Node(node));  // It may be one of this graph.
+    nodes_.push_back(Node(node));  // `node` may refer into this graph.
     written_.push_back(written);
     return *known_[place];
 }

@@ -1,9 +1,9 @@
-// Expressions as one graph: equal ones are one node (hash-consing), and operands come before what
-// reads them.
+// Expressions as one graph: equal expressions are one node (hash-consing), and operands come before
+// their readers.
 //
-// Whatever works on the formulas of a system as a whole works on such a graph: calculus, which
-// simplifies as it goes (lang/calculus/algebra.h), and the passes of lowering, each of which makes
-// one graph of another (lang/lower/graph_passes.h).
+// Code that works on all formulas of a system works on such a graph: calculus, which simplifies
+// while it builds (lang/calculus/algebra.h), and the passes of lowering, which turn one graph into
+// another (lang/lower/graph_passes.h).
 #pragma once
 
 #include "lang/program/program.h"
@@ -15,10 +15,10 @@
 
 namespace cascade {
 
-/// Where a node was written: in which of the formulas that a graph was made of, and where in it.
+/// Where a node was written: the formula, and the place in it.
 struct Written {
     static constexpr std::uint32_t nowhere = UINT32_MAX;
-    std::uint32_t formula = nowhere;  ///< Of nodes that a rule has made.
+    std::uint32_t formula = nowhere;  ///< `nowhere` for nodes that a rule has made.
     NodeId position;
 
     friend bool operator==(const Written&, const Written&) = default;
@@ -37,7 +37,7 @@ public:
     /// random numbers are equal if they were written in the same place.
     NodeId add(const Node& node, Written written = {});
     NodeId number(double value);
-    /// A node without operands: an item of the stage, a plane of the metric or of a model.
+    /// A node without operands: an item of the stage, or a plane of the metric or of a model.
     NodeId leaf(NodeKind kind, std::uint32_t index = 0);
     virtual NodeId call(Function function, std::initializer_list<NodeId> operands,
                         ValueType type = ValueType::number);
@@ -56,7 +56,7 @@ private:
 
     Nodes nodes_;
     IdVector<NodeId, Written> written_;
-    /// Where a node is, by its hash, or the next free place; a power of two of them.
+    /// The slot of a node in the hash table, whose size is a power of two, or the next free slot.
     std::vector<std::optional<NodeId>> known_;
 };
 

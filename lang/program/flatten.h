@@ -1,4 +1,4 @@
-// Formulas in one graph: definitions and rates are replaced by what they stand for.
+// Puts formulas into one graph; definitions and rates are replaced by their expressions.
 #pragma once
 
 #include "lang/program/expression_graph.h"
@@ -10,26 +10,26 @@
 
 namespace cascade {
 
-/// Where the random numbers of a formula come from.
+/// The source of a formula's random numbers.
 struct Noise {
-    std::string origin;       ///< The item's or definition's name, or a species' with a prime.
+    std::string origin;       ///< The name of the item or definition, or of a species with a prime.
     bool every_step = false;  ///< New numbers in each step.
-    std::string owner = {};   ///< Whose numbers they are; empty: the stage's.
+    std::string owner = {};   ///< To whom the numbers belong; empty: the stage.
 };
 
-/// A formula that a graph was made of (Written::formula).
+/// A formula that was put into a graph (Written::formula).
 struct Origin {
     const Formula* formula = nullptr;
     Noise noise;
 };
 
-/// Writes formulas into a graph, one after another.
+/// Writes formulas into a graph one after another.
 class Flattening {
 public:
     explicit Flattening(ExpressionGraph& graph) : graph_(graph) {}
 
-    /// Adds a formula and returns the node that is its value. What it reads of definitions, rates
-    /// and items of the stage is taken from the nodes known for them; items without one stay.
+    /// Adds a formula and returns the node of its value. Definitions, rates and items of the stage
+    /// that it reads become the nodes known for them; items without a known node stay items.
     NodeId add(const Formula& formula, Noise noise = {});
     /// Adds a system's definitions and rates, each after those that it reads.
     void add_rates(const System& system);
@@ -37,7 +37,7 @@ public:
 
     NodeId rate(std::uint32_t item) const { return rates_.at(item); }
     const std::vector<Origin>& origins() const { return origins_; }
-    /// What a user calls the values of definitions and rates.
+    /// The names of definitions and rates, by node.
     const std::vector<std::pair<NodeId, std::string>>& names() const { return names_; }
 
 private:

@@ -9,11 +9,10 @@ namespace cascade {
 
 namespace {
 
-// Long enough that the padding of rows is small beside them, short enough that threads share them
-// evenly.
+// Long enough that the padding of rows is small, short enough that threads can share rows evenly.
 constexpr std::int64_t cells_of_row = 512;
 
-/// Why an operator is refused on a model; "" for those that have a meaning.
+/// Why an operator is refused on a model; "" if it has a meaning there.
 std::string_view reason_against(Function function) {
     if (includes(info(function).domains, Domains::model)) return "";
     switch (function) {
@@ -35,7 +34,7 @@ std::string_view reason_against(Function function) {
     }
 }
 
-/// What a value is of that only a model has; nothing for all else.
+/// Describes a value that only a model has; nothing for all others.
 std::optional<Function> of_model_only(const Program& program, const Node& node) {
     if (node.kind == NodeKind::surface_value)
         return program.literals->surface_values()[node.index].function;

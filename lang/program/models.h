@@ -1,4 +1,4 @@
-// Programs on models: what their domain is, and what of a program has no meaning there.
+// Programs on models: their domain, and the functions that have no meaning there.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -11,30 +11,31 @@
 
 namespace cascade {
 
-/// The rows in which so many cells lie, as a grid: see Grid::linked.
+/// A grid of rows for this number of cells: see Grid::linked.
 Grid rows_of_cells(std::int64_t cells);
 
-/// What is known of the cells of a model when they are made. DomainSettings::grid are the rows of
-/// as many as the script asks for.
+/// Facts about a model's cells once they are made. DomainSettings::grid has rows for the number of
+/// cells that the script asks for.
 struct ModelFacts {
     Grid grid;                  ///< The rows in which they lie.
-    double largest_weight = 0;  ///< The largest sum of the weights of a cell's links.
+    double largest_weight = 0;  ///< The largest sum of the weights of one cell's links.
 };
 
-/// The shape of a surface that has a name, such as sphere; nothing for other words.
+/// The shape with this name, such as sphere; nothing for other words.
 std::optional<ModelShape> shape_named(std::string_view word);
-/// The word for a shape in scripts; empty for a file.
+/// The name of a shape in scripts; empty for a file.
 std::string_view word_of(ModelShape shape);
 
-/// The plane that has a built-in value on a model; nothing of t and step.
+/// The plane that holds a built-in value on a model; nothing for t and step.
 std::optional<ModelPlane> model_plane_of(Builtin builtin);
 
 /// Adds an error for every function of a formula that has no meaning on the domain, such as second
-/// derivatives by name on a model and distances along it on a plane; true where there is none.
+/// derivatives by name on a model or distances along the surface on a plane. Returns true if there
+/// is none.
 bool has_meaning_on_domain(const Program& program, const Formula& formula,
                            Diagnostics& diagnostics);
 
-/// Every formula that the stages of a program compute, those of their systems once.
+/// Every formula that the stages of a program compute; those of a system only once.
 std::vector<const Formula*> formulas_of(const Program& program);
 
 }  // namespace cascade

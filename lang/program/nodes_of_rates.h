@@ -1,4 +1,4 @@
-// What the rates of a system, and the sides of a stage, are made of.
+// The nodes of a system's rates and of a stage's sides.
 #pragma once
 
 #include "lang/program/program.h"
@@ -7,14 +7,14 @@
 
 namespace cascade {
 
-/// Does `test` hold for a node of the formula?
+/// Does `test` hold for some node of the formula?
 template <typename Test>
 bool holds_in(const Formula& formula, const Test& test) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
 }
 
-/// The first node of a definition, or else of a rate, for which `test` holds; nullptr where it
-/// holds for none.
+/// The first node of a definition, or else of a rate, for which `test` holds; nullptr if there is
+/// none.
 template <typename Test>
 const Node* find_in_rates(const System& system, const Test& test) {
     const auto find_in = [&](const Formula& formula) -> const Node* {
@@ -35,7 +35,7 @@ bool holds_in_rates(const System& system, const Test& test) {
     return find_in_rates(system, test) != nullptr;
 }
 
-/// Does `test` hold for a node of what stands at the sides of a stage?
+/// Does `test` hold for some node of the rules at the sides of a stage?
 template <typename Test>
 bool holds_in_sides(const Stage& stage, const Test& test) {
     return std::any_of(stage.sides.begin(), stage.sides.end(), [&](const auto& sides) {

@@ -11,7 +11,7 @@ enum class State : std::uint8_t { untouched, open, finished };
 
 struct Visit {
     std::uint32_t value = 0;
-    std::size_t next = 0;  ///< The next of its dependencies to look at.
+    std::size_t next = 0;  ///< The next dependency to visit.
 };
 
 class Sorter {
@@ -48,8 +48,8 @@ private:
         }
     }
 
-    /// The path from `first` to its end is a cycle. One that shares a value with a cycle that is
-    /// known already is left out: it is most likely the same mistake.
+    /// The path from `first` to its end is a cycle. A cycle that shares a value with a known one is
+    /// left out, since it is probably the same mistake.
     void add_cycle(std::uint32_t first) {
         std::size_t begin = path_.size();
         while (path_[begin - 1].value != first) {

@@ -6,18 +6,18 @@
 
 namespace cascade {
 
-/// What reads what: `reads[i]` are the numbers of the values that value i needs first.
+/// Dependencies: `reads[i]` are the numbers of the values that value i needs first.
 using Dependencies = std::vector<std::vector<std::uint32_t>>;
 
 struct Order {
     std::vector<std::uint32_t> order;  ///< All values, each after those it reads.
-    /// Cycles: each reads the next and the last reads the first. No value is in two of them. Where
-    /// there is one `order` has no meaning.
+    /// Each value of a cycle reads the next one, and the last reads the first. No value is in two
+    /// cycles. If there is one, `order` is meaningless.
     std::vector<std::vector<std::uint32_t>> cycles;
 };
 
-/// Depth-first topological sort with a stack of its own: values stay in order of their numbers as
-/// far as possible, and no depth of dependencies overflows anything.
+/// Depth-first topological sort with an explicit stack, so that no depth of dependencies overflows.
+/// Values stay in the order of their numbers as far as possible.
 Order topological_order(const Dependencies& reads);
 
 }  // namespace cascade

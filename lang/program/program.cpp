@@ -1,4 +1,4 @@
-// The checked program: what differs between cells, and the names of items.
+// Which values differ between cells, and the names of items.
 #include "lang/program/program.h"
 
 #include "core/check.h"
@@ -26,7 +26,7 @@ Formula formula_of(const Nodes& nodes, NodeId root) {
 }
 
 std::uint32_t Literals::number_of(const std::string& text) {
-    // Looked for among the last few only, so that very many cost no time.
+    // Only the last few are compared, so that large numbers of them cost no time.
     const std::size_t count = texts_.size();
     for (std::size_t i = count; i > 0 && count - i < 64; --i) {
         if (texts_[i - 1] == text) return static_cast<std::uint32_t>(i - 1);
@@ -67,7 +67,7 @@ bool differs_by_cell(const Node& node, bool operand_differs, const Program& prog
         case NodeKind::inside: return true;
         case NodeKind::call: break;
     }
-    // An aggregate over the domain is one number whatever it is taken of.
+    // An aggregate over the domain is one number, whatever its operand.
     if (info(node.function).is_aggregate) return false;
     return operand_differs || (varies_by_cell(node.function) && !differentiates(node.function));
 }

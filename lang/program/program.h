@@ -1,5 +1,5 @@
-// The checked program: every name resolved, every argument counted, every order found. What is
-// here makes sense; no user's error is left, later stages only CHECK.
+// The checked program: every name is resolved, every argument counted, every order known. It
+// contains no user error, so later stages only CHECK.
 #pragma once
 
 #include "core/axis.h"
@@ -23,29 +23,29 @@
 
 namespace cascade {
 
-/// What operators read of the surface, a plane each (surface/parameter_surface.h).
+/// What operators read of the surface, one plane each (surface/parameter_surface.h).
 // clang-format off
 enum class MetricPlane : std::uint8_t {
     inverse_11, inverse_12, inverse_22,  ///< Ṽ⁻¹.
-    area,                                ///< s, of the cell.
-    flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: times the differences, what flows.
+    area,                                ///< s, the area of the cell.
+    flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: turns differences into fluxes.
 };
 // clang-format on
 inline constexpr std::size_t metric_plane_count = 7;
-/// In dumps. No name of the language begins with a bracket.
+/// The name in dumps. No name of the language begins with a bracket.
 inline constexpr std::array<std::string_view, metric_plane_count> metric_names{
     "(metric 11)", "(metric 12)", "(metric 22)", "(area)", "(flow 11)", "(flow 12)", "(flow 22)"};
 
-/// What kernels read of the cells of a model, a plane each (run/domain/model_cells.h).
+/// What kernels read of the cells of a model, one plane each (run/domain/model_cells.h).
 // clang-format off
 enum class ModelPlane : std::uint8_t {
-    number,      ///< The cell's own number, a word; draws of random numbers take it.
-    area,        ///< In square units; 0 in cells that only fill the last row.
-    x, y, z,     ///< Its place in the model's box, whose longest side is 1 …
+    number,      ///< The cell's own number, a word for draws of random numbers.
+    area,        ///< In square units; 0 in the padding of the last row.
+    x, y, z,     ///< Its place in the model's box, whose longest side is 1, …
     sx, sy, sz,  ///< … and with every side 1.
     nx, ny, nz,  ///< The outward normal, of length 1.
     curvature,   ///< Turk's estimate, in 1 / unit.
-    // What is found when it is first read (run/domain/surface_values.h).
+    // Computed when they are first read (run/domain/surface_values.h).
     curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
     curvature_gauss,                                ///< In 1 / unit².
 };
@@ -56,7 +56,7 @@ inline constexpr std::array<std::string_view, model_plane_count> model_names{
     "(number)", "(area)", "(x)", "(y)", "(z)", "(sx)", "(sy)", "(sz)", "(nx)", "(ny)", "(nz)",
     "(curvature)", "(curvature_mean)", "(curvature_high)", "(curvature_low)", "(curvature_gauss)"};
 // clang-format on
-/// Is the plane made only for those who read it?
+/// Is the plane only made for formulas that read it?
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
 enum class NodeKind : std::uint8_t {
@@ -76,12 +76,11 @@ enum class NodeKind : std::uint8_t {
 
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
-/// The place of a node in its formula or graph.
+/// The position of a node in its formula or graph.
 using NodeId = Id<struct NodeTag>;
 using Operands = std::array<NodeId, most_operands>;
 
-/// A node of a formula or of an expression graph. Operands are nodes of the same list, before this
-/// one.
+/// A node of a formula or of an expression graph. Operands are earlier nodes of the same list.
 struct Node {
     NodeKind kind = NodeKind::number;
     Function function = Function::add;
@@ -93,7 +92,7 @@ struct Node {
     Operands operands{};
     std::uint8_t operand_count = 0;
 
-    /// The operands that there are.
+    /// The operands in use.
     std::span<const NodeId> reads() const { return {operands.data(), operand_count}; }
     std::span<NodeId> reads() { return {operands.data(), operand_count}; }
     bool calls(Function called) const { return kind == NodeKind::call && function == called; }
@@ -111,16 +110,16 @@ inline bool is_aggregate(const Node& node) {
 
 using Nodes = IdVector<NodeId, Node>;
 
-/// A checked expression: nodes in order, the whole last. Never empty.
+/// A checked expression: nodes in order, the last being the whole. Never empty.
 struct Formula {
     Nodes nodes;
 };
 
-/// The formula whose whole is `root`: of a list of nodes those that it needs, directly or through
+/// The formula whose whole is `root`: the nodes of a list that `root` needs, directly or through
 /// others, in their order.
 Formula formula_of(const Nodes& nodes, NodeId root);
 
-/// The values that make sense for a parameter, `in low .. high step s`.
+/// The range of a parameter, `in low .. high step s`.
 struct ParameterRange {
     double low = 0;
     double high = 1;
@@ -129,12 +128,12 @@ struct ParameterRange {
 
 /// A species or a parameter of a system.
 struct Quantity {
-    std::string name;  ///< Of a member of a family: `u[2]`.
+    std::string name;  ///< For a member of a family: `u[2]`.
     Span span;         ///< Where it was declared.
     bool is_species = false;
-    std::string doc;  ///< What its doc comment says; may be empty.
+    std::string doc;  ///< The text of its doc comment; may be empty.
     std::optional<ParameterRange> range;
-    Formula start;  ///< Default value; its `own` nodes are items of whichever stage.
+    Formula start;  ///< Default value; its `own` nodes are items of the stage that uses it.
 };
 
 struct Definition {
@@ -165,30 +164,30 @@ struct TimeSettings {
     Span coarse_span;
 };
 
-/// How the time of a stage goes on (spec/time.md).
+/// The time of a stage (spec/time.md).
 struct StageTime {
     Solver solver = Solver::euler;
     Span solver_span;  ///< Where it was written, for messages.
     std::optional<double>
-        tolerance;  ///< Of steps of chosen length, as written; see step_tolerance().
-    /// Steps of chosen length are no longer than this.
+        tolerance;  ///< For steps of chosen length, as written; see step_tolerance().
+    /// The limit of steps of chosen length.
     std::optional<double> largest_step;
     Span largest_step_span;  ///< Where that was written.
-    /// The stage ends when t is so large; empty where it ends after its iterations.
+    /// The stage ends at this t; empty if it ends by its iterations.
     std::optional<double> duration;
-    /// The duration is so many times the speed when the stage starts.
+    /// The duration is this number times the speed at the start of the stage.
     std::optional<std::int64_t> duration_in_steps;
-    bool open_end = false;         ///< Only `until` ends it, or the most steps it may take.
+    bool open_end = false;         ///< Ended by `until` alone, or by the largest number of steps.
     bool automatic_speed = false;  ///< The step is as long as stability and accuracy allow.
-    std::optional<Formula> until;  ///< The stage ends where this, the same in all cells, is true.
-    std::optional<double> steady;  ///< The stage ends when its pattern has settled so far.
-    std::optional<std::int64_t> check;  ///< Steps between two looks at `until`; see below.
-    /// The stage is run first on a grid whose cells are so many times as wide; 1 for no such run.
+    std::optional<Formula> until;  ///< Ends the stage when it is true; the same in all cells.
+    std::optional<double> steady;  ///< Ends the stage when its pattern has settled to this degree.
+    std::optional<std::int64_t> check;  ///< Steps between two evaluations of `until`; see below.
+    /// The stage first runs on a grid whose cells are this many times as wide; 1: it does not.
     std::int64_t coarse = 1;
     Span coarse_span;  ///< Where that was written.
 
     bool has_duration() const { return duration || duration_in_steps; }
-    /// Are the steps of different length, chosen as the stage runs?
+    /// Are the lengths of steps chosen while the stage runs?
     bool chooses_steps() const { return automatic_speed || is_adaptive(solver); }
     /// The relative error of a step of chosen length.
     double step_tolerance() const {
@@ -196,7 +195,7 @@ struct StageTime {
                                                       : default_automatic_tolerance);
     }
     static constexpr double default_tolerance = 1e-4, default_automatic_tolerance = 1e-3;
-    /// Steps that are as long as the state allows need closer looks.
+    /// Steps that are as long as the state allows need more frequent checks.
     std::int64_t steps_between_looks() const {
         return check.value_or(chooses_steps() || takes_long_steps(solver) ? 10 : 100);
     }
@@ -208,7 +207,7 @@ struct Settings {
     std::optional<std::int64_t> interval;
     std::optional<Formula> frozen;
     std::optional<Formula> speed;
-    std::optional<Formula> show;  ///< What a picture of a stage shows by default.
+    std::optional<Formula> show;  ///< The default of what pictures of a stage show.
     TimeSettings time;
 };
 
@@ -220,12 +219,12 @@ struct Index {
     std::int64_t high = 1;
 };
 
-/// What a species is at a side.
+/// The rule of a species at a side.
 struct SideSetting {
     SideKind kind = SideKind::no_flux;
-    Formula
-        value;  ///< Of fixed and flux: found when a stage starts; its `own` nodes are of the stage.
-    Span span;  ///< Where it was written; empty where it comes from the boundary.
+    Formula value;  ///< Of fixed and flux: computed when a stage starts; its `own` nodes are the
+                    ///< stage's.
+    Span span;      ///< Where it was written; empty if it comes from the boundary.
 };
 
 /// A rule of one species.
@@ -239,10 +238,10 @@ struct System {
     std::string name;
     Span span;
     bool built_in = false;
-    std::optional<std::uint32_t> base;    ///< The system that it is derived from.
-    std::string doc;                      ///< What its doc comment says; may be empty.
+    std::optional<std::uint32_t> base;    ///< The system from which it is derived.
+    std::string doc;                      ///< The text of its doc comment; may be empty.
     std::string title, cite, about;       ///< Its texts; may be empty.
-    std::vector<Index> indices;           ///< Their families are quantities u[1], u[2], …
+    std::vector<Index> indices;           ///< Families become quantities u[1], u[2], …
     std::vector<Quantity> quantities;     ///< In order of writing.
     std::vector<Definition> definitions;  ///< Each after those it reads.
     std::vector<Formula> rates;           ///< One per quantity; empty nodes for parameters.
@@ -270,51 +269,51 @@ struct Stage {
     std::vector<Formula> items;        ///< Starting value of every item.
     std::vector<std::uint32_t> order;  ///< Items in an order in which each can be evaluated.
     std::vector<bool> uniform;         ///< Per item: the same in all cells. Species never are.
-    std::int64_t iterations = 0;       ///< With a duration: the most steps it may take.
-    std::int64_t interval = 1;         ///< 0 where looks are at tenths of the duration.
+    std::int64_t iterations = 0;       ///< With a duration: the largest number of steps.
+    std::int64_t interval = 1;         ///< 0 if the stage is observed at tenths of the duration.
     Formula show;
     StageTime time;
-    /// By species, in their order; empty where nothing is said of any side but the boundary.
+    /// By species, in their order; empty if the boundary holds at all sides.
     std::vector<std::array<SideSetting, side_count>> sides;
 };
 
 /// A surface in space on which the grid lies.
 struct SurfaceSettings {
     std::array<Formula, 3> position;  ///< Of numbers, coordinates and functions of numbers.
-    bool has_metric = true;           ///< False: cells count as squares all the same.
+    bool has_metric = true;           ///< False: cells count as squares.
     std::optional<double> unit;       ///< Length of one unit; empty: the mean cell has area 1.
     Span span;
 };
 
 /// A domain of any shape: the cells of the grid that belong to it.
 struct MaskSettings {
-    Formula formula;  ///< Not 0 and not NaN in cells of the domain. Reads no item.
+    Formula formula;  ///< Neither 0 nor NaN in cells of the domain. Reads no item.
     Span span;        ///< Of the expression.
 };
 
-/// Where a surface comes from on which cells are spread.
+/// The source of a surface over which cells are spread.
 enum class ModelShape : std::uint8_t { file, sphere, torus, box, creature, implicit };
 
-/// What becomes a cell.
+/// What the cells are.
 enum class ModelCellKind : std::uint8_t {
     spread,    ///< Points spread evenly, each with its Voronoi region (Turk).
     faces,     ///< The triangles of the model.
     vertices,  ///< Its points.
 };
 
-/// How differences of neighbours are weighted.
+/// How differences between neighbours are weighted.
 enum class ModelLaplacian : std::uint8_t {
-    finite_volumes,  ///< Length of the Voronoi edge over distance, over the cell's area.
-    turk,            ///< Lengths of Voronoi edges, so scaled that their sum is 4.
+    finite_volumes,  ///< The length of the Voronoi edge over the distance and the cell's area.
+    turk,            ///< Lengths of Voronoi edges, scaled so that their sum is 4.
 };
 
-/// In which direction cells, and what grows over them, are stretched.
+/// The direction in which cells, and patterns, are stretched.
 struct DirectionSettings {
     enum class Kind : std::uint8_t { axis, gradient, curvature_high, curvature_low, keys };
     Kind kind = Kind::axis;
-    /// Of an axis its vector; of keys groups of a position and a vector.
+    /// For an axis its vector; for keys groups of a position and a vector.
     std::vector<double> numbers;
-    std::optional<Formula> height;  ///< Of a gradient: of numbers and x, y and z.
+    std::optional<Formula> height;  ///< For a gradient: a formula of numbers and x, y and z.
     double smoothing = 0;           ///< Standard deviation, in longest sides of the model.
     Span span;
 };
@@ -322,21 +321,21 @@ struct DirectionSettings {
 /// A surface in space whose cells are the domain: the file of a model, or a shape.
 struct ModelSettings {
     ModelShape shape = ModelShape::file;
-    std::string path;                 ///< Of a file.
-    std::vector<double> sizes;        ///< Of a torus (its two radii) or a box (its three sides).
+    std::string path;                 ///< For a file.
+    std::vector<double> sizes;        ///< Of a torus (two radii) or a box (three sides).
     std::optional<Formula> implicit;  ///< The surface is where this is 0.
     ModelCellKind cells = ModelCellKind::spread;
-    std::int64_t count = 16384;  ///< Of cells that are spread.
+    std::int64_t count = 16384;  ///< Of spread cells.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
     std::optional<double> unit;  ///< Length of one unit; empty: the mean cell has area 1.
     Axis up = Axis::y;           ///< The axis of the model that becomes y of the script.
     std::optional<DirectionSettings> directions;
-    double stretch = 2;  ///< How many times as long as wide cells are along the directions.
-    Span span;           ///< Of what names the model.
+    double stretch = 2;  ///< The ratio of length to width of cells along the directions.
+    Span span;           ///< Of the name of the model.
 };
 
-/// What is known of the cells of a model from places on it: distance(…) and keys(…), whose values
-/// are numbers.
+/// Values of a model's cells that come from places on it: distance(…) and keys(…) with constant
+/// arguments.
 struct SurfaceValue {
     Function function = Function::distance;
     std::vector<double> numbers;  ///< As written.
@@ -359,11 +358,11 @@ struct DomainSettings {
 /// of a checked program that names something new adds it at the end. From one thread at a time.
 class Literals {
 public:
-    /// The number of an equal one that is there already, or of a new one.
+    /// The number of an equal one, or of a new one.
     std::uint32_t number_of(const std::string& text);
     std::uint32_t number_of(const SurfaceValue& value);
 
-    /// In quotes: palette names, paths.
+    /// Texts in quotes: palette names, paths.
     const std::deque<std::string>& texts() const { return texts_; }
     const std::deque<SurfaceValue>& surface_values() const { return surface_values_; }
 
@@ -382,13 +381,13 @@ struct Program {
     const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
 };
 
-/// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` tells whether
-/// one of its operands does. What a stage lacks an answer for yet, its items, is taken to differ.
+/// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` says whether one
+/// of its operands does. Items of the stage that are not known yet count as different.
 bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
                      std::uint32_t stage);
 
-/// The program as text, for `--dump program`: systems in use, stages, resolved formulas, orders,
-/// what varies.
+/// The program as text for `--dump program`: systems in use, stages, resolved formulas, orders, and
+/// which values vary.
 std::string print_program(const Program& program);
 
 }  // namespace cascade
