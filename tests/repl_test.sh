@@ -68,7 +68,7 @@ says out 'stage s: turing_spots { iterations: 10 }'
 # What came of a run is said, and that there is nothing left to run.
 feed 'domain { grid: 16, 8 }' 'stage s: gray_scott { u: 1; v: 0; iterations: 50 }' ':run' ':show v' ':run' \
     ':set s.feed=0.05'
-says err "stage 's' ended even (u = 1, v = 0): nothing tells one cell from another"
+says err "stage 's' ended even (u = 1, v = 0): all cells are the same"
 says out '0 in all cells'
 [ "$(grep -c "':init' begins again" err)" = 2 ] || fail "not told that all is over"
 

@@ -161,8 +161,8 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return refuse("second derivatives by name have no meaning on a surface; lap and div have");
     }
     if (context == Context::constant && varies) {
-        error(span, fmt::format("{} must be one number, but {} is {}", scope_.subject, row.spelling,
-                                row.is_aggregate ? "known only in a run" : "varying by cell"));
+        error(span, fmt::format("{} must be one number, but {} {}", scope_.subject, row.spelling,
+                                row.is_aggregate ? "is known only in a run" : "varies by cell"));
         return false;
     }
     if (context == Context::bound && varies) {

@@ -61,8 +61,7 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
     }
     if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
         report(work, span,
-               fmt::format("{} must be one number, but '{}' is varying by cell", scope.subject,
-                           name),
+               fmt::format("{} must be one number, but '{}' varies by cell", scope.subject, name),
                "");
         return;
     }

@@ -44,13 +44,12 @@ std::string describe_choice(const PlanGraph& graph, const PassPlanner::OperandCh
     const std::string reader = name_of(graph, choice.reader);
     const std::string operand = name_of(graph, choice.operand);
     if (choice.places == 0) {
-        return fmt::format("{} is written to a plane: {} takes all its cells", operand, reader);
+        return fmt::format("{} is written to a plane: {} reads all its cells", operand, reader);
     }
     const std::string neighbours = counted(choice.places, "neighbour");
     if (choice.is_open) {
         return fmt::format(
-            "{} is computed again at {} for {}: beyond a side it is made of what "
-            "stands there",
+            "{} is computed again at {} for {}: beyond a side it depends on the values there",
             operand, neighbours, reader);
     }
     if (!choice.is_written) {

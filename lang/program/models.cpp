@@ -17,19 +17,19 @@ std::string_view reason_against(Function function) {
     if (includes(info(function).domains, Domains::model)) return "";
     switch (function) {
         case Function::advect:
-            return "a flow on a model has no columns and rows to go along; "
-                   "vx * dx(e) + vy * dy(e) + vz * dz(e) is carried by central differences";
+            return "it needs columns and rows; "
+                   "vx * dx(e) + vy * dy(e) + vz * dz(e) is advection by central differences";
         case Function::diffuse:
         case Function::tensor:
-            return "an angle has no meaning on a model, which has no columns and rows";
+            return "its angle needs columns and rows, which a model does not have";
         case Function::vector:
             return "a flux on a model is made of gradients, as in div(a * grad(e))";
         case Function::field:
-            return "rows and columns of a file have no meaning on a model; "
-                   "attr(\"name\") reads what its points have";
+            return "a model has no rows and columns; "
+                   "attr(\"name\") reads a number of its points";
         case Function::image:
-            return "rows and columns of a picture have no meaning on a model; "
-                   "uvimage(\"f.png\") is a picture painted on it";
+            return "a model has no rows and columns; "
+                   "uvimage(\"f.png\") reads a picture that is painted on it";
         default: return "a model has no second derivatives by name; lap(e) has a meaning there";
     }
 }

@@ -31,7 +31,7 @@ bool ScriptParser::parse_function_or_use() {
 bool ScriptParser::refuse_function_or_use() {
     if (!begins_function() && !begins_use()) return false;
     const Token word = cursor_.take();
-    cursor_.error(word.span, fmt::format("{} stands outside of blocks", cursor_.describe(word)),
+    cursor_.error(word.span, fmt::format("{} belongs outside of blocks", cursor_.describe(word)),
                   "write it at the top of the script");
     cursor_.skip_statement();
     return true;

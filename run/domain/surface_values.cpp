@@ -149,7 +149,7 @@ Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
     const std::string near = nearest_name(name, names);
     return failure(fmt::format("the model's points have no '{}'", name),
                    !near.empty()   ? fmt::format("did you mean '{}'?", near)
-                   : names.empty() ? std::string("they have places and nothing else")
+                   : names.empty() ? std::string("they have no attributes")
                                    : fmt::format("they have {}", fmt::join(names, ", ")));
 }
 

@@ -32,8 +32,7 @@ std::optional<double> limit(const NotFiniteReport& report) {
 std::string advice_for_growth(const StepInUse& use) {
     if (is_adaptive(use.solver)) return "the reaction itself grows without bound here";
     return "either the reaction itself grows without bound here, or steps are too long to follow "
-           "it; "
-           "'solver: rk23' finds out, whose steps are as long as their error allows";
+           "it; 'solver: rk23', which chooses its steps by their error, tells which";
 }
 
 }  // namespace
@@ -71,8 +70,7 @@ Failure describe(const NotFiniteReport& report) {
     const StepInUse& use = report.use;
     if (is_semi_implicit(use.solver)) {
         failure.hint = fmt::format(
-            "{} takes diffusion alone for a step of any length, the reaction not; "
-            "try 'speed: {:.2g}'",
+            "{} is stable for diffusion at any step, but not for the reaction; try 'speed: {:.2g}'",
             name_of(use.solver), use.speed / 2);
         return failure;
     }
@@ -81,12 +79,12 @@ Failure describe(const NotFiniteReport& report) {
         failure.hint = advise(*largest, use);
     } else if (!report.largest_before) {
         failure.hint =
-            "a smaller grid needs no memory to be spared, so it tells which step it was and why";
+            "on a smaller grid, where a copy of the species is kept, this message names the step "
+            "and the reason";
     } else if (*report.largest_before < most_that_is_sane) {
         failure.hint = fmt::format(
             "no value was above {:.3g} before that step: look for a division by zero, or a "
-            "logarithm "
-            "or root of a negative number, in its rate or in a parameter",
+            "logarithm or root of a negative number, in its rate or in a parameter",
             *report.largest_before);
     } else {
         failure.hint = advice_for_growth(use);

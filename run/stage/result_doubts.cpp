@@ -48,8 +48,7 @@ std::string describe(const AstrayReport& report) {
     const StepInUse& use = report.use;
     const std::string text = fmt::format(
         "stage '{}': the time step is too large: {} more steps would move {} by {:.2g}, and {} "
-        "steps of a third of "
-        "the length by {:.2g}, to values that differ by {:.2g}; ",
+        "steps of a third of the length by {:.2g}, to values that differ by {:.2g}; ",
         report.stage, report.steps, report.species, report.change, report.shorter_steps,
         report.change_of_shorter, report.apart);
     if (report.limit && is_too_long(use, *report.limit)) return text + advise(*report.limit, use);
@@ -58,10 +57,9 @@ std::string describe(const AstrayReport& report) {
 
 std::string describe(const LostChangeReport& report) {
     return fmt::format(
-        "stage '{}': a step would change {} by about {:.2g}, which is too little to be added to "
-        "values of {:.2g} "
-        "in single precision; of this stage about {:.2g} is lost; 'precision: double' in the "
-        "domain keeps it",
+        "stage '{}': a step would change {} by about {:.2g}, which is too small to be added to "
+        "values of {:.2g} in single precision; about {:.2g} is lost over the stage; "
+        "'precision: double' in the domain keeps it",
         report.stage, report.species, report.change, report.value, report.lost);
 }
 

@@ -41,8 +41,8 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
     }
     if (since.step == course.first().step && is_the_same && parameters_are) {
         return fmt::format(
-            "ended even ({}): nothing tells one cell from another; noise or a spot in "
-            "a starting value would",
+            "ended even ({}): all cells are the same; noise or a spot in a starting value would "
+            "make them differ",
             values);
     }
     const std::string step = with_commas(since.step);
@@ -90,7 +90,7 @@ std::string describe_growth(const System& system, const StageCourse& course) {
     }
     return fmt::format(
         "was still growing when it ended: the deviation of {} rose by {:.0f} % in the "
-        "last tenth, to {:.2g}; with more steps it becomes another picture",
+        "last tenth, to {:.2g}; more steps would change the picture",
         species_name(system, fastest), 100 * growth, course.last().species[fastest].deviation());
 }
 
@@ -107,8 +107,7 @@ std::string describe_fading(const System& system, const StageCourse& course) {
 std::string describe_until(const Stage& stage, const StageState& state) {
     if (stage.time.steps_between_looks() > state.steps) {
         return fmt::format(
-            "took {} steps and never looked at 'until', which it does every {} steps, as 'check' "
-            "says",
+            "took {} steps and never evaluated 'until', which it does every {} steps ('check')",
             with_commas(state.steps), with_commas(stage.time.steps_between_looks()));
     }
     if (!stage.time.steady) {
@@ -140,8 +139,8 @@ std::string describe_end(const Stage& stage, const System& system, const StageSt
     if (trend == Trend::growing) return about(describe_growth(system, course));
     if (stage.time.chooses_steps() && differs_by_errors_alone(stage, course)) {
         return about(fmt::format(
-            "ended all but even: its cells differ by less than {:.2g}, the tolerance of its steps, "
-            "of their values",
+            "ended almost even: its cells differ by less than {:.2g} of their values, which is the "
+            "tolerance of its steps",
             stage.time.step_tolerance()));
     }
     if (trend == Trend::fading) return about(describe_fading(system, course));

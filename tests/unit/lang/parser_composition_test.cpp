@@ -188,9 +188,9 @@ TEST(CompositionFaults, Statements) {
         {"use noise", "2:5 the name of the file stands in quotes | write use \"noise.cascade\""},
         {"use \"a.cascade\", \"b.cascade\"", "2:16 ',' has no place after the name of a file"},
         {"domain { fn f(x) = 1; seed: 1 }",
-         "2:10 'fn' stands outside of blocks | write it at the top of the script"},
+         "2:10 'fn' belongs outside of blocks | write it at the top of the script"},
         {"domain { use \"a\"; seed: 1 }",
-         "2:10 'use' stands outside of blocks | write it at the top of the script"},
+         "2:10 'use' belongs outside of blocks | write it at the top of the script"},
         {"system t: { b: 1 }",
          "2:9 the name of a system is missing after ':' | write 'system NAME: SYSTEM {'"},
     };

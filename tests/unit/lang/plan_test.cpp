@@ -168,12 +168,12 @@ TEST(Plan, WhatIsOpenAtSidesIsComputedThere) {
     const PlanOptions writing{Materialise::always, true};
     EXPECT_EQ(sided("u: x; u' = lap(exp(u))", open, writing).passes.size(), 1u);
     EXPECT_EQ(sided("u: x; u' = lap(exp(u))", "boundary: noflux", writing).passes.size(), 2u);
-    // The inner operator is written, and what is made of it and of u computed around.
+    // The inner operator is written; mu, which depends on it and on u, is computed around it.
     const StepPlan plan = sided("u: x; mu = exp(u) - lap(u); u' = lap(mu)", open, writing);
     EXPECT_EQ(plan.passes.size(), 2u);
     EXPECT_EQ(plan.temporaries, 1u);
     EXPECT_THAT(plan.words, HasSubstr("mu is computed again at 4 neighbours for u': beyond a side "
-                                      "it is made of what stands there"));
+                                      "it depends on the values there"));
     EXPECT_EQ(plan.passes[0].targets[0].boundary, Boundaries(Boundary::no_flux));
     // An aggregate of it takes its plane, a neighbour does not.
     EXPECT_EQ(sided("u: x; u' = lap(exp(u)) - mean(exp(u) over domain)", open, writing).temporaries,
