@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <ranges>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -37,6 +38,7 @@ class IdVector : public std::vector<Value> {
 public:
     using Base = std::vector<Value>;
     using Base::Base;
+    explicit IdVector(Base list) : Base(std::move(list)) {}
 
     typename Base::reference operator[](Key id) { return Base::operator[](id.index()); }
     typename Base::const_reference operator[](Key id) const { return Base::operator[](id.index()); }

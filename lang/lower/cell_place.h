@@ -13,10 +13,7 @@ public:
         : assembly_(assembly), builder_(assembly.builder()), at_(at) {}
 
     ValueId builtin(Builtin builtin);
-    ValueId of_model(ModelPlane plane) {
-        return assembly_.field({SlotSource::Kind::model, 0, static_cast<std::uint32_t>(plane)},
-                               at_);
-    }
+    ValueId of_model(ModelPlane plane) { return assembly_.field(plane, at_); }
     Space space();
     /// The length, area or volume of the cell in units.
     ValueId content();

@@ -1,90 +1,78 @@
 // Finds slots by names of their contents.
 #include "lang/lower/kernel_assembly.h"
 
-#include "core/check.h"
+#include "core/overloaded.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-namespace cascade {
-
-SlotSource::Kind slot_of_text(Function function) {
-    switch (function) {
-        case Function::image: return SlotSource::Kind::image;
-        case Function::attr: return SlotSource::Kind::attribute;
-        case Function::uvimage: return SlotSource::Kind::texture;
-        default: return SlotSource::Kind::file;
-    }
-}
-
-}  // namespace cascade
-
 namespace cascade::lowering {
+
+std::string KernelAssembly::name_of(StageItem item) const {
+    const std::string_view name = program_.system_of(item.stage).item_name(item.item);
+    if (item.stage == stage_) return std::string(name);
+    return fmt::format("{}.{}", program_.stages[item.stage].name, name);
+}
 
 /// No name of the language contains a dot or begins with a bracket, so different kinds of names
 /// cannot collide.
-std::string KernelAssembly::name_of(const SlotSource& source) const {
-    using Kind = SlotSource::Kind;
-    const auto item_name = [&](std::uint32_t stage) {
-        const std::string_view name = program_.system_of(stage).item_name(source.item);
-        if (stage == stage_) return std::string(name);
-        return fmt::format("{}.{}", program_.stages[stage].name, name);
+template <typename... Sources>
+std::string KernelAssembly::name_of(const std::variant<Sources...>& source) const {
+    const auto of = [](const auto& names, auto key) {
+        return std::string(names[static_cast<std::size_t>(key)]);
     };
-    const auto of_text = [&](Function function) {
-        return fmt::format("{}(\"{}\")", info(function).spelling,
-                           program_.literals->texts()[source.item]);
+    const auto numbered = [](std::string_view kind, auto id) {
+        return fmt::format("({} {})", kind, id.index());
     };
-    switch (source.kind) {
-        case Kind::item: return item_name(source.stage);
-        case Kind::file: return of_text(Function::field);
-        case Kind::image: return of_text(Function::image);
-        case Kind::attribute: return of_text(Function::attr);
-        case Kind::texture: return of_text(Function::uvimage);
-        case Kind::surface_value: {
+    const Overloaded name{
+        [&](StageItem each) { return name_of(each); },
+        [&](SweepInput each) {
+            return fmt::format("{} (input {})", name_of(StageItem{stage_, each.item}), each.input);
+        },
+        [&](NamedPlane each) {
+            return fmt::format("{}(\"{}\")", info(each.function).spelling,
+                               program_.literals->texts()[each.text]);
+        },
+        [&](SurfaceValueId id) {
             // A long list of numbers would not fit into a name; this one is just as distinct.
-            const SurfaceValue& value = program_.literals->surface_values()[source.item];
-            return fmt::format("({} {})", info(value.function).spelling, source.item);
-        }
-        case Kind::metric: return std::string(metric_names[source.item]);
-        case Kind::model: return std::string(model_names[source.item]);
-        case Kind::neighbourhood: return "(neighbourhood)";
-        case Kind::step_invariant: return fmt::format("(step-invariant {})", source.item);
-        case Kind::step: return "step";
-        case Kind::draw: return "draw";
-        case Kind::time: return "t";
-        case Kind::time_step: return "time step";
-        case Kind::temporary: return fmt::format("(temporary {})", source.item);
-        case Kind::aggregate: return fmt::format("(aggregate {})", source.item);
-        case Kind::input: return fmt::format("{} (input {})", item_name(stage_), source.stage);
-        case Kind::coefficient: return fmt::format("(coefficient {})", source.item);
-    }
-    CHECK(false, "lowering: every slot has a name");
+            const SurfaceValue& value = program_.literals->surface_values()[id.index()];
+            return numbered(info(value.function).spelling, id);
+        },
+        [&](MetricPlane plane) { return of(metric_names, plane); },
+        [&](ModelPlane plane) { return of(model_names, plane); },
+        [&](Neighbourhood) { return std::string("(neighbourhood)"); },
+        [&](StepInvariantId id) { return numbered("step-invariant", id); },
+        [&](TemporaryId id) { return numbered("temporary", id); },
+        [&](AggregateId id) { return numbered("aggregate", id); },
+        [&](CoefficientId id) { return numbered("coefficient", id); },
+        [&](TimeValue value) { return of(time_value_names, value); },
+    };
+    return std::visit(name, source);
 }
 
-std::uint32_t KernelAssembly::field_slot(const SlotSource& source) {
+std::uint32_t KernelAssembly::field_slot(const PlaneSource& source) {
     const std::uint32_t slot = builder_.field_slot(name_of(source));
     if (slot == bound_.fields.size()) bound_.fields.push_back(source);
     return slot;
 }
 
-ValueId KernelAssembly::field(const SlotSource& source, Offset at) {
+ValueId KernelAssembly::field(const PlaneSource& source, Offset at) {
     return builder_.neighbour(field_slot(source), at.dx, at.dy, at.dz);
 }
 
-ValueId KernelAssembly::uniform(const SlotSource& source) {
+ValueId KernelAssembly::uniform(const UniformSource& source) {
     const std::uint32_t slot = builder_.uniform_slot(name_of(source));
     if (slot == bound_.uniforms.size()) bound_.uniforms.push_back(source);
     return builder_.uniform(slot);
 }
 
-ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item, Offset at) {
-    const SlotSource source{SlotSource::Kind::item, stage, item};
-    if (program_.stages[stage].uniform[item]) return uniform(source);
-    const bool is_frozen = stage == stage_ && item == system().frozen_item();
-    if (!is_frozen || !frozen_is_mask_) return field(source, at);
-    const std::uint32_t slot = builder_.mask_slot(name_of(source));
-    if (slot == bound_.masks.size()) bound_.masks.push_back(source);
+ValueId KernelAssembly::item(StageItem item, Offset at) {
+    if (program_.stages[item.stage].uniform[item.item]) return uniform(item);
+    const bool is_frozen = item == StageItem{stage_, system().frozen_item()};
+    if (!is_frozen || !frozen_is_mask_) return field(item, at);
+    const std::uint32_t slot = builder_.mask_slot(name_of(item));
+    if (slot == bound_.masks.size()) bound_.masks.push_back(item);
     return builder_.mask(slot);
 }
 
@@ -92,21 +80,21 @@ ValueId KernelAssembly::item(std::uint32_t stage, std::uint32_t item, Offset at)
 ValueId KernelAssembly::time_step(Offset at) {
     const StageTime& time = stage().time;
     if (!time.has_duration() && !time.chooses_steps())
-        return item(stage_, system().speed_item(), at);
-    return uniform({SlotSource::Kind::time_step, stage_, 0});
+        return item({stage_, system().speed_item()}, at);
+    return uniform(TimeValue::length);
 }
 
 /// A time that is the same in all cells comes from the time loop.
 ValueId KernelAssembly::time(Offset at) {
     const std::uint32_t speed = system().speed_item();
-    if (stage().uniform[speed]) return uniform({SlotSource::Kind::time, stage_, 0});
+    if (stage().uniform[speed]) return uniform(TimeValue::time);
     return builder_.multiply(step(), time_step(at));
 }
 
 /// A word has one bit for each of the cells around and for the cell itself, by their offsets.
 ValueId KernelAssembly::inside(Offset at) {
     const ValueId bit = builder_.word(only(at));
-    const ValueId around = field({SlotSource::Kind::neighbourhood, 0, 0});
+    const ValueId around = field(Neighbourhood{});
     return builder_.apply(Op::bits_to_number, builder_.apply(Op::bits_and, around, bit));
 }
 

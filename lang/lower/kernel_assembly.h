@@ -24,18 +24,18 @@ public:
     const System& system() const { return program_.system_of(stage_); }
     const Stage& stage() const { return program_.stages[stage_]; }
 
-    std::uint32_t field_slot(const SlotSource& source);
+    std::uint32_t field_slot(const PlaneSource& source);
     /// The value of a plane in the cell at an offset.
-    ValueId field(const SlotSource& source, Offset at = {});
-    ValueId uniform(const SlotSource& source);
+    ValueId field(const PlaneSource& source, Offset at = {});
+    ValueId uniform(const UniformSource& source);
 
     /// The value of an item of any stage, and of one of this stage.
-    ValueId item(std::uint32_t stage, std::uint32_t item, Offset at = {});
-    ValueId item(std::uint32_t item) { return this->item(stage_, item); }
+    ValueId item(StageItem item, Offset at = {});
+    ValueId item(std::uint32_t item) { return this->item({stage_, item}); }
     /// Complete steps when the step begins.
-    ValueId step() { return uniform({SlotSource::Kind::step, stage_, 0}); }
+    ValueId step() { return uniform(TimeValue::step); }
     /// The number of that step as a word for draws.
-    ValueId draw_word() { return builder_.draw_word(uniform({SlotSource::Kind::draw, stage_, 0})); }
+    ValueId draw_word() { return builder_.draw_word(uniform(TimeValue::draw)); }
     /// The length of the current step.
     ValueId time_step(Offset at);
     /// The time when rates are evaluated.
@@ -48,7 +48,9 @@ public:
     BoundKernel finish() &&;
 
 private:
-    std::string name_of(const SlotSource& source) const;
+    std::string name_of(StageItem item) const;
+    template <typename... Sources>
+    std::string name_of(const std::variant<Sources...>& source) const;
 
     const Program& program_;
     std::uint32_t stage_;

@@ -37,8 +37,8 @@ StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptio
 StepPlan plan_step(const Program& program, std::uint32_t stage, const PlanOptions& options = {});
 
 /// One sweep of a time integrator: result o·S + s is output o of the s-th of the S species written.
-/// Formulas read input 0, the items of the stage (SlotSource::item); further inputs are only read
-/// in the cell itself.
+/// Formulas read input 0, the items of the stage (StageItem); further inputs are only read in the
+/// cell itself.
 StepPlan plan_sweep(const Program& program, std::uint32_t stage, const SweepForm& form,
                     const PlanOptions& options = {});
 

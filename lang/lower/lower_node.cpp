@@ -53,8 +53,8 @@ Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
     switch (node.kind) {
         case NodeKind::number: return {assembly.builder().number(node.number)};
         case NodeKind::text: return {};  // Its reader uses the node itself.
-        case NodeKind::own: return {assembly.item(in.graph.stage(), node.index, in.at)};
-        case NodeKind::earlier: return {assembly.item(node.stage, node.index, in.at)};
+        case NodeKind::own: return {assembly.item({in.graph.stage(), node.index}, in.at)};
+        case NodeKind::earlier: return {assembly.item({node.stage, node.index}, in.at)};
         case NodeKind::builtin:
             return {CellPlace(assembly, in.at).builtin(static_cast<Builtin>(node.index))};
         case NodeKind::metric:
@@ -68,20 +68,19 @@ Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
     CHECK(false, "lowering: a graph has no definitions and rates");
 }
 
-SlotSource plane_source(const PlanGraph& graph, NodeId id) {
-    using Kind = SlotSource::Kind;
+PlaneSource plane_source(const PlanGraph& graph, NodeId id) {
     const Node& node = graph[id];
     switch (node.kind) {
-        case NodeKind::own: return {Kind::item, graph.stage(), node.index};
-        case NodeKind::earlier: return {Kind::item, node.stage, node.index};
-        case NodeKind::metric: return {Kind::metric, 0, node.index};
-        case NodeKind::model: return {Kind::model, 0, node.index};
-        case NodeKind::surface_value: return {Kind::surface_value, 0, node.index};
+        case NodeKind::own: return StageItem{graph.stage(), node.index};
+        case NodeKind::earlier: return StageItem{node.stage, node.index};
+        case NodeKind::metric: return static_cast<MetricPlane>(node.index);
+        case NodeKind::model: return static_cast<ModelPlane>(node.index);
+        case NodeKind::surface_value: return SurfaceValueId(node.index);
         default: break;
     }
     CHECK(node.kind == NodeKind::call && reads_file(node.function),
           "lowering: a plane is an item or a file");
-    return {slot_of_text(node.function), 0, graph[node.operands[0]].index};
+    return NamedPlane{node.function, graph[node.operands[0]].index};
 }
 
 }  // namespace cascade::lowering

@@ -28,7 +28,7 @@ struct NodeInCell {
 Value lower_node(KernelAssembly& assembly, const NodeInCell& node);
 
 /// The plane of a node that is in one from the start (PlanGraph::is_plane).
-SlotSource plane_source(const PlanGraph& graph, NodeId id);
+PlaneSource plane_source(const PlanGraph& graph, NodeId id);
 
 // Kinds of calls.
 Value lower_palette(KernelAssembly& assembly, const NodeInCell& node);

@@ -31,7 +31,7 @@ private:
     ValueId advection(const Node& node);
     ValueId anisotropic(const Node& node);
 
-    std::uint32_t slot_of_plane(NodeId id) { return assembly_.field_slot(pass_.source(id)); }
+    std::uint32_t slot_of_plane(NodeId id) { return assembly_.field_slot(pass_.plane(id)); }
     ValueId own(NodeId id) const { return values_.number_at(id, {}); }
     ValueId beside(NodeId id, Offset offset) const { return values_.beside(id, offset); }
     ValueId scaled(ValueId value, double factor) const { return values_.scaled(value, factor); }

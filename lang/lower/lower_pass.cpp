@@ -8,14 +8,19 @@
 
 namespace cascade::lowering {
 
-SlotSource PassView::source(NodeId id) const {
-    using Kind = SlotSource::Kind;
-    if (planner.is_step_invariant(id)) {
-        return {Kind::step_invariant, graph.stage(), storage.step_invariant[id]};
-    }
-    if (planner.is_plane_in(id, pass)) return {Kind::temporary, 0, storage.temporary[id]};
-    if (is_aggregate(graph[id])) return {Kind::aggregate, 0, storage.aggregate[id]};
+PlaneSource PassView::plane(NodeId id) const {
+    if (planner.is_step_invariant(id)) return storage.step_invariant[id];
+    if (planner.is_plane_in(id, pass)) return storage.temporary[id];
     return plane_source(graph, id);
+}
+
+std::optional<UniformSource> PassView::number(NodeId id) const {
+    if (planner.is_step_invariant(id)) {
+        if (graph.is_uniform(id)) return storage.step_invariant[id];
+    } else if (is_aggregate(graph[id]) && !planner.is_plane_in(id, pass)) {
+        return storage.aggregate[id];
+    }
+    return std::nullopt;
 }
 
 NodeValues::NodeValues(const PlanGraph& graph, KernelAssembly& assembly, Needs needs)
@@ -77,11 +82,8 @@ Value PassLowering::compute_at(NodeId id, Offset offset) {
     const PlanGraph& graph = pass_.graph;
     const Node& node = graph[id];
     if (pass_.is_source(id, only(offset))) {
-        const SlotSource source = pass_.source(id);
-        const bool is_number =
-            source.kind == SlotSource::Kind::aggregate ||
-            (source.kind == SlotSource::Kind::step_invariant && graph.is_uniform(id));
-        return {is_number ? assembly_.uniform(source) : assembly_.field(source, offset)};
+        const auto number = pass_.number(id);
+        return {number ? assembly_.uniform(*number) : assembly_.field(pass_.plane(id), offset)};
     }
     if (node.calls(Function::div)) return {fluxes_.divergence(node)};
     if (node.kind == NodeKind::call && is_stencil(node.function)) {

@@ -18,9 +18,9 @@ namespace cascade::lowering {
 
 /// The numbers given to nodes, by node.
 struct Storage {
-    IdVector<NodeId, std::uint32_t> temporary;       ///< If it is written.
-    IdVector<NodeId, std::uint32_t> aggregate;       ///< If it is an aggregate.
-    IdVector<NodeId, std::uint32_t> step_invariant;  ///< If it is known before the first pass.
+    IdVector<NodeId, TemporaryId> temporary;           ///< If it is written.
+    IdVector<NodeId, AggregateId> aggregate;           ///< If it is an aggregate.
+    IdVector<NodeId, StepInvariantId> step_invariant;  ///< If it is known before the first pass.
 };
 
 /// The decisions of the planner, for one pass.
@@ -43,8 +43,9 @@ struct PassView {
         return !graph.is_uniform(id) && (planner.is_step_invariant(id) || graph.is_plane(id) ||
                                          (planner.is_plane_in(id, pass) && !graph.is_open(id)));
     }
-    /// The source of a node that is a source, or a plane from the start.
-    SlotSource source(NodeId id) const;
+    /// The source of a node that is a source, or a plane from the start: a plane, if not a number.
+    PlaneSource plane(NodeId id) const;
+    std::optional<UniformSource> number(NodeId id) const;
 };
 
 using Needs = IdVector<NodeId, std::uint32_t>;

@@ -25,7 +25,7 @@ ReductionKind kind_of(Function function) {
 template <typename Visit>
 void for_each_read(Pass& pass, const Visit& visit) {
     for (Reduction& reduction : pass.reductions) visit(reduction.operand);
-    for (SlotSource& source : pass.bound.fields) visit(source);
+    for (PlaneSource& source : pass.bound.fields) visit(source);
 }
 
 }  // namespace
@@ -48,16 +48,16 @@ void PlanBuilder::number_nodes() {
     storage_.aggregate.resize(graph_.size());
     storage_.step_invariant.resize(graph_.size());
     for (const NodeId id : request_.step_invariants) {
-        storage_.step_invariant[id] = plan_.step_invariants++;
+        storage_.step_invariant[id] = StepInvariantId(plan_.step_invariants++);
     }
     for (const NodeId id : graph_.ids()) {
         if (!planner_.is_needed(id) || planner_.is_step_invariant(id)) continue;
         if (planner_.is_written(id)) {
-            storage_.temporary[id] = plan_.temporaries++;
+            storage_.temporary[id] = TemporaryId(plan_.temporaries++);
             written_[planner_.pass_of(id)].push_back(id);
         }
         if (is_aggregate(graph_[id])) {
-            storage_.aggregate[id] = plan_.aggregates++;
+            storage_.aggregate[id] = AggregateId(plan_.aggregates++);
             aggregates_.push_back(id);
         }
     }
@@ -70,7 +70,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
     std::vector<NodeId> wanted = written_[pass];
     if (is_last) {
         for (const std::uint32_t item : request_.first_slots) {
-            last_->field_slot({SlotSource::Kind::item, graph_.stage(), item});
+            last_->field_slot(StageItem{graph_.stage(), item});
         }
         wanted.insert(wanted.end(), request_.wanted.begin(), request_.wanted.end());
     }
@@ -78,7 +78,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
     values_ = std::make_unique<PassLowering>(view, *last_, wanted);
     for (const NodeId id : written_[pass]) {
         const std::string& name = graph_.name(id);
-        const std::uint32_t number = storage_.temporary[id];
+        const std::uint32_t number = storage_.temporary[id].index();
         result(name.empty() ? fmt::format("(temporary {})", number) : name, value(id)[0]);
         plan_.passes[pass].targets.push_back(
             {PassTarget::Kind::temporary, number, false, graph_.boundary(id)});
@@ -88,7 +88,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
         // An aggregate needs a whole plane, however early the pass that writes it.
         const PassView after{graph_, planner_, storage_, planner_.pass_count()};
         plan_.passes[pass].reductions.push_back({kind_of(graph_[id].function),
-                                                 after.source(graph_[id].operands[0]),
+                                                 after.plane(graph_[id].operands[0]),
                                                  storage_.aggregate[id]});
     }
 }
@@ -115,27 +115,28 @@ StepPlan PlanBuilder::finish() && {
 
 /// Numbers the planes of temporaries; a plane is free again after the last pass that reads it.
 void PlanBuilder::share_temporaries() {
-    std::vector<std::size_t> last_read(plan_.temporaries, 0);
+    IdVector<TemporaryId, std::size_t> last_read(plan_.temporaries, 0);
     for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
-        for_each_read(plan_.passes[pass], [&](SlotSource& source) {
-            if (source.kind == SlotSource::Kind::temporary) last_read[source.item] = pass;
+        for_each_read(plan_.passes[pass], [&](PlaneSource& source) {
+            if (const auto* id = std::get_if<TemporaryId>(&source)) last_read[*id] = pass;
         });
     }
-    std::vector<std::uint32_t> plane(plan_.temporaries), free;
-    std::vector<std::vector<std::uint32_t>> freed_after(plan_.passes.size());
+    IdVector<TemporaryId, TemporaryId> plane(plan_.temporaries);
+    std::vector<TemporaryId> free;
+    std::vector<std::vector<TemporaryId>> freed_after(plan_.passes.size());
     std::uint32_t count = 0;
     for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
         for (PassTarget& target : plan_.passes[pass].targets) {
             if (target.kind != PassTarget::Kind::temporary) continue;
-            const std::uint32_t number = target.index;
-            if (free.empty()) free.push_back(count++);
-            plane[number] = free.back();
+            const TemporaryId written(target.index);
+            if (free.empty()) free.emplace_back(count++);
+            plane[written] = free.back();
             free.pop_back();
-            target.index = plane[number];
-            freed_after[std::max(last_read[number], pass)].push_back(plane[number]);
+            target.index = plane[written].index();
+            freed_after[std::max(last_read[written], pass)].push_back(plane[written]);
         }
-        for_each_read(plan_.passes[pass], [&](SlotSource& source) {
-            if (source.kind == SlotSource::Kind::temporary) source.item = plane[source.item];
+        for_each_read(plan_.passes[pass], [&](PlaneSource& source) {
+            if (auto* id = std::get_if<TemporaryId>(&source)) *id = plane[*id];
         });
         free.insert(free.end(), freed_after[pass].begin(), freed_after[pass].end());
     }

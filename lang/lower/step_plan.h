@@ -8,7 +8,7 @@
 
 #include "ir/cell_kernel.h"
 #include "ir/reduction.h"
-#include "lang/program/program.h"
+#include "lang/lower/slot_source.h"
 
 #include <cstdint>
 #include <string>
@@ -16,49 +16,12 @@
 
 namespace cascade {
 
-/// Where the value of a kernel's slot comes from.
-struct SlotSource {
-    enum class Kind {
-        item,       ///< Item `item` of stage `stage` (a field slot, a mask slot or a uniform slot).
-        file,       ///< The array named Literals::texts()[item], as a field slot.
-        image,      ///< The picture named Literals::texts()[item], as a field slot.
-        attribute,  ///< The model's attribute Literals::texts()[item], as a field slot.
-        texture,    ///< The picture painted on the model Literals::texts()[item], as a field slot.
-        surface_value,   ///< Literals::surface_values()[item], as a field slot.
-        metric,          ///< MetricPlane `item` of the surface, as a field slot.
-        model,           ///< ModelPlane `item` of the cells of a model, as a field slot.
-        neighbourhood,   ///< Which of the cells around are inside the mask, as a field slot of
-                         ///< words.
-        step_invariant,  ///< Step-invariant part `item` of stage `stage`: a field slot, or a
-                         ///< uniform.
-        step,            ///< Uniform: complete steps of the stage when the step begins.
-        draw,         ///< Uniform: the number of that step as a word for draws (ir/draw_of_step.h).
-        time,         ///< Uniform: the stage's t when the rates are evaluated.
-        time_step,    ///< Uniform: the length of the current step.
-        temporary,    ///< Temporary plane `item`, as a field slot.
-        aggregate,    ///< Uniform: aggregate `item` of the plan.
-        input,        ///< The stage's species `item` in input `stage` of a sweep, as a field slot.
-        coefficient,  ///< Uniform: coefficient `item` of a sweep.
-    };
-    Kind kind = Kind::item;
-    std::uint32_t stage = 0;
-    std::uint32_t item = 0;
-};
-
-/// The kind of slot for a function that reads a text (field, image, attr, uvimage).
-SlotSource::Kind slot_of_text(Function function);
-
-/// Is it the kind of a slot that a text names?
-constexpr bool is_of_text(SlotSource::Kind kind) {
-    return kind >= SlotSource::Kind::file && kind <= SlotSource::Kind::texture;
-}
-
 /// A kernel, the sources of its slots and the targets of its results.
 struct BoundKernel {
     CellKernel kernel;
-    std::vector<SlotSource> fields;
-    std::vector<SlotSource> masks;
-    std::vector<SlotSource> uniforms;
+    std::vector<PlaneSource> fields;
+    std::vector<StageItem> masks;
+    std::vector<UniformSource> uniforms;
     std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
 };
 
@@ -74,8 +37,8 @@ struct PassTarget {
 /// An aggregate over the domain, computed from a plane.
 struct Reduction {
     ReductionKind kind = ReductionKind::sum;
-    SlotSource operand;           ///< An item, a file or a temporary.
-    std::uint32_t aggregate = 0;  ///< Its number among the plan's aggregates.
+    PlaneSource operand;
+    AggregateId aggregate;
 };
 
 struct Pass {

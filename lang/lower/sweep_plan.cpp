@@ -63,8 +63,8 @@ private:
 
     /// A species in an input, in the cell itself. Formulas read input 0.
     ValueId input(PlanBuilder& plan, std::uint32_t input, std::uint32_t item) const {
-        if (input == 0) return plan.last_pass().field({SlotSource::Kind::item, stage_, item});
-        return plan.last_pass().field({SlotSource::Kind::input, input, item});
+        if (input == 0) return plan.last_pass().field(StageItem{stage_, item});
+        return plan.last_pass().field(SweepInput{input, item});
     }
 
     ValueId base(PlanBuilder& plan, std::uint32_t item) const {
@@ -95,8 +95,7 @@ private:
             case SweepTerm::Weight::speed:
                 return builder.multiply(plan.last_pass().item(system_.speed_item()), value);
             case SweepTerm::Weight::coefficient:
-                return builder.multiply(plan.last_pass().uniform(
-                                            {SlotSource::Kind::coefficient, 0, term.coefficient}),
+                return builder.multiply(plan.last_pass().uniform(CoefficientId(term.coefficient)),
                                         value);
         }
         CHECK(false, "lowering: every weight has a meaning");

@@ -53,7 +53,7 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
                 : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
                               array->slices));
     } else {
-        files.add(SlotSource::Kind::file, node.index, to_field(*array, precision));
+        files.add({Function::field, node.index}, to_field(*array, precision));
     }
 }
 
@@ -71,16 +71,15 @@ void read_image(Script& script, const Node& node, InputFiles& files) {
     const auto picture = read_picture(script, node);
     if (!picture) return;
     const Field plane = to_field(resized(*picture, grid.width, grid.height), grid);
-    files.add(SlotSource::Kind::image, node.index,
-              plane.converted(script.program->domain.precision));
+    files.add({Function::image, node.index}, plane.converted(script.program->domain.precision));
 }
 
 /// The values that the model has at its points, or of a picture painted on it.
-void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, const ModelCells& model,
+void read_of_model(Script& script, const Node& node, Function function, const ModelCells& model,
                    InputFiles& files) {
     const Precision precision = script.program->domain.precision;
     Result<Field> plane;
-    if (kind == SlotSource::Kind::attribute) {
+    if (function == Function::attr) {
         plane = attribute_plane(script.program->literals->texts()[node.index], model, precision);
     } else {
         const auto picture = read_picture(script, node);
@@ -89,7 +88,7 @@ void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, cons
     }
     if (!plane)
         return script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
-    files.add(kind, node.index, *std::move(plane));
+    files.add({function, node.index}, *std::move(plane));
 }
 
 }  // namespace
@@ -97,21 +96,20 @@ void read_of_model(Script& script, const Node& node, SlotSource::Kind kind, cons
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
     InputFiles files;
     // Each text is looked up, and its fault reported, once.
-    std::set<std::pair<SlotSource::Kind, std::uint32_t>> known;
+    std::set<NamedPlane> known;
     const auto read_of = [&](const Formula& formula) {
         for (const Node& node : formula.nodes) {
             if (node.kind != NodeKind::call || !reads_file(node.function)) continue;
             const Node& text = formula.nodes[node.operands[0]];
-            const SlotSource::Kind kind = slot_of_text(node.function);
-            if (!known.insert({kind, text.index}).second) continue;
-            if (kind == SlotSource::Kind::file) {
+            if (!known.insert({node.function, text.index}).second) continue;
+            if (node.function == Function::field) {
                 read_one(script, text, files);
-            } else if (kind == SlotSource::Kind::image) {
+            } else if (node.function == Function::image) {
                 read_image(script, text, files);
             } else {
                 CHECK(model != nullptr,
                       "only scripts on models read what points and textures have");
-                read_of_model(script, text, kind, *model, files);
+                read_of_model(script, text, node.function, *model, files);
             }
         }
     };

@@ -4,43 +4,36 @@
 
 #include "core/plane.h"
 #include "core/result.h"
-#include "lang/lower/step_plan.h"
+#include "lang/lower/slot_source.h"
 #include "run/domain/model_cells.h"
 #include "run/script/script.h"
 
-#include <cstdint>
 #include <map>
-#include <utility>
 
 namespace cascade {
 
-/// Planes by the function that reads them and the number of their text in Literals::texts().
 class InputFiles {
 public:
-    using Kind = SlotSource::Kind;  ///< A kind whose slots are named by a text.
+    void add(NamedPlane name, Field plane) { planes_[name] = std::move(plane); }
+    const Field& plane(NamedPlane name) const { return planes_.at(name); }
 
-    void add(Kind kind, std::uint32_t text, Field plane) {
-        planes_[{kind, text}] = std::move(plane);
-    }
-    const Field& plane(Kind kind, std::uint32_t text) const { return planes_.at({kind, text}); }
-
-    /// Calls `look` with the text and the plane of each that has this kind.
+    /// Calls `look` with the text and the plane of each that this function reads.
     template <typename Look>
-    void each_of(Kind kind, const Look& look) const {
+    void each_of(Function function, const Look& look) const {
         for (const auto& [name, plane] : planes_) {
-            if (name.first == kind) look(name.second, plane);
+            if (name.function == function) look(name.text, plane);
         }
     }
     /// The same files, with a new plane made from each.
     template <typename Make>
     InputFiles mapped(const Make& make) const {
         InputFiles result;
-        for (const auto& [name, plane] : planes_) result.add(name.first, name.second, make(plane));
+        for (const auto& [name, plane] : planes_) result.add(name, make(plane));
         return result;
     }
 
 private:
-    std::map<std::pair<Kind, std::uint32_t>, Field> planes_;
+    std::map<NamedPlane, Field> planes_;
 };
 
 /// Reads every file that the mask or a starting value names, relative to the script's folder, and

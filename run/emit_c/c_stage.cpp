@@ -75,14 +75,15 @@ private:
     }
     /// The rules at the sides of a plane that is read at neighbours and is not a species of this
     /// step.
-    std::string rules_of(const SlotSource& source) {
-        if (source.kind == SlotSource::Kind::item && source.stage != k_ &&
-            program_.system_of(source.stage).is_species(source.item) &&
-            !program_.stages[source.stage].sides.empty()) {
+    std::string rules_of(const PlaneSource& source) {
+        const auto* const item = std::get_if<StageItem>(&source);
+        if (item != nullptr && item->stage != k_ &&
+            program_.system_of(item->stage).is_species(item->item) &&
+            !program_.stages[item->stage].sides.empty()) {
             error_ = fmt::format(
                 "stage '{}' reads {} at its neighbours, whose sides are rules of "
                 "that stage, which are not compiled with this one",
-                stage_.name, tables_.item_path(source.stage, source.item));
+                stage_.name, tables_.item_path(*item));
         }
         return request_.name + "_boundary";
     }
@@ -126,13 +127,13 @@ private:
     template <typename ResultPlane>
     std::string plan_text(const StepPlan& plan, const ResultPlane& result) {
         std::string text;
-        std::set<std::uint32_t> with_halo;
+        std::set<TemporaryId> with_halo;
         for (const Pass& pass : plan.passes) {
             for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
-                const SlotSource& source = pass.bound.fields[slot];
-                if (source.kind == SlotSource::Kind::temporary &&
+                const auto* const id = std::get_if<TemporaryId>(&pass.bound.fields[slot]);
+                if (id != nullptr &&
                     pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) {
-                    with_halo.insert(source.item);
+                    with_halo.insert(*id);
                 }
             }
         }
@@ -143,7 +144,7 @@ private:
             lines.kernel = tables_.kernel(pass.bound.kernel);
             for (const Reduction& each : pass.reductions) {
                 lines.before.push_back(
-                    reduction(each.aggregate, each.kind, tables_.plane(each.operand)));
+                    reduction(each.aggregate.index(), each.kind, tables_.plane(each.operand)));
             }
             for (const PassTarget& target : pass.targets) {
                 if (target.kind == PassTarget::Kind::result) {
@@ -151,12 +152,12 @@ private:
                     continue;
                 }
                 lines.results.push_back(tables_.temporary(target.index));
-                if (with_halo.contains(target.index)) {
+                if (with_halo.contains(TemporaryId(target.index))) {
                     lines.after.push_back(fill(lines.results.back(), request_.name + "_boundary"));
                 }
             }
             add_reads(pass, lines);
-            for (const SlotSource& source : pass.bound.uniforms) {
+            for (const UniformSource& source : pass.bound.uniforms) {
                 lines.uniforms.push_back(start_uniform(source));
             }
             text += write(lines);
@@ -168,23 +169,19 @@ private:
     /// filled before the pass.
     void add_reads(const Pass& pass, PassText& lines) {
         for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
-            const SlotSource& source = pass.bound.fields[slot];
+            const PlaneSource& source = pass.bound.fields[slot];
             lines.fields.push_back(tables_.plane(source));
-            if (source.kind == SlotSource::Kind::temporary) continue;
+            if (std::holds_alternative<TemporaryId>(source)) continue;
             if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
             lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
         }
-        for (const SlotSource& source : pass.bound.masks) {
-            lines.masks.push_back(tables_.mask(source));
-        }
+        for (const StageItem item : pass.bound.masks) lines.masks.push_back(tables_.mask(item));
     }
 
-    std::string start_uniform(const SlotSource& source) {
-        if (source.kind == SlotSource::Kind::item) {
-            return tables_.number(source);
-        }
-        if (source.kind == SlotSource::Kind::aggregate) {
-            return fmt::format("aggregates[{}]", source.item);
+    std::string start_uniform(const UniformSource& source) {
+        if (const auto* const item = std::get_if<StageItem>(&source)) return tables_.number(*item);
+        if (const auto* const id = std::get_if<AggregateId>(&source)) {
+            return fmt::format("aggregates[{}]", id->index());
         }
         return "0";  // Step and time are 0 when a stage starts.
     }
@@ -194,7 +191,7 @@ private:
         std::vector<std::string> taken;
         result_.start += plan_text(plan, [&](std::uint32_t number) {
             const std::uint32_t item = plan.results[number];
-            const SlotSource source{SlotSource::Kind::item, k_, item};
+            const StageItem source{k_, item};
             if (!stage_.uniform[item]) return tables_.plane(source);
             // Uniform: the first cell is read.
             const std::string plane = tables_.temporary(plan.temporaries + taken.size());
@@ -202,7 +199,7 @@ private:
             return plane;
         });
         for (const std::string& line : taken) result_.start += line;
-        for (const SlotSource& mask : std::vector<SlotSource>(tables_.masks())) {
+        for (const StageItem mask : std::vector(tables_.masks())) {
             if (mask.stage != k_) continue;
             result_.start += fmt::format("    {}_make_mask({}, {});\n", request_.name,
                                          tables_.plane(mask), tables_.mask(mask));
@@ -264,7 +261,7 @@ private:
         const StepProblem::Pass& bound = problem.passes[number];
         PassText lines;
         lines.kernel = tables_.kernel(pass.bound.kernel);
-        const auto plane = [&](const PlaneRef& ref, const SlotSource& source) {
+        const auto plane = [&](const PlaneRef& ref, const PlaneSource& source) {
             return ref.kind == PlaneRef::Kind::species ? register_text(ref) : tables_.plane(source);
         };
         for (std::size_t k = 0; k < bound.reductions.size(); ++k) {
@@ -273,16 +270,14 @@ private:
                           plane(bound.reductions[k].operand, pass.reductions[k].operand)));
         }
         for (std::size_t slot = 0; slot < bound.fields.size(); ++slot) {
-            const SlotSource& source = pass.bound.fields[slot];
+            const PlaneSource& source = pass.bound.fields[slot];
             lines.fields.push_back(plane(bound.fields[slot], source));
             if (bound.fields[slot].kind == PlaneRef::Kind::fixed &&
                 pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) {
                 lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
             }
         }
-        for (const SlotSource& source : pass.bound.masks) {
-            lines.masks.push_back(tables_.mask(source));
-        }
+        for (const StageItem item : pass.bound.masks) lines.masks.push_back(tables_.mask(item));
         for (std::uint32_t slot = 0; slot < pass.bound.uniforms.size(); ++slot) {
             lines.uniforms.push_back(step_uniform(bound, slot, pass.bound.uniforms[slot]));
         }
@@ -319,7 +314,7 @@ private:
     }
 
     std::string step_uniform(const StepProblem::Pass& bound, std::uint32_t slot,
-                             const SlotSource& source) {
+                             const UniformSource& source) {
         using Kind = StepProblem::ChangingUniform::Kind;
         for (const StepProblem::ChangingUniform& changing : bound.changing) {
             if (changing.slot != slot) continue;
@@ -338,18 +333,17 @@ private:
                     return fmt::format("(float){}", c_number(changing.value));
             }
         }
-        return tables_.number(source);
+        return tables_.number(std::get<StageItem>(source));
     }
 
     /// Notes speed and frozen, which the functions around the statements read.
     void note_settings() {
         if (stage_.uniform[system_.speed_item()]) {
-            result_.speed =
-                tables_.number_place({SlotSource::Kind::item, k_, system_.speed_item()});
+            result_.speed = tables_.number_place({k_, system_.speed_item()});
         }
         const std::uint32_t frozen = system_.frozen_item();
         if (stage_.uniform[frozen] && request_.numbers[k_][frozen] != 0.0F) {
-            result_.frozen = tables_.number_place({SlotSource::Kind::item, k_, frozen});
+            result_.frozen = tables_.number_place({k_, frozen});
         }
     }
 

@@ -1,6 +1,8 @@
 // Tables grow as slots are encountered; identifiers are upper-case names, with a number if taken.
 #include "run/emit_c/c_tables.h"
 
+#include "core/check.h"
+#include "core/overloaded.h"
 #include "lang/lower/lower.h"
 
 #include <fmt/format.h>
@@ -39,17 +41,14 @@ void add_entry(std::vector<Entry>& table, Entry entry, std::string_view name) {
 }
 
 /// The index of a source in `known`; calls `add` for a new one.
-template <typename Add>
-std::size_t place_of(std::vector<SlotSource>& known, const SlotSource& source, const Add& add) {
-    for (std::size_t k = 0; k < known.size(); ++k) {
-        if (known[k].kind == source.kind && known[k].stage == source.stage &&
-            known[k].item == source.item) {
-            return k;
-        }
+template <typename Source, typename Add>
+std::size_t place_of(std::vector<Source>& known, const Source& source, const Add& add) {
+    const auto place = std::find(known.begin(), known.end(), source) - known.begin();
+    if (static_cast<std::size_t>(place) == known.size()) {
+        known.push_back(source);
+        add();
     }
-    known.push_back(source);
-    add();
-    return known.size() - 1;
+    return static_cast<std::size_t>(place);
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ CTables::CTables(const CStageRequest& request, CStage& stage)
     for (std::uint32_t item = 0; item < system_.item_count(); ++item) {
         if (system_.is_species(item)) {
             species_.push_back(item);
-            add_entry(stage_.species, {std::string(), item_path(request.stage, item), false},
+            add_entry(stage_.species, {std::string(), item_path({request.stage, item}), false},
                       system_.item_name(item));
         }
         const bool is_early =
@@ -77,75 +76,76 @@ CTables::CTables(const CStageRequest& request, CStage& stage)
     }
 }
 
-std::string CTables::item_path(std::uint32_t stage, std::uint32_t item) const {
-    return fmt::format("{} of stage '{}'", program_.system_of(stage).item_name(item),
-                       program_.stages[stage].name);
+std::string CTables::item_path(StageItem item) const {
+    return fmt::format("{} of stage '{}'", program_.system_of(item.stage).item_name(item.item),
+                       program_.stages[item.stage].name);
 }
 
-std::string CTables::item_name(const SlotSource& source) const {
-    const std::string_view item = program_.system_of(source.stage).item_name(source.item);
-    if (source.stage == request_.stage) return std::string(item);
-    return fmt::format("{}_{}", program_.stages[source.stage].name, item);
+std::string CTables::item_name(StageItem item) const {
+    const std::string_view name = program_.system_of(item.stage).item_name(item.item);
+    if (item.stage == request_.stage) return std::string(name);
+    return fmt::format("{}_{}", program_.stages[item.stage].name, name);
 }
 
 bool CTables::is_late(std::uint32_t item) const {
     return std::find(late_.begin(), late_.end(), item) != late_.end();
 }
 
-std::size_t CTables::number_place(const SlotSource& source) {
-    return place_of(numbers_, source, [&] {
-        const auto value = request_.numbers[source.stage][source.item];
+std::size_t CTables::number_place(StageItem item) {
+    return place_of(numbers_, item, [&] {
+        const auto value = request_.numbers[item.stage][item.item];
         CNumber entry;
-        entry.meaning = item_path(source.stage, source.item);
+        entry.meaning = item_path(item);
         entry.value = value.value_or(0.0F);
-        entry.is_given = !value && (source.stage != request_.stage || !is_late(source.item));
-        add_entry(stage_.numbers, entry, item_name(source));
+        entry.is_given = !value && (item.stage != request_.stage || !is_late(item.item));
+        add_entry(stage_.numbers, entry, item_name(item));
     });
 }
 
-std::string CTables::number(const SlotSource& source) {
-    return fmt::format("s->numbers[{}]", number_place(source));
+std::string CTables::number(StageItem item) {
+    return fmt::format("s->numbers[{}]", number_place(item));
 }
 
-void CTables::add_plane(const SlotSource& source) {
+void CTables::add_plane(const PlaneSource& source) {
     CPlane plane;
     std::string name;
-    switch (source.kind) {
-        case SlotSource::Kind::file:
-        case SlotSource::Kind::image:
-            plane.meaning = fmt::format("\"{}\"", program_.literals->texts()[source.item]);
+    const Overloaded describe{
+        [&](NamedPlane each) {
+            plane.meaning = fmt::format("\"{}\"", program_.literals->texts()[each.text]);
             name = fmt::format("file{}", planes_.size());
-            plane.data = add_data(request_.files.plane(source.kind, source.item));
-            break;
-        case SlotSource::Kind::metric:
+            plane.data = add_data(request_.files.plane(each));
+        },
+        [&](MetricPlane each) {
+            const auto number = static_cast<std::size_t>(each);
             plane.meaning = "how the cells lie on the surface";
-            name = fmt::format("metric{}", source.item);
-            plane.data = add_data(request_.metric[source.item]);
-            break;
-        default:
-            plane.meaning = item_path(source.stage, source.item);
-            plane.is_given = source.stage != request_.stage;
-            name = item_name(source);
-    }
+            name = fmt::format("metric{}", number);
+            plane.data = add_data(request_.metric[number]);
+        },
+        [&](StageItem item) {
+            plane.meaning = item_path(item);
+            plane.is_given = item.stage != request_.stage;
+            name = item_name(item);
+        },
+        [](auto) { CHECK(false, "stages of models and masks are not compiled"); },
+    };
+    std::visit(describe, source);
     add_entry(stage_.planes, plane, name);
 }
 
-std::string CTables::plane(const SlotSource& source) {
-    const bool is_own = source.kind == SlotSource::Kind::item && source.stage == request_.stage;
-    if (source.kind == SlotSource::Kind::temporary) return temporary(source.item);
-    if (is_own && system_.is_species(source.item)) {
-        const auto place = std::find(species_.begin(), species_.end(), source.item);
+std::string CTables::plane(const PlaneSource& source) {
+    if (const auto* const id = std::get_if<TemporaryId>(&source)) return temporary(id->index());
+    const auto* const item = std::get_if<StageItem>(&source);
+    if (item != nullptr && item->stage == request_.stage && system_.is_species(item->item)) {
+        const auto place = std::find(species_.begin(), species_.end(), item->item);
         return fmt::format("s->species[{}]", place - species_.begin());
     }
     return fmt::format("s->planes[{}]", place_of(planes_, source, [&] { add_plane(source); }));
 }
 
-std::string CTables::mask(const SlotSource& source) {
-    const std::size_t place = place_of(masks_, source, [&] {
-        add_entry(stage_.masks,
-                  {std::string(), item_path(source.stage, source.item),
-                   source.stage != request_.stage},
-                  item_name(source));
+std::string CTables::mask(StageItem item) {
+    const std::size_t place = place_of(masks_, item, [&] {
+        add_entry(stage_.masks, {std::string(), item_path(item), item.stage != request_.stage},
+                  item_name(item));
     });
     return fmt::format("s->masks[{}]", place);
 }

@@ -18,24 +18,24 @@ public:
     CTables(const CStageRequest& request, CStage& stage);
 
     /// Each returns a C expression, such as `s->numbers[3]`.
-    std::string number(const SlotSource& source);
-    std::string plane(const SlotSource& source);  ///< Of registers only the old values.
-    std::string mask(const SlotSource& source);
+    std::string number(StageItem item);
+    std::string plane(const PlaneSource& source);  ///< Of registers only the old values.
+    std::string mask(StageItem item);
     std::string temporary(std::size_t number);
     /// The name of a kernel's function; equal kernels share one.
     std::string kernel(const CellKernel& kernel);
 
-    /// The index of a source in the table of numbers.
-    std::size_t number_place(const SlotSource& source);
-    /// The sources of the table of masks.
-    const std::vector<SlotSource>& masks() const { return masks_; }
+    /// The index of an item in the table of numbers.
+    std::size_t number_place(StageItem item);
+    /// The items of the table of masks.
+    const std::vector<StageItem>& masks() const { return masks_; }
 
-    std::string item_path(std::uint32_t stage, std::uint32_t item) const;
+    std::string item_path(StageItem item) const;
 
 private:
-    std::string item_name(const SlotSource& source) const;
+    std::string item_name(StageItem item) const;
     bool is_late(std::uint32_t item) const;
-    void add_plane(const SlotSource& source);
+    void add_plane(const PlaneSource& source);
     std::string add_data(const Field& field);
 
     const CStageRequest& request_;
@@ -45,7 +45,9 @@ private:
     std::vector<std::uint32_t> species_;  ///< Items.
     /// Uniform items whose values are known only once there are cells.
     std::vector<std::uint32_t> late_;
-    std::vector<SlotSource> numbers_, planes_, masks_;  ///< In the order of the tables.
+    // In the order of the tables.
+    std::vector<StageItem> numbers_, masks_;
+    std::vector<PlaneSource> planes_;
 };
 
 }  // namespace cascade

@@ -12,8 +12,8 @@ Placeholders::Placeholders(const Program& program, std::uint32_t last) {
         state.frozen = Mask(layout);
     }
     for (std::uint32_t text = 0; text < program.literals->texts().size(); ++text) {
-        files_.add(SlotSource::Kind::file, text, Field(layout));
-        files_.add(SlotSource::Kind::image, text, Field(layout));
+        files_.add({Function::field, text}, Field(layout));
+        files_.add({Function::image, text}, Field(layout));
     }
     for (std::size_t k = 0; k < metric_plane_count; ++k) metric_.emplace_back(layout);
 }

@@ -101,17 +101,19 @@ StepInvariants find_step_invariants(const StageView& view) {
     const Environment& here = view.environment();
     const TimeAccount::Scope spent(here.account, Spent::starting);
     const StepPlan& once = here.plans->step_invariants(view.number());
-    StepInvariants found;
-    found.numbers.assign(once.result_count, 0);
-    found.boundaries.resize(once.result_count);
-    if (once.result_count == 0) return found;
-    found.planes = view.evaluate(once);
+    StepInvariants found(once.result_count);
+    if (found.empty()) return found;
+    std::vector<Field> planes = view.evaluate(once);
     for (const PassTarget& target : once.passes.back().targets) {
         if (target.kind != PassTarget::Kind::result) continue;
-        found.boundaries[target.index] = target.boundary;
-        if (!target.is_uniform) continue;
-        found.numbers[target.index] = found.planes[target.index].number_at(0, 0);
-        found.planes[target.index] = {};
+        Field& plane = planes[target.index];
+        StepInvariant& part = found[StepInvariantId(target.index)];
+        part.boundary = target.boundary;
+        if (target.is_uniform) {
+            part.number = plane.number_at(0, 0);
+        } else {
+            part.plane = std::move(plane);
+        }
     }
     return found;
 }

@@ -171,7 +171,7 @@ void UndefinedValues::look_at_until(const StageView& view, const RunControl& con
 
 void warn_of_even_pictures(const Environment& environment, const RunControl& control) {
     if (!control.warn) return;
-    environment.files.each_of(SlotSource::Kind::image, [&](std::uint32_t text, const Field& plane) {
+    environment.files.each_of(Function::image, [&](std::uint32_t text, const Field& plane) {
         const FieldMoments levels = moments(plane);
         if (levels.deviation > one_level) return;
         control.warn(fmt::format("image(\"{}\") is {:.4g} in all cells{}",

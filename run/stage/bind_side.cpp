@@ -25,8 +25,8 @@ std::vector<double> strip_of(const Field& field, Side side) {
 
 ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
                        const Compile& compile, const BindingContext& context, Team& team) {
-    const std::vector<Field> step_invariants =
-        run_plan(plans.once, compile, context, context.grid, team);
+    const IdVector<StepInvariantId, Field> step_invariants(
+        run_plan(plans.once, compile, context, context.grid, team));
     CHECK(plans.each.passes.size() == 1, "a side's value takes one pass");
     const BoundKernel& bound = plans.each.passes[0].bound;
     ChangingSide changing;
@@ -34,27 +34,25 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
     changing.side = side;
     changing.kernel = compile(bound.kernel);
     changing.precision = context.precision;
-    for (const SlotSource& source : bound.fields) {
-        const Field& plane = source.kind == SlotSource::Kind::step_invariant
-                                 ? step_invariants[source.item]
-                                 : plane_of(source, context);
+    for (const PlaneSource& source : bound.fields) {
+        const auto* const id = std::get_if<StepInvariantId>(&source);
+        const Field& plane = id != nullptr ? step_invariants[*id] : plane_of(source, context);
         changing.strips.push_back(strip_of(plane, side));
     }
-    for (const SlotSource& source : bound.uniforms) {
+    for (const UniformSource& source : bound.uniforms) {
         const auto slot = static_cast<std::uint32_t>(changing.uniforms.size());
-        double value = 0;
-        switch (source.kind) {
-            case SlotSource::Kind::item:
-                value = context.states[source.stage].numbers[source.item];
-                break;
-            case SlotSource::Kind::step_invariant:
-                value = step_invariants[source.item].number_at(0, 0);
-                break;
-            case SlotSource::Kind::time: changing.time_slot = slot; break;
-            case SlotSource::Kind::step: changing.step_slot = slot; break;
-            default: CHECK(false, "a side's value knows numbers, t and step");
+        double& value = changing.uniforms.emplace_back(0);
+        if (const auto* const each = std::get_if<StageItem>(&source)) {
+            value = context.states[each->stage].numbers[each->item];
+        } else if (const auto* const id = std::get_if<StepInvariantId>(&source)) {
+            value = step_invariants[*id].number_at(0, 0);
+        } else if (source == UniformSource(TimeValue::time)) {
+            changing.time_slot = slot;
+        } else {
+            CHECK(source == UniformSource(TimeValue::step),
+                  "a side's value knows numbers, t and step");
+            changing.step_slot = slot;
         }
-        changing.uniforms.push_back(value);
     }
     return changing;
 }

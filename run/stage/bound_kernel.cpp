@@ -3,27 +3,27 @@
 #include "run/stage/bound_kernel.h"
 
 #include "core/check.h"
+#include "core/overloaded.h"
 
 #include <algorithm>
 
 namespace cascade {
 
-const Field& plane_of(const SlotSource& source, const BindingContext& context) {
-    if (is_of_text(source.kind)) return context.files.plane(source.kind, source.item);
-    if (source.kind == SlotSource::Kind::metric) return context.metric[source.item];
-    if (source.kind == SlotSource::Kind::model) {
-        const auto plane = static_cast<ModelPlane>(source.item);
-        return is_made_when_read(plane) ? context.surface_values->plane(plane)
-                                        : context.model->planes[source.item];
-    }
-    if (source.kind == SlotSource::Kind::surface_value) {
-        return context.surface_values->value(source.item);
-    }
-    if (source.kind == SlotSource::Kind::neighbourhood) return context.mask->neighbourhood;
-    if (source.kind == SlotSource::Kind::step_invariant) {
-        return context.step_invariants->planes[source.item];
-    }
-    return context.states[source.stage].field(source.item);
+const Field& plane_of(const PlaneSource& source, const BindingContext& context) {
+    const Overloaded plane{
+        [&](StageItem each) { return &context.states[each.stage].field(each.item); },
+        [&](NamedPlane each) { return &context.files.plane(each); },
+        [&](SurfaceValueId id) { return &context.surface_values->value(id.index()); },
+        [&](MetricPlane of) { return &context.metric[static_cast<std::size_t>(of)]; },
+        [&](ModelPlane of) {
+            return is_made_when_read(of) ? &context.surface_values->plane(of)
+                                         : &context.model->planes[static_cast<std::size_t>(of)];
+        },
+        [&](Neighbourhood) { return &context.mask->neighbourhood; },
+        [&](StepInvariantId id) { return &(*context.step_invariants)[id].plane; },
+        [](auto) -> const Field* { CHECK(false, "registers and temporaries are no fields"); },
+    };
+    return *std::visit(plane, source);
 }
 
 namespace {
@@ -92,27 +92,27 @@ public:
 private:
     using PlaneRef = StepProblem::PlaneRef;
 
-    bool is_species(const SlotSource& source) const {
-        return system_ != nullptr && source.kind == SlotSource::Kind::item &&
-               source.stage == stage_ && system_->is_species(source.item);
+    bool is_species(StageItem item) const {
+        return system_ != nullptr && item.stage == stage_ && system_->is_species(item.item);
     }
 
-    PlaneRef bind_plane(const SlotSource& source) const {
+    PlaneRef bind_plane(const PlaneSource& source) const {
         PlaneRef plane;
-        if (source.kind == SlotSource::Kind::temporary) {
+        const auto set_species = [&](std::uint32_t item) {
+            plane.kind = PlaneRef::Kind::species;
+            plane.number =
+                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[item]);
+        };
+        if (const auto* const temporary = std::get_if<TemporaryId>(&source)) {
             plane.kind = PlaneRef::Kind::temporary;
-            plane.number = source.item;
-        } else if (is_species(source)) {
-            plane.kind = PlaneRef::Kind::species;
-            plane.number =
-                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
+            plane.number = temporary->index();
+        } else if (const auto* const input = std::get_if<SweepInput>(&source)) {
+            set_species(input->item);
+            plane.in_register = sweep_->inputs[input->input];
+        } else if (const auto* const own = std::get_if<StageItem>(&source);
+                   own != nullptr && is_species(*own)) {
+            set_species(own->item);
             plane.in_register = register_of(plane.number);
-        } else if (source.kind == SlotSource::Kind::input) {
-            plane.kind = PlaneRef::Kind::species;
-            plane.number =
-                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[source.item]);
-            plane.in_register =
-                source.stage == 0 ? register_of(plane.number) : sweep_->inputs[source.stage];
         } else {
             plane.field = &plane_of(source, context_);
         }
@@ -125,14 +125,14 @@ private:
         return species < sweep_->renewed ? new_register : sweep_->inputs[0];
     }
 
-    /// The plane of a value that is read at neighbours and does not change.
-    SideRules sides_of(const SlotSource& source) const {
-        if (source.kind == SlotSource::Kind::step_invariant) {
-            return context_.step_invariants->boundaries[source.item];
+    /// The rules at the sides of a plane that is read at neighbours and does not change.
+    SideRules sides_of(const PlaneSource& source) const {
+        if (const auto* const id = std::get_if<StepInvariantId>(&source)) {
+            return (*context_.step_invariants)[*id].boundary;
         }
-        if (source.kind == SlotSource::Kind::item) {
-            const StageState& state = context_.states[source.stage];
-            const int species = state.species_of_item[source.item];
+        if (const auto* const each = std::get_if<StageItem>(&source)) {
+            const StageState& state = context_.states[each->stage];
+            const int species = state.species_of_item[each->item];
             if (species >= 0 && !state.sides.empty()) {
                 return state.sides[static_cast<std::size_t>(species)];
             }
@@ -162,55 +162,47 @@ private:
         StepProblem::Pass bound;
         for (const Reduction& reduction : pass.reductions) {
             bound.reductions.push_back(
-                {reduction.kind, bind_plane(reduction.operand), reduction.aggregate});
+                {reduction.kind, bind_plane(reduction.operand), reduction.aggregate.index()});
         }
-        for (const SlotSource& source : pass.bound.fields) {
+        for (const PlaneSource& source : pass.bound.fields) {
             bound.fields.push_back(bind_plane(source));
         }
-        for (const SlotSource& source : pass.bound.masks) {
-            bound.masks.push_back(context_.states[source.stage].frozen.origin());
+        for (const StageItem mask : pass.bound.masks) {
+            bound.masks.push_back(context_.states[mask.stage].frozen.origin());
         }
-        for (const SlotSource& source : pass.bound.uniforms) bind_uniform(source, bound);
+        for (const UniformSource& source : pass.bound.uniforms) bind_uniform(source, bound);
         for (const PassTarget& target : pass.targets) bound.results.push_back(bind_result(target));
         return bound;
     }
 
-    void bind_uniform(const SlotSource& source, StepProblem::Pass& bound) const {
+    void bind_uniform(const UniformSource& source, StepProblem::Pass& bound) const {
         const auto slot = static_cast<std::uint32_t>(bound.uniforms.size());
         using Kind = StepProblem::ChangingUniform::Kind;
-        double value = 0;
-        switch (source.kind) {
-            case SlotSource::Kind::item:
-                value = context_.states[source.stage].numbers[source.item];
-                break;
-            case SlotSource::Kind::step_invariant:
-                value = context_.step_invariants->numbers[source.item];
-                break;
-            case SlotSource::Kind::step:
-                bound.changing.push_back({Kind::step, slot, 0, 0, false});
-                break;
-            case SlotSource::Kind::draw:
-                bound.changing.push_back({Kind::draw, slot, 0, 0, false});
-                break;
-            case SlotSource::Kind::aggregate:
-                bound.changing.push_back({Kind::aggregate, slot, source.item, 0, false});
-                break;
-            case SlotSource::Kind::time:
-                bound.changing.push_back({Kind::time, slot, 0, sweep_ ? sweep_->time : 0, false});
-                break;
-            case SlotSource::Kind::time_step:
-                value = context_.states[stage_].time.clock.step;
-                bound.changing.push_back({Kind::coefficient, slot, 0, 1, true});
-                break;
-            case SlotSource::Kind::coefficient: {
-                const Sweep::Coefficient& coefficient = sweep_->coefficients[source.item];
-                bound.changing.push_back(
-                    {Kind::coefficient, slot, 0, coefficient.value, coefficient.times_step});
-                break;
-            }
-            default: CHECK(false, "a uniform is one number for all cells");
-        }
-        bound.uniforms.push_back(value);
+        double& value = bound.uniforms.emplace_back(0);
+        const auto change = [&](Kind kind, std::uint32_t number, double by, bool times_step) {
+            bound.changing.push_back({kind, slot, number, by, times_step});
+        };
+        const Overloaded bind{
+            [&](StageItem each) { value = context_.states[each.stage].numbers[each.item]; },
+            [&](StepInvariantId id) { value = (*context_.step_invariants)[id].number; },
+            [&](AggregateId id) { change(Kind::aggregate, id.index(), 0, false); },
+            [&](CoefficientId id) {
+                const Sweep::Coefficient& each = sweep_->coefficients[id.index()];
+                change(Kind::coefficient, 0, each.value, each.times_step);
+            },
+            [&](TimeValue which) {
+                switch (which) {
+                    case TimeValue::step: return change(Kind::step, 0, 0, false);
+                    case TimeValue::draw: return change(Kind::draw, 0, 0, false);
+                    case TimeValue::time:
+                        return change(Kind::time, 0, sweep_ ? sweep_->time : 0, false);
+                    case TimeValue::length:
+                        value = context_.states[stage_].time.clock.step;
+                        return change(Kind::coefficient, 0, 1, true);
+                }
+            },
+        };
+        std::visit(bind, source);
     }
 
     StepProblem::Result bind_result(const PassTarget& target) const {
@@ -265,11 +257,9 @@ std::vector<bool> halo_registers(const Scheme& scheme) {
 /// read the number of the step or its length.
 bool rates_go_on(const StepPlan& plan) {
     for (const Pass& pass : plan.passes) {
-        for (const SlotSource& source : pass.bound.uniforms) {
-            if (source.kind == SlotSource::Kind::step || source.kind == SlotSource::Kind::draw ||
-                source.kind == SlotSource::Kind::time_step) {
-                return false;
-            }
+        for (const UniformSource& source : pass.bound.uniforms) {
+            const auto* const value = std::get_if<TimeValue>(&source);
+            if (value != nullptr && *value != TimeValue::time) return false;
         }
     }
     return true;

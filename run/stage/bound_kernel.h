@@ -19,12 +19,13 @@
 
 namespace cascade {
 
-/// Step-invariant values (plan_step_invariants), computed once.
-struct StepInvariants {
-    std::vector<Field> planes;           ///< If the value varies; empty if it does not,
-    std::vector<double> numbers;         ///< and is one number.
-    std::vector<Boundaries> boundaries;  ///< How the halo of each plane is filled.
+/// A step-invariant value (plan_step_invariants), computed once.
+struct StepInvariant {
+    Field plane;               ///< Empty if the value is the same in all cells …
+    double number = 0;         ///< … and is this number.
+    Boundaries boundary = {};  ///< How the halo of the plane is filled.
 };
+using StepInvariants = IdVector<StepInvariantId, StepInvariant>;
 
 /// Where slots get their values.
 struct BindingContext {
@@ -42,7 +43,7 @@ struct BindingContext {
 };
 
 /// The plane of a slot whose values lie in one, other than a temporary.
-const Field& plane_of(const SlotSource& source, const BindingContext& context);
+const Field& plane_of(const PlaneSource& source, const BindingContext& context);
 
 /// Creates a kernel that can be run.
 using Compile = std::function<KernelPointer(const CellKernel&)>;

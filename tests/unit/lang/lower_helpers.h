@@ -96,24 +96,39 @@ private:
         return 0;
     }
 
+    Field& field_of(StageItem item) { return stages_[item.stage].fields[item.item]; }
+
+    float time_value(TimeValue value, std::uint32_t stage) const {
+        const State& state = stages_[stage];
+        const auto steps = static_cast<float>(state.steps);
+        const float length = state.numbers[program_.system_of(stage).speed_item()];
+        switch (value) {
+            case TimeValue::step: return steps;
+            case TimeValue::draw: return draw_uniform<float>(state.steps);
+            case TimeValue::time: return steps * length;
+            case TimeValue::length: return length;
+        }
+        return 0;
+    }
+
     std::vector<Field> run(const BoundKernel& bound, std::uint32_t stage,
                            const PlaneLayout& layout) {
         EXPECT_EQ(verify(bound.kernel), "");
         const FlushDenormals environment;
         std::vector<const float*> fields;
-        for (const SlotSource& source : bound.fields) {
-            Field& field = source.kind == SlotSource::Kind::file
-                               ? files.at(program_.literals->texts()[source.item])
-                               : stages_[source.stage].fields[source.item];
+        for (const PlaneSource& source : bound.fields) {
+            const auto* const file = std::get_if<NamedPlane>(&source);
+            Field& field = file != nullptr ? files.at(program_.literals->texts()[file->text])
+                                           : field_of(std::get<StageItem>(source));
             EXPECT_FALSE(field.empty());
             fill_halo(field.origin(), layout, program_.domain.grid.boundary);
             fields.push_back(field.origin());
         }
         std::vector<Mask> masks;
         std::vector<const std::uint8_t*> mask_origins;
-        for (const SlotSource& source : bound.masks) {
+        for (const StageItem item : bound.masks) {
             masks.emplace_back(layout);
-            const Field& field = stages_[source.stage].fields[source.item];
+            const Field& field = field_of(item);
             for (std::int64_t j = 0; j < layout.height; ++j) {
                 for (std::int64_t i = 0; i < layout.width; ++i) {
                     masks.back().at(i, j) = field.at(i, j) != 0;
@@ -122,15 +137,10 @@ private:
             mask_origins.push_back(masks.back().origin());
         }
         std::vector<float> uniforms;
-        for (const SlotSource& source : bound.uniforms) {
-            const auto steps = static_cast<float>(stages_[stage].steps);
-            const std::uint32_t speed = program_.system_of(stage).speed_item();
-            uniforms.push_back(source.kind == SlotSource::Kind::step ? steps
-                               : source.kind == SlotSource::Kind::draw
-                                   ? draw_uniform<float>(stages_[stage].steps)
-                               : source.kind == SlotSource::Kind::time
-                                   ? steps * stages_[stage].numbers[speed]
-                                   : stages_[source.stage].numbers[source.item]);
+        for (const UniformSource& source : bound.uniforms) {
+            const auto* const item = std::get_if<StageItem>(&source);
+            uniforms.push_back(item != nullptr ? stages_[item->stage].numbers[item->item]
+                                               : time_value(std::get<TimeValue>(source), stage));
         }
         std::vector<Field> results;
         std::vector<float*> origins;

@@ -85,9 +85,9 @@ TEST(Plan, PlanesAreUsedAgain) {
         for (const PassTarget& target : pass.targets) {
             if (target.kind == PassTarget::Kind::temporary) written.insert(target.index);
         }
-        for (const SlotSource& source : pass.bound.fields) {
-            if (source.kind != SlotSource::Kind::temporary) continue;
-            EXPECT_FALSE(written.contains(source.item));
+        for (const PlaneSource& source : pass.bound.fields) {
+            const auto* const read = std::get_if<TemporaryId>(&source);
+            EXPECT_FALSE(read != nullptr && written.contains(read->index()));
         }
     }
 }
