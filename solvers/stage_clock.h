@@ -1,4 +1,4 @@
-// The time of a stage, as its steps go on.
+// The time of a stage while its steps go on.
 #pragma once
 
 #include "core/precision.h"
@@ -8,14 +8,14 @@
 
 namespace cascade {
 
-/// Time from the number of complete steps. Steps are of one length until set_step() changes it;
-/// then time is counted from there. So the time of a step is rounded once and does not depend on
-/// the steps at which a run was interrupted.
+/// Computes the time from the number of complete steps. Steps have one length until set_step()
+/// changes it; time is then counted from that step. The time of a step is thus rounded once and
+/// does not depend on where a run was interrupted.
 struct StageClock {
-    std::int64_t base_step = 0;               ///< Where steps of this length began,
-    double base_time = 0;                     ///< and the time then.
-    double step = 0;                          ///< The length of a step; 0 where it varies by cell.
-    Precision precision = Precision::single;  ///< Of the run: steps are counted in its numbers.
+    std::int64_t base_step = 0;               ///< The step from which steps have this length,
+    double base_time = 0;                     ///< and its time.
+    double step = 0;                          ///< The length of a step; 0 if it varies by cell.
+    Precision precision = Precision::single;  ///< The run's; steps are counted in its numbers.
 
     double at(std::int64_t complete) const {
         const double count = with_number(precision, [&](auto zero) -> double {
@@ -23,40 +23,40 @@ struct StageClock {
         });
         return base_time + count * step;
     }
-    /// Steps are so long from `complete` on.
+    /// Sets the length of steps from `complete` on.
     void set_step(std::int64_t complete, double length) {
         if (length == step) return;
         base_time = at(complete);
         base_step = complete;
         step = length;
     }
-    /// Counts the time from here on, so that the end of an adaptive step is the start of the next
-    /// one to the bit.
+    /// Counts the time from here on, so that the end of an adaptive step equals the start of the
+    /// next one to the bit.
     void begin_at(std::int64_t complete) {
         base_time = at(complete);
         base_step = complete;
     }
 };
 
-/// Magnitudes of the rates' Jacobian in some state, in 1 / time (lang/calculus/derivative.h).
+/// Bounds of the rates' Jacobian in some state, in 1 / time (lang/calculus/derivative.h).
 struct RateBounds {
-    double whole = 0;     ///< No eigenvalue is larger.
-    double reaction = 0;  ///< Of what neither stages nor implicit diffusion tame.
-    bool jumps = false;   ///< Rates jump at thresholds, which no bound knows of.
+    double whole = 0;     ///< A bound of all eigenvalues.
+    double reaction = 0;  ///< The part that neither stages nor implicit diffusion stabilise.
+    bool jumps = false;   ///< Rates jump at thresholds, which the bounds do not include.
 };
 
-/// What a stage that is interrupted must keep of its time to go on with the same bits.
+/// The part of an interrupted stage's time that must be saved to go on with the same bits.
 struct TimeState {
     StageClock clock;
-    std::uint32_t stages = 0;    ///< Of a stabilised solver.
-    StepControl::State control;  ///< Of steps whose error is estimated.
-    // Of steps of chosen length:
-    double least_step = 0;  ///< A step as short as this is taken whatever its error.
+    std::uint32_t stages = 0;    ///< Of a step of a stabilised solver.
+    StepControl::State control;  ///< For steps whose error is estimated.
+    // For steps of chosen length:
+    double least_step = 0;  ///< A step as short as this is accepted whatever its error.
     std::int64_t next_judged =
-        0;                     ///< The error of the step that makes so many complete is estimated;
-    std::int64_t stretch = 1;  ///< and that of the one after so many more.
+        0;                     ///< The error of the step that completes this number is estimated,
+    std::int64_t stretch = 1;  ///< and that of the step this much later.
     std::int64_t bounded_at =
-        -1;  ///< Complete steps when `bounds` were computed; −1 where they are unknown.
+        -1;  ///< Complete steps when `bounds` were computed; −1 if they are unknown.
     RateBounds bounds;
 };
 

@@ -1,10 +1,9 @@
-// Has a pattern settled? What `until: steady(e)` measures (spec/time.md says why).
+// Detects that a pattern has settled, for `until: steady(e)` (spec/time.md has the reasons).
 //
-// A pattern forms, and then it goes on rearranging itself, the longer the larger its plane is. The
-// two are told apart by the speed at which cells change, and by what that speed means at the
-// stage's age t: speed · t is how far the stage would go if it went on so for as long again as it
-// has run. This *progress* rises while noise grows or fronts spread, is greatest when the pattern
-// comes into being, and falls behind it.
+// A pattern forms and then goes on rearranging itself, the longer the larger its plane is. The two
+// phases differ in the speed at which cells change, relative to the stage's age t: speed · t is how
+// far the stage would go in as much time again. This *progress* rises while noise grows or fronts
+// spread, is greatest when the pattern forms, and then falls.
 #pragma once
 
 #include "core/plane.h"
@@ -15,31 +14,30 @@
 
 namespace cascade {
 
-/// How one species has come into being so far.
+/// The formation of one species so far.
 struct Formation {
     double least = std::numeric_limits<double>::max();  ///< The smallest progress of its pattern,
     double greatest = 0;                                ///< the greatest,
-    double speed = 0;                                   ///< the speed of its pattern then,
-    bool risen = false;  ///< and whether that was far above the smallest before.
+    double speed = 0;    ///< the speed of its pattern at the greatest,
+    bool risen = false;  ///< and whether that was far above the smallest before it.
 
     bool operator==(const Formation&) const = default;
 };
 
-/// Remembers what it saw of a stage, and judges its next state.
+/// Remembers the states of a stage that it has seen, and judges the next one.
 class SteadyWatch {
 public:
-    /// The state of a stage as it begins: nothing is judged.
+    /// Sets the first state of a stage, which is not judged.
     void begin(std::span<const Field> species);
 
-    /// Goes on from a look of an earlier run.
+    /// Goes on from the last state of an earlier run.
     void remember(std::vector<Field> species, double t, std::vector<Formation> formations);
 
-    /// Looks at the species at time t, later than the last look. True where the speed of every
-    /// species, rms(new − old)/Δt, is at most `tolerance` times the speed of its pattern (the same
-    /// without the change of the mean) when that made the greatest progress; a species whose
-    /// progress never rose has to be slow by its own contrast as well. Where there was no look
-    /// before, this is the first and nothing is judged. With a mask `inside` the cells count where
-    /// it is not 0.
+    /// Judges the species at time t, later than the last call. Returns true if the stage has
+    /// settled: the speed of every species, rms(new − old)/Δt, is at most `tolerance` times the
+    /// speed of its pattern (the same without the change of the mean) at its greatest progress; and
+    /// a species whose progress never rose is also slow relative to its own contrast. The first
+    /// call only sets the first state. With a mask `inside`, cells count where it is not 0.
     bool settled(std::span<const Field> species, double t, double tolerance,
                  const Mask* inside = nullptr);
 

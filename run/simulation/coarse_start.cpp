@@ -1,5 +1,5 @@
-// Restricts and refines whole stage states by core/resample; sides that vary are restricted too.
-// What coarser grids do is neither kept nor observed.
+// Restricts and refines whole states of stages by core/resample; sides that vary are restricted,
+// too. Steps on coarser grids are neither kept nor observed.
 #include "run/simulation/coarse_start.h"
 
 #include "core/resample.h"
@@ -26,8 +26,8 @@ Field restricted_field(const Field& fine, const Grid& fine_grid, const Grid& coa
 }
 
 /// The same program on a grid whose cells are `times` as wide. The stage takes times² as many
-/// steps, or as long, as on the fine one: patterns need a time that grows with the square of their
-/// lengths.
+/// steps, or as much time, as on the fine grid, because the time that a pattern needs grows with
+/// the square of its lengths.
 Program on_coarser_grid(const Program& program, std::uint32_t stage, std::int64_t times) {
     Program result = program;
     result.domain.grid = coarser(program.domain.grid, times);
@@ -39,7 +39,7 @@ Program on_coarser_grid(const Program& program, std::uint32_t stage, std::int64_
     return result;
 }
 
-/// An earlier stage's values on a coarser grid, to be read by starting values.
+/// An earlier stage's values on a coarser grid, for starting values.
 StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid& coarse_grid) {
     StageState coarse;
     coarse.started = fine.started;
@@ -81,8 +81,8 @@ InputFiles restricted(const InputFiles& fine, const Grid& fine_grid, const Grid&
         [&](const Field& plane) { return restricted_field(plane, fine_grid, coarse_grid); });
 }
 
-/// Takes the species of a stage from the same stage on a grid twice as coarse; cells that are
-/// frozen keep their starting values.
+/// Takes the species of a stage from the same stage on a grid twice as coarse. Frozen cells keep
+/// their starting values.
 void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
                   const Grid& coarse_grid) {
     for (std::size_t s = 0; s < fine.species.size(); ++s) {

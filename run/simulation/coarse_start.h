@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// Runs a stage on its coarser grids, each from what the one before it left, and takes the species
-/// from the last.
+/// Runs a stage on its coarser grids, each starting from the result of the one before, and takes
+/// the species from the last.
 Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<StageState> states,
                                       std::uint32_t stage, RunControl& control);
 

@@ -1,4 +1,4 @@
-// Makes what stages share, once, before any of them starts.
+// Makes everything that stages share, once, before any of them starts.
 #include "run/simulation/environment.h"
 
 #include "run/domain/field_values.h"
@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// disc(…), ring(…) and box(…) whose numbers are written down, each once, as formulas of their own.
+/// Every disc(…), ring(…) and box(…) with constant arguments, each once, as separate formulas.
 std::vector<Formula> written_areas(const Program& program) {
     std::vector<Formula> areas;
     for (const Formula* formula : formulas_of(program)) {
@@ -46,15 +46,15 @@ std::vector<Formula> written_areas(const Program& program) {
     return areas;
 }
 
-/// Finds how much memory the run takes, and whether it may: no more than `limit` bytes, where that
-/// is above 0, and than are free.
+/// Computes the memory that the run needs, and fails if that exceeds `limit` bytes (if above 0) or
+/// the free memory.
 Result<void> check_memory_of(Environment& here, std::uint64_t limit) {
     const TimeAccount::Scope spent(here.account, Spent::compiling);
     here.memory = memory_of(*here.program, *here.plans, here.model.get());
     return check_memory(here.grid, here.memory, limit);
 }
 
-/// Of a model.
+/// For a model.
 Result<void> make_cells(Environment& here, Script& script, const SimulationOptions& options,
                         RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
@@ -77,7 +77,7 @@ Result<void> make_cells(Environment& here, Script& script, const SimulationOptio
     return {};
 }
 
-/// What formulas of the program read of places on a model.
+/// The values that formulas of the program read from places on a model.
 Result<void> make_surface_values(Environment& here, const RunControl& control) {
     if (!here.model) return {};
     const TimeAccount::Scope spent(here.account, Spent::cells);
@@ -86,7 +86,7 @@ Result<void> make_surface_values(Environment& here, const RunControl& control) {
     if (control.cancel) return failure("stopped while distances on the model were found");
     if (here.program->stages.empty() || !control.warn) return {};
     const std::vector<StageState> states(1);
-    // What is written for one model easily lies beside another one, and does nothing there.
+    // A shape that was written for one model may easily miss another one.
     for (const Formula& area : written_areas(*here.program)) {
         const StageView view(here, states, 0);
         if (largest_value(view.evaluate(area)[0], nullptr) > 0) continue;
@@ -96,7 +96,7 @@ Result<void> make_surface_values(Environment& here, const RunControl& control) {
     return {};
 }
 
-/// Which cells belong to the domain: evaluated once, before any stage.
+/// Computes which cells belong to the domain, once before any stage.
 Result<void> find_mask(Environment& here, Script& script, const RunControl& control) {
     const auto& mask = here.program->domain.mask;
     if (!mask || here.program->stages.empty()) return {};
@@ -130,7 +130,7 @@ bool Environment::takes_long(std::uint32_t k) const {
 
 std::string Environment::place_in_words(std::int64_t column, std::int64_t row) const {
     if (!model) return fmt::format("column {}, row {}", column, row);
-    // The places after the last one are like it.
+    // The padding repeats the last cell.
     const auto last = static_cast<std::int64_t>(model->count()) - 1;
     return fmt::format("cell {}", model->cell_at(std::min(row * grid.width + column, last)));
 }
@@ -152,7 +152,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         here.account->stage(k).name = here.stage(k).name;
     }
     here.plans = std::make_unique<StagePlans>(*here.program, options.planning);
-    // How many faces or points a model has is known only when it has been read.
+    // The number of faces or points of a model is known only when it has been read.
     const auto& model = here.program->domain.model;
     if (!model || model->cells == ModelCellKind::spread) {
         if (auto fits = check_memory_of(here, options.memory_limit); !fits)

@@ -1,5 +1,5 @@
-// What the stages of a simulation share and none of them changes: program, grid, mask, files, cells
-// of a model, kernels, threads.
+// What the stages of a simulation share and do not change: program, grid, mask, files, cells of a
+// model, kernels, threads.
 #pragma once
 
 #include "core/parallel.h"
@@ -28,36 +28,36 @@ namespace cascade {
 struct Environment {
     const Script* script = nullptr;
     const Program* program = nullptr;
-    std::optional<Program> own_program;  ///< Of a coarser grid.
+    std::optional<Program> own_program;  ///< For a coarser grid.
     std::string progress_note;           ///< After the stage's name in reports of progress.
     Grid grid;
     double memory = 0;  ///< Bytes of all planes.
     int threads = 1;
-    std::optional<Tiling> tiling;          ///< None: as fits.
-    std::unique_ptr<KeptTilings> tilings;  ///< None on coarser grids.
+    std::optional<Tiling> tiling;          ///< None: chosen by size.
+    std::unique_ptr<KeptTilings> tilings;  ///< Null on coarser grids.
     std::unique_ptr<StagePlans> plans;
     std::unique_ptr<KernelMaker> kernels;
     std::unique_ptr<Team> team;  ///< Computes starting values and pictures.
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;
-    std::shared_ptr<const ModelCells> model;        ///< None on grids.
-    std::unique_ptr<SurfaceValues> surface_values;  ///< None on grids.
+    std::shared_ptr<const ModelCells> model;        ///< Null on grids.
+    std::unique_ptr<SurfaceValues> surface_values;  ///< Null on grids.
     TimeAccount* account = nullptr;                 ///< Null if times are not recorded.
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     Precision precision() const { return program->domain.precision; }
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
-    /// The cells that count where a mask or a model says so.
+    /// The cells that count, with a mask or on a model.
     const Mask* counted() const { return mask ? &mask->inside : model ? &model->inside : nullptr; }
-    /// Is it sure that the steps of a stage take longer than making code for them?
+    /// Do the steps of a stage certainly take longer than compiling them?
     bool takes_long(std::uint32_t k) const;
     /// The column and row of a cell, or the number of one of a model.
     std::string place_in_words(std::int64_t column, std::int64_t row) const;
 };
 
-/// Checks memory, reads files, makes the cells of a model and finds the mask. Faults of files are
-/// added to `script.diagnostics` (and the result fails). `script` must outlive the environment.
+/// Checks memory, reads files, makes the cells of a model and computes the mask. Faults of files
+/// are added to `script.diagnostics`, and the result fails. `script` must outlive the environment.
 Result<std::unique_ptr<Environment>> make_environment(Script& script,
                                                       const SimulationOptions& options);
 

@@ -1,5 +1,5 @@
-// How the kernels of a simulation become runnable: compiled, interpreted, or interpreted until they
-// are compiled.
+// Makes the kernels of a simulation runnable: compiled, interpreted, or interpreted until they are
+// compiled.
 #pragma once
 
 #include "core/grid.h"
@@ -16,7 +16,8 @@ namespace cascade {
 
 class KernelMaker {
 public:
-    /// Takes steps by `stepper`; they are interpreted meanwhile if that `starts_interpreted`.
+    /// Steps are run by `stepper`. If it `starts_interpreted`, they are interpreted until their
+    /// code is ready.
     KernelMaker(const Grid& grid, std::shared_ptr<TieredBackend> stepper, bool starts_interpreted,
                 TimeAccount* account);
 
@@ -25,23 +26,23 @@ public:
 
     Compile interpreted() const { return interpreted_on(grid_); }
     Compile interpreted_on(const Grid& grid) const;
-    /// What is computed every few steps is compiled where there are many cells.
+    /// For kernels that run every few steps: compiled if there are many cells.
     Compile often() const;
-    /// What is computed once is interpreted, unless that would take longer than making code for it.
+    /// For kernels that run once: interpreted, unless that would take longer than compiling.
     Compile once() const;
-    /// Steps are compiled: before the first, or while the first ones are interpreted. `kernels`
-    /// hears of them, `refused` of those that cannot be compiled.
+    /// For kernels of steps: compiled, before the first step or while the first ones are
+    /// interpreted. Adds them to `kernels`; `refused` receives those that cannot be compiled.
     Compile steps(TieredBackend::When when, StepKernels& kernels,
                   std::function<void(const Failure&)> refused) const;
-    /// They will be needed later.
+    /// Announces kernels that will be needed later.
     void expect(const CellKernel& kernel) const { stepper_->expect(kernel, grid_.stencil()); }
 
-    /// Evaluating a small grid is over before code is made for it or a second thread has woken up.
+    /// Evaluating a small grid takes less time than compiling, or than waking a second thread.
     bool is_small() const { return grid_.cell_count() < 65536; }
 
 private:
-    /// Are steps interpreted until there is code for them? On many cells that would take longer
-    /// than to wait.
+    /// Are steps interpreted until their code is ready? With many cells that would take longer than
+    /// waiting.
     bool runs_meanwhile() const {
         return starts_interpreted_ && grid_.cell_count() < cells_worth_compiling;
     }

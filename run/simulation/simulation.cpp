@@ -1,4 +1,4 @@
-// Starts stages, and has the one that runs go on.
+// Starts stages and advances the one that runs.
 #include "run/simulation/simulation.h"
 
 #include "ir/interpreter.h"
@@ -52,27 +52,27 @@ struct Simulation::Implementation {
     std::unique_ptr<Environment> environment;
     std::vector<StageState> states;
     Keeping keeping;
-    bool has_expected = false;      ///< Does the stepper know what later stages need?
-    std::unique_ptr<StageRun> run;  ///< Of the stage that advanced last, if that can go on.
-    /// By stage, of those that were over before it was known whether there can be code for all.
+    bool has_expected = false;      ///< Has the stepper been told what later stages need?
+    std::unique_ptr<StageRun> run;  ///< The run of the stage that advanced last, if it can go on.
+    /// By stage: kernels of stages that ended before it was known whether all can be compiled.
     std::map<std::uint32_t, StepKernels> unsettled;
 
     StageView view(std::uint32_t stage) const { return {*environment, states, stage}; }
 
-    /// To be called before states are changed.
+    /// Must be called before states are changed.
     void end_run() {
         if (run) unsettled.insert_or_assign(run->stage(), std::move(run->kernels()));
         run.reset();
     }
 
-    /// Says which kernels of stages that are over have been refused.
+    /// Warns of kernels of ended stages that could not be compiled.
     void warn_of_refused(RunControl& control) {
         for (auto& [k, kernels] : unsettled) kernels.warn_of_refused(control);
         std::erase_if(unsettled,
                       [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
     }
 
-    /// Has the stepper compile what stages after `k` will need, where they take long.
+    /// Lets the stepper compile the kernels of stages after `k`, if their steps take long.
     void expect_stages_after(std::uint32_t k) {
         const KernelMaker& kernels = *environment->kernels;
         if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;
@@ -188,7 +188,7 @@ StepWork Simulation::step_work(std::uint32_t k) {
     const StepInvariants invariants = find_step_invariants(self_->view(k));
     const StageView view(*self_->environment, self_->states, k, &invariants);
     KnownKernels kernels;
-    // Nothing is run, so nothing need be compiled.
+    // Nothing is run, so nothing is compiled.
     const Compile note = [&kernels, interpret = self_->environment->kernels->interpreted()](
                              const CellKernel& kernel) {
         KernelPointer made = interpret(kernel);
@@ -232,7 +232,7 @@ double time_of(const Simulation& simulation, std::uint32_t stage) {
 }
 
 bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
-    // A species that deviates so many times as much as at the start owes its pattern to the stage.
+    // A species whose deviation has grown by this factor owes its pattern to the stage.
     constexpr double times_at_start = 3;
     const Stage& stage = simulation.program().stages[k];
     const System& system = simulation.program().system_of(k);

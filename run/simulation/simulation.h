@@ -1,4 +1,4 @@
-// The state of a run: the values of every stage's items, and how they come about.
+// The state of a run: the values of every stage's items, and their computation.
 #pragma once
 
 #include "core/plane.h"
@@ -29,35 +29,36 @@ enum class BackendKind { interpreter, jit };
 
 /// Is native code compiled into this build?
 bool has_jit();
-/// What takes the steps: LLVM's version, the processor and its vectors, or the interpreter alone.
+/// The backend of steps: LLVM's version, the processor and its vectors, or the interpreter alone.
 std::string describe_backend();
 
 struct SimulationOptions {
     BackendKind backend = BackendKind::jit;
     int lanes = 0;    ///< Vector width of the JIT; 0 takes the host's.
-    int threads = 0;  ///< 0 takes all the machine has.
-    /// Takes the steps of several simulations, so that equal kernels are compiled once; none: each
-    /// simulation has one of its own.
+    int threads = 0;  ///< 0: all threads of the machine.
+    /// Compiles the steps of several simulations, so that equal kernels are compiled once; null:
+    /// each simulation has its own.
     std::shared_ptr<TieredBackend> stepper = nullptr;
-    /// Hears how the cells of a model come about, and may stop it; none: nobody does.
+    /// Receives progress while the cells of a model are made, and may cancel it; may be null.
     RunControl* control = nullptr;
     TimeAccount* account = nullptr;  ///< Receives the times spent; may be null.
     std::filesystem::path cell_cache =
-        {};  ///< A folder in which cells of models are kept; empty: none.
-    /// A folder in which compiled kernels, and what is found about tilings, are kept for later
-    /// processes; empty: none.
+        {};  ///< The folder in which cells of models are kept; empty: none.
+    /// The folder in which compiled kernels and the fastest tilings are kept for later processes;
+    /// empty: none.
     std::filesystem::path kernel_cache = {};
     /// Interpret the first steps while their code is compiled, unless the grid is so large that
-    /// waiting for the code is quicker. Affects the time of a step, but no result.
+    /// waiting is faster. Affects the time of a step, but no result.
     bool starts_interpreted = false;
-    std::uint64_t memory_limit = 0;  ///< Bytes that all fields may take; 0: what is free.
-    /// How steps are put together. No result depends on it.
+    std::uint64_t memory_limit = 0;  ///< The most bytes for all fields; 0: the free memory.
+    /// The choice of operands that are written to planes. No result depends on it.
     PlanOptions planning = {Materialise::when_cheaper, false, true};
-    /// How steps go through memory; none: as fits the machine's caches. No result depends on it.
+    /// The tiling; none: chosen by size and by time. No result depends on it.
     std::optional<Tiling> tiling = {};
 };
 
-/// What `options` ask for, to be shared by simulations. Fails where this build has no native code.
+/// The stepper of `options`, which simulations may share. Fails if it needs native code and this
+/// build has none.
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
 /// Why a stage ended.
@@ -67,66 +68,66 @@ enum class StageEnd { finished, stopped, cancelled };
 class Simulation {
 public:
     /// Checks memory and reads the files that the script names. Faults of such files are added to
-    /// `script.diagnostics` (and the result fails). `script` must outlive the simulation.
+    /// `script.diagnostics`, and the result fails. `script` must outlive the simulation.
     static Result<std::unique_ptr<Simulation>> create(Script& script,
                                                       const SimulationOptions& options);
     ~Simulation();
 
-    /// Computes the starting values of a stage from the earlier ones. Fails if `speed` is not
-    /// above 0 or a starting value is not finite.
+    /// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0
+    /// or a starting value is not finite.
     Result<void> start_stage(std::uint32_t stage);
 
-    /// Takes steps until `last_step` are complete. What they take is made by the first call and
-    /// kept for the next ones, until the stage ends or states are changed. A stage that starts on
-    /// coarser grids is run on those before its first step, without being observed. `observe` is
-    /// called at multiples of `every`, or, where that is 0, of the stage's interval; and at tenths
-    /// of the duration of a stage without one. Fails, with stage, species, cell, step and the
-    /// largest stable speed, on values that are not finite.
+    /// Takes steps until `last_step` are complete. The first call allocates what steps need and
+    /// keeps it for further calls, until the stage ends or states are changed. A stage with a
+    /// coarse start first runs on coarser grids, without observation. `observe` is called at
+    /// multiples of `every`, or of the stage's interval if `every` is 0; for a stage without an
+    /// interval, at tenths of its duration. If values are not finite, it fails with stage, species,
+    /// cell, step and the largest stable speed.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
                                    const std::function<void()>& observe, std::int64_t every = 0);
 
-    /// What is to be said of a stage that has ended, in one sentence; empty where all is as one
-    /// would think, and of a stage that has not ended.
+    /// A remark on a stage that has ended, in one sentence. Empty if the result is what it seems,
+    /// and for a stage that has not ended.
     std::string remark_on(std::uint32_t stage) const;
 
-    /// From now on, while steps are taken: where `is_due` says so, which is asked some fifty times
-    /// a second, `keep` is called at a complete step, and the simulation's states are what a run
-    /// can go on from with the same bits. What is done on coarser grids before a stage's first step
-    /// is not kept.
+    /// From now on, `is_due` is called some fifty times a second while steps are taken. If it
+    /// returns true, `keep` is called at a complete step; a run can go on from the simulation's
+    /// states then with the same bits. Steps on coarser grids before a stage's first step are not
+    /// kept.
     void keep_with(std::function<bool()> is_due, std::function<void()> keep);
 
-    /// Waits for code that is being made for stages that were over before it was there, and says of
-    /// which there is none, so that they were interpreted.
+    /// Waits for code of stages that ended before it was ready, and warns of kernels that could not
+    /// be compiled and were interpreted.
     void settle(RunControl& control);
 
     /// Replaces the species of a started stage (resume, the prompt's :load).
     void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps, bool done,
                      bool condition_met = false);
 
-    /// Sets the time of a stage whose species were replaced; without it its steps are taken as of
+    /// Sets the time of a stage whose species were replaced; otherwise its steps count as steps of
     /// the stage's speed.
     void set_time(std::uint32_t stage, double t, const TimeState& time, SteadyWatch watch);
 
-    /// A formula for pictures over the present state: one field, or three for a colour. Outside of
-    /// the mask it is NaN, unless it is the same in all cells.
+    /// Evaluates a formula for pictures over the present state: one field, or three for a colour.
+    /// Outside of the mask it is NaN, unless it is the same in all cells.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
-    /// Several formulas at once: what they share is computed once.
+    /// Several formulas at once; common parts are computed once.
     std::vector<Field> evaluate(std::span<const Formula* const> formulas,
                                 std::uint32_t stage) const;
 
-    /// What one step of a started stage costs, as it would be taken now.
+    /// The work of one step of a started stage, as it would be taken now.
     StepWork step_work(std::uint32_t stage);
 
     const Program& program() const;
     const Grid& grid() const;
-    /// The cells that belong to the domain; nullptr where all do.
+    /// The cells that belong to the domain; null if all do.
     const DomainMask* mask() const;
-    /// The cells of the model that is the domain; nullptr on grids.
+    /// The cells of the model that is the domain; null on grids.
     std::shared_ptr<const ModelCells> model() const;
-    /// Bytes of all planes that it keeps at one time.
+    /// Bytes of all planes that it holds at one time.
     double memory() const;
     const StageState& state(std::uint32_t stage) const;
-    /// The last stage that took a step; the last started one where none has; empty before.
+    /// The last stage that took a step; if there is none, the last started one; empty before.
     std::optional<std::uint32_t> shown_stage() const;
 
 private:
@@ -135,17 +136,18 @@ private:
     std::unique_ptr<Implementation> self_;
 };
 
-/// The values of formulas that are the same in all cells, such as aggregates over the domain (of
+/// The values of formulas that are the same in all cells, such as aggregates over the domain. For
+/// other formulas, the value of the first cell.
 /// others the first cell's).
 std::vector<double> evaluate_numbers(const Simulation& simulation,
                                      std::span<const Formula* const> formulas, std::uint32_t stage);
 
-/// The time since a stage began, at its present step; NaN where `speed` differs between cells.
+/// The time since a stage began, at its present step; NaN if `speed` varies by cell.
 double time_of(const Simulation& simulation, std::uint32_t stage);
 
-/// Is the pattern there is the stage's own work? Its neighbours act on each other, no chance and no
-/// parameter that varies acts on them, and every species that is not even differs far more between
-/// cells than when the stage began.
+/// Did the stage itself make the pattern that is there? True if its neighbours act on each other,
+/// neither random numbers nor varying parameters act on them, and every species that is not even
+/// differs far more between cells than at the start of the stage.
 bool made_its_pattern(const Simulation& simulation, std::uint32_t stage);
 
 }  // namespace cascade

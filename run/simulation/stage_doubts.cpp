@@ -1,4 +1,4 @@
-// Looks at the species, at a few more steps and at the rates.
+// Examines the species, a few more steps, and the rates.
 #include "run/simulation/stage_doubts.h"
 
 #include "core/spread.h"
@@ -20,12 +20,12 @@ namespace cascade {
 
 namespace {
 
-/// The number of shorter steps that replace one for a look. Two would not do: what repeats with the
-/// step often repeats with half of it, too.
+/// The number of shorter steps that replace one in a check. Two would not be enough: a value that
+/// repeats with the step often repeats with half of it, too.
 constexpr std::int64_t shorter_steps = 3;
 
-/// Do the steps of a stage depend on their number or length, or on chance? Then shorter ones are
-/// another stage's.
+/// Do the steps of a stage depend on their number or length, or on chance? Shorter steps would then
+/// be those of another stage.
 bool knows_its_steps(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     const auto knows = [&](const Node& node) {
@@ -39,10 +39,10 @@ bool knows_its_steps(const Program& program, std::uint32_t stage) {
                        [&](const Invariant& each) { return holds_in(each.bound, knows); });
 }
 
-/// What steps cannot add to a species.
+/// Changes that steps cannot add to a species.
 struct LostChange {
-    double part = 0;  ///< Of the cells whose rate is not 0, those that a step leaves as they are.
-    double rate = 0;  ///< Mean magnitude in such cells, over all cells.
+    double part = 0;  ///< The part of the cells whose rate is not 0 that a step does not change.
+    double rate = 0;  ///< The sum of the magnitudes in such cells, over the number of all cells.
 };
 
 LostChange lost_change(const Field& species, const Field& rates, double step, const Mask* counted,
@@ -79,7 +79,7 @@ Field sum(const Field& a, const Field& b, double factor) {
     return result;
 }
 
-/// Values that jump back and forth in a few more steps.
+/// Detects values that jump back and forth in a few more steps.
 std::optional<FlickerReport> find_flicker(const EndedStage& ended) {
     const StageView& view = ended.view;
     const StageState& state = ended.state;
@@ -109,7 +109,7 @@ std::optional<FlickerReport> find_flicker(const EndedStage& ended) {
     return std::nullopt;
 }
 
-/// Values that shorter steps would lead another way.
+/// Detects values that shorter steps would move differently.
 std::optional<AstrayReport> find_astray(const EndedStage& ended) {
     const StageView& view = ended.view;
     const System& system = view.system();
@@ -151,14 +151,14 @@ std::optional<AstrayReport> find_astray(const EndedStage& ended) {
     return std::nullopt;
 }
 
-/// Does a species alternate from cell to cell, because of its steps or of its rate?
+/// Does a species alternate from cell to cell because of its steps or its rate?
 std::optional<std::string> find_chequerboard(const StageView& view, bool flickers) {
     const std::vector<Field>& species = view.state().species;
     const Environment& here = view.environment();
     const Links* links = here.model ? &here.model->links : nullptr;
     const StageTime& time = view.stage().time;
     const auto alternates = [&](const Field& field) {
-        // What has died away is rounding, or errors that the solver was allowed, of which the
+        // What has died away is rounding, or errors within the solver's tolerance, of which the
         // fastest waves may well be left.
         const FieldMoments values = moments(field, here.counted());
         const double errors =
@@ -178,11 +178,11 @@ std::optional<std::string> find_chequerboard(const StageView& view, bool flicker
     return describe(report);
 }
 
-/// How fast the rates decay as the state moves along them, in 1 / time; negative where they grow.
+/// How fast the rates decay when the state moves along them, in 1 / time; negative if they grow.
 double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
     const std::vector<Field>& species = ended.state.species;
     const Mask* counted = ended.view.environment().counted();
-    // So far along the rates that differences are well above rounding.
+    // Far enough along the rates that differences are well above rounding.
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < species.size(); ++s) {
         const double largest = largest_magnitude(std::span(&rates[s], 1));
@@ -211,7 +211,8 @@ double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
     return squares > 0 ? -products / squares / step : 0;
 }
 
-/// Changes that single precision cannot add to the values, and that would have become noticeable.
+/// Detects changes that single precision cannot add to the values, and that would have become
+/// noticeable.
 std::optional<LostChangeReport> find_lost_change(const EndedStage& ended) {
     const StageView& view = ended.view;
     const StageState& state = ended.state;
@@ -242,8 +243,8 @@ std::optional<LostChangeReport> find_lost_change(const EndedStage& ended) {
     return std::nullopt;
 }
 
-/// Finds the limit of the step. Without a to and fro, changes that undo each other may be waves of
-/// a few steps: then only a step beyond the limit makes sure.
+/// Computes the limit of the step. Without a regular oscillation, changes that undo each other may
+/// be waves with a period of a few steps, so only a step beyond the limit is conclusive.
 bool is_sure(const StageView& view, FlickerReport& report) {
     report.limit = longest_step(view.stability(view.state().species), report.use);
     if (!report.limit || !is_too_long(report.use, *report.limit)) {

@@ -1,5 +1,4 @@
-// What the result of a stage says about itself: signs that it is wrong although all values are
-// finite.
+// Signs that the result of a stage is wrong although all values are finite.
 #pragma once
 
 #include "run/simulation/trial_steps.h"
@@ -9,10 +8,10 @@
 
 namespace cascade {
 
-/// The first such sign of a stage that has taken steps, in words.
+/// The first such sign of a stage that has taken steps, as a warning.
 std::optional<std::string> find_doubt(const EndedStage& ended);
 
-/// Has a stage that has ended the values that it began with, because its rates are 0 everywhere?
+/// Does a stage end with the values that it began with, because its rates are 0 everywhere?
 bool has_stood_still(const StageView& view);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Asks the last good state and the start of the stage which speed would have been right.
+// Estimates the right speed from the last good state and from the start of the stage.
 #include "run/simulation/stage_failures.h"
 
 #include "run/stage/not_finite.h"
@@ -38,8 +38,7 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
     report.use = view.step_in_use();
     if (report.found.at_start() || is_semi_implicit(report.use.solver)) return describe(report);
     const std::size_t count = state.species.size();
-    // Without a kept copy the values are those that are spoiled, also where two looks are one step
-    // apart.
+    // Without a kept copy the values are the spoiled ones, even if two checks are one step apart.
     const bool keeps = !outcome.last_checked.empty();
     std::vector<Field> last_finite;
     if (keeps) {
@@ -47,8 +46,8 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
         report.largest_before = largest_magnitude(state.species);
         last_finite = std::move(state.species);
     }
-    // A state on its way to infinity says little about the speed that would have been right: the
-    // start of the stage is asked as well.
+    // A state on its way to infinity says little about the right speed, so the start of the stage
+    // is used as well.
     state.species.clear();
     state.species.resize(count);
     state.species = view.starting_species();
@@ -58,7 +57,7 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
     if (keeps) {
         state.species = std::move(last_finite);
     } else {
-        // What is spoiled is of no use: the stage stands where it began.
+        // Spoiled values are of no use: the stage is reset to its start.
         state.time = {};
         state.go_to(0, 0);
     }

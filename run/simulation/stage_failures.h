@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// Of an outcome with a value that is not finite, or with steps that have become too short. `state`
-/// is that of the view; where its values are spoiled it is put where the stage began.
+/// For an outcome with a value that is not finite, or with steps that have become too short.
+/// `state` is the view's; if its values are spoiled, it is reset to the start of the stage.
 Failure explain(const StageOutcome& outcome, const StageView& view, StageState& state);
 
 }  // namespace cascade

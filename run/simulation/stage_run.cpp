@@ -1,4 +1,4 @@
-// Begins a stage once, and goes on with it as often as it is asked to.
+// Begins a stage once, and continues it on each call.
 #include "run/simulation/stage_run.h"
 
 #include "run/simulation/coarse_start.h"
@@ -14,7 +14,7 @@
 namespace cascade {
 namespace {
 
-/// Steps between two looks: a stage of few steps is looked at as often as a long one.
+/// Steps between two checks: a stage of few steps is checked as many times as a long one.
 std::int64_t look_every(const Stage& stage, std::int64_t usual) {
     constexpr std::int64_t looks = 10;
     return std::clamp<std::int64_t>(stage.iterations / looks, 1, usual);
@@ -57,7 +57,7 @@ Result<StageEnd> StageRun::advance(std::int64_t last_step, RunControl& control,
     return std::move(*over);
 }
 
-/// Prepares the steps of the stage; a result where it is over before it takes any.
+/// Prepares the steps of the stage; returns a result if it ends before it takes any.
 std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     const Environment& here = view_.environment();
     const Stage& stage = view_.stage();
@@ -86,7 +86,7 @@ bool StageRun::is_frozen() const {
     return view_.stage().uniform[item] && state_.numbers[item] != 0;
 }
 
-/// Nothing moves where everything is frozen: its steps are complete as they begin.
+/// If all cells are frozen nothing changes: steps are complete at once.
 StageEnd StageRun::end_frozen(std::int64_t last_step) {
     const bool has_duration = view_.stage().time.has_duration();
     state_.go_to(has_duration ? 0 : last_step, state_.t);
@@ -130,7 +130,7 @@ Progress StageRun::progress() const {
 
 /// Adds the present state of the stage to its course.
 void StageRun::look() {
-    // Steps of different length in different cells are counted, not timed.
+    // If steps differ from cell to cell, steps are counted instead of time.
     const bool is_timed = view_.stage().uniform[view_.system().speed_item()];
     const double age = is_timed ? state_.t : static_cast<double>(state_.steps);
     state_.course.look(state_.steps, age, state_.species, view_.environment().counted());
@@ -153,7 +153,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::functio
     const bool is_good = !outcome.not_finite && !outcome.too_short && !outcome.cancelled;
     const bool is_done = is_good && (outcome.ended || state_.steps >= view_.stage().iterations);
     can_go_on_ = is_good && !is_done && state_.steps > 0 && !control_->warn;
-    // What is looked at from here on takes memory of its own.
+    // The checks from here on allocate memory of their own.
     if (!can_go_on_) loop_.reset();
     if (outcome.not_finite || outcome.too_short)
         return tl::unexpected(explain(outcome, view_, state_));
@@ -171,13 +171,13 @@ void StageRun::look_for_doubts() {
     const auto doubt = state_.steps > 0 ? find_doubt({view_, state_, timer_}) : std::nullopt;
     if (doubt) {
         control_->warn(*doubt);
-        // What is in doubt has no course, and no more is said of it.
+        // A stage in doubt has no course and gets no further remark.
         state_.course = {};
     }
     undefined_.look_at_end(view_, *control_);
 }
 
-/// Enters steps that were taken into the account of times.
+/// Adds the steps taken to the account of times.
 void StageRun::account_for(std::int64_t steps, const StageOutcome& outcome) const {
     const Environment& here = view_.environment();
     if (here.account == nullptr) return;

@@ -1,6 +1,5 @@
-// A stage that runs. What its steps take lives from its start to its end: kernels, bound passes,
-// what no step changes, the copies of its species, threads, and what is found out about their
-// speed.
+// A stage that runs. Everything that its steps need lives from its start to its end: kernels, bound
+// passes, step-invariants, the copies of its species, threads, and measurements of their speed.
 #pragma once
 
 #include "core/result.h"
@@ -19,14 +18,14 @@
 
 namespace cascade {
 
-/// When and how the state of a run is kept while steps are taken; no `is_due`: never.
+/// When and how the state of a run is kept while steps are taken; never without `is_due`.
 struct Keeping {
     std::function<bool()> is_due;
     std::function<void()> keep;
 };
 
-/// The run of one stage that has been started. While it exists, only it may change the states of
-/// the simulation.
+/// The run of one stage that has been started. While it exists, nothing else may change the states
+/// of the simulation.
 class StageRun {
 public:
     /// All must outlive the run.
@@ -38,11 +37,11 @@ public:
     std::uint32_t stage() const { return view_.number(); }
     StepKernels& kernels() { return kernels_; }
 
-    /// As Simulation::advance_stage.
+    /// Like Simulation::advance_stage.
     Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
                              const std::function<void()>& observe, std::int64_t every);
-    /// May it be called again? Not after the end of the stage, a failure or a cancellation, nor
-    /// where remarks are heard: those look at the stage with its memory.
+    /// May it be called again? Not after the end of the stage, a failure or a cancellation, nor if
+    /// warnings are wanted: their checks reuse the stage's memory.
     bool can_go_on() const { return can_go_on_; }
 
 private:
@@ -64,7 +63,7 @@ private:
     const Keeping& keeping_;
     StepKernels kernels_;
     UndefinedValues undefined_;
-    RunControl* control_ = nullptr;  ///< Of the present call.
+    RunControl* control_ = nullptr;  ///< For the present call.
     StageTimer timer_;
     std::optional<StageTilings> tilings_;
     std::optional<TimeLoop> loop_;  ///< From the first step on.

@@ -1,4 +1,4 @@
-// Starting values come in the order that plans have them, sides after them.
+// Starting values are computed in the order of the plans, and sides after them.
 #include "run/simulation/stage_start.h"
 
 #include "core/floating_point.h"
@@ -17,7 +17,7 @@
 namespace cascade {
 namespace {
 
-/// Items that are the same in all cells, on a grid of one cell.
+/// Computes the items that are the same in all cells, on a grid of one cell.
 void start_uniform_items(const StageView& view, StageState& state) {
     const StepPlan plan = plan_uniform_start(view.program(), view.number());
     const Grid one{1, 1, Boundary::periodic};
@@ -46,7 +46,7 @@ void start_varying_items(const StageView& view, StageState& state) {
     }
 }
 
-/// Do rows and columns meet at other angles than right ones beside a side with a flux?
+/// Do rows and columns meet at an angle other than a right one beside a side with a flux?
 bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
     if (here.metric.empty() || kind != SideKind::flux) return false;
     const auto at = [&](MetricPlane plane, std::int64_t offset) {
@@ -63,8 +63,8 @@ bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
     return false;
 }
 
-/// Values of sides are found by formulas that may read whatever the stage starts with. One that is
-/// the same everywhere is kept as a number. As long as they are looked for, the boundary of the
+/// Values of sides come from formulas that may read any starting value. A value that is the same
+/// along the side is kept as a number. While values of sides are computed, the boundary of the
 /// domain holds.
 Result<void> find_sides(const StageView& view, StageState& state) {
     const Environment& here = view.environment();

@@ -1,4 +1,4 @@
-// What a stage starts with: its parameters and species, and its sides.
+// The start of a stage: its parameters, its species and its sides.
 #pragma once
 
 #include "core/result.h"
@@ -10,8 +10,8 @@
 
 namespace cascade {
 
-/// Computes the starting values of a stage from those before it. Fails if `speed` is not above 0 or
-/// a flux stands where the surface is sheared.
+/// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0 or
+/// a side with a flux lies where the surface is sheared.
 Result<void> start_stage(const Environment& environment, std::span<StageState> states,
                          std::uint32_t stage);
 

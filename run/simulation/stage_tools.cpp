@@ -1,4 +1,4 @@
-// Binds the passes of steps and computes the numbers by which their length is chosen.
+// Binds the passes of steps, and computes the numbers from which their length is chosen.
 #include "run/simulation/stage_tools.h"
 
 #include "run/domain/field_values.h"
@@ -51,7 +51,7 @@ StepProblem bind_steps(const StageView& view, const Scheme& scheme, const Compil
 std::vector<double> values_over_time(const StageView& view, const Formula& formula,
                                      double duration) {
     const Grid one{1, 1, Boundary::periodic};
-    // Compiled once and not for every moment.
+    // Compiled once for all moments.
     std::map<const CellKernel*, KernelPointer> made;
     const Compile compile = [&made, interpret = view.environment().kernels->interpreted_on(one)](
                                 const CellKernel& kernel) {

@@ -1,4 +1,4 @@
-// What the time of a stage asks of the simulation, and what its steps read and do not change.
+// Queries of a stage's time to the simulation, and the step-invariants.
 #pragma once
 
 #include "run/simulation/stage_view.h"
@@ -6,10 +6,10 @@
 
 namespace cascade {
 
-/// `steps` makes the kernels of steps runnable. The view is copied.
+/// `steps` makes the kernels of steps. The view is copied.
 StageTools stage_tools(const StageView& view, Compile steps);
 
-/// What no step changes, computed from the present state.
+/// The step-invariants, computed from the present state.
 StepInvariants find_step_invariants(const StageView& view);
 
 }  // namespace cascade

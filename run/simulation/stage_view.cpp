@@ -44,7 +44,7 @@ std::vector<Field> StageView::starting_species() const {
 
 StabilityEstimate StageView::stability(std::span<const Field> species,
                                        const Compile& compile) const {
-    // Rates know nothing of frozen cells, but those cannot blow up.
+    // Rates ignore `frozen`, but frozen cells cannot blow up.
     const Mask* frozen = state().frozen.empty() ? nullptr : &state().frozen;
     const DomainMask* inside = environment_->inside();
     const Mask still = inside != nullptr ? still_cells(*inside, frozen) : Mask();

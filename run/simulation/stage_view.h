@@ -1,4 +1,4 @@
-// A stage as it stands: its values and those of the stages before it, and what they say of it.
+// The present state of a stage: its values and those of earlier stages, and evaluations over them.
 #pragma once
 
 #include "core/plane.h"
@@ -17,7 +17,8 @@ namespace cascade {
 
 class StageView {
 public:
-    /// All must outlive the view. `invariants` are those of its steps; null where none are taken.
+    /// All arguments must outlive the view. `invariants` are the step-invariants; null if no steps
+    /// are taken.
     StageView(const Environment& environment, std::span<const StageState> states,
               std::uint32_t stage, const StepInvariants* invariants = nullptr)
         : environment_(&environment), states_(states), number_(stage), invariants_(invariants) {}
@@ -29,9 +30,9 @@ public:
     const System& system() const { return program().system_of(number_); }
     const StageState& state() const { return states_[number_]; }
 
-    /// Where slots of kernels find the present values.
+    /// Where slots of kernels get the present values.
     BindingContext context() const;
-    /// The results of a plan, and values of formulas that are no part of a step.
+    /// The results of a plan, and values of formulas outside of steps.
     std::vector<Field> evaluate(const StepPlan& plan) const;
     std::vector<Field> evaluate(std::span<const Formula* const> formulas) const;
     std::vector<Field> evaluate(const Formula& formula) const;
@@ -40,14 +41,13 @@ public:
     /// The starting values of all species.
     std::vector<Field> starting_species() const;
 
-    /// How fast the rates are at a state of the species.
+    /// Stability of the rates at a state of the species.
     StabilityEstimate stability(std::span<const Field> species) const {
         return stability(species, environment_->kernels->interpreted());
     }
     StabilityEstimate stability(std::span<const Field> species, const Compile& compile) const;
     StepInUse step_in_use() const;
-    /// Is the limit of the step at the present state one of diffusion, far below that of the
-    /// reaction?
+    /// Does diffusion limit the step at the present state, far below the limit of the reaction?
     bool diffusion_limits() const;
 
 private:
@@ -57,7 +57,7 @@ private:
     const StepInvariants* invariants_;
 };
 
-/// A stage has other species for as long as it lives.
+/// Gives a stage other species while it lives.
 class OtherSpecies {
 public:
     OtherSpecies(StageState& state, std::vector<Field> species);

@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-/// Species of more bytes are not copied for a look.
+/// Species of more bytes are not copied for trial steps.
 constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
 
 }  // namespace
@@ -31,7 +31,7 @@ bool take_trial_steps(const EndedStage& ended, StageTimer& timer, std::int64_t c
     schedule.ends = {};
     schedule.most_kept_bytes = 0;
     schedule.threads = ended.view.environment().threads;
-    // The last step of a duration may have been a shorter one.
+    // The last step of a duration may have been shorter.
     const double speed = state.numbers[ended.view.system().speed_item()];
     if (schedule.time.clock.step > 0) schedule.time.clock.set_step(state.steps, speed);
 

@@ -1,4 +1,4 @@
-// Evaluates, for each part of a formula that may be lost, the formula of whether it is.
+// Evaluates, for each part of a formula that may lose a NaN, the formula that says where it does.
 #include "run/simulation/undefined_values.h"
 
 #include "run/domain/field_values.h"
@@ -14,10 +14,11 @@ namespace cascade {
 
 namespace {
 
-/// Less than the deviation of a picture in which one of 2²⁶ pixels differs by a level of 8 bits.
+/// Less than the deviation of a picture in which one of 2²⁶ pixels differs by one of 256 levels.
 constexpr double one_level = 1e-7;
 
-/// Calls `is_found(value)` for the cells that count, in order; the first for which it is true.
+/// Calls `is_found(value)` for the cells that count, in order; returns the first cell for which it
+/// is true.
 template <typename Test>
 std::optional<CellPlace> first_cell(const Field& field, const Mask* counted, Test is_found) {
     return field.visit([&](const auto& plane) -> std::optional<CellPlace> {
@@ -33,7 +34,7 @@ std::optional<CellPlace> first_cell(const Field& field, const Mask* counted, Tes
     });
 }
 
-/// Is it made of numbers alone? Then the check has spoken of it.
+/// Does it consist of numbers alone? The checker has then reported it.
 bool is_constant(const Formula& formula) {
     return std::all_of(formula.nodes.begin(), formula.nodes.end(), [](const Node& node) {
         return node.kind == NodeKind::number || node.kind == NodeKind::call;
@@ -46,7 +47,7 @@ std::string not_finite_words(double value) {
 
 constexpr const char* for_comparisons = "what compares it takes it for false";
 
-/// What steps read.
+/// The formulas that steps evaluate.
 std::vector<UndefinedWatch> watched_in_steps(const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
@@ -66,7 +67,7 @@ std::vector<UndefinedWatch> watched_in_steps(const System& system) {
     return watched;
 }
 
-/// What is read once, when the stage starts.
+/// The formulas that are evaluated once, when the stage starts.
 std::vector<UndefinedWatch> watched_at_start(const Stage& stage, const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
@@ -92,7 +93,7 @@ std::vector<UndefinedWatch> watched_in_until(const Stage& stage, const System& s
     return watched;
 }
 
-/// Tells the first of them that is not a number now; false where there is none.
+/// Warns of the first part that is NaN now; returns false if there is none.
 bool warn_of_lost(const StageView& view, std::span<const UndefinedWatch> watched,
                   const RunControl& control) {
     if (watched.empty()) return false;

@@ -1,5 +1,4 @@
-// Values that are not numbers where no species would ever show it: in parameters, comparisons,
-// bounds, conditions and the mask.
+// NaNs that no species would show: in parameters, comparisons, bounds, conditions and the mask.
 #pragma once
 
 #include "core/run_control.h"
@@ -13,21 +12,21 @@
 
 namespace cascade {
 
-/// A part of a formula whose value would be no number without anybody noticing.
+/// A part of a formula that may be NaN unnoticed.
 struct UndefinedWatch {
-    std::string where;   ///< It stands, in words.
-    const char* effect;  ///< Of its being none.
+    std::string where;   ///< A description of its place.
+    const char* effect;  ///< The effect of a NaN there.
     LostNumber number;
 };
 
-/// Warns of such values in a stage that is run. Coarser grids say nothing: they would repeat what
-/// the full one says.
+/// Warns of such values in a stage that is run. Coarser grids are skipped, because they would
+/// repeat the warnings of the full grid.
 class UndefinedValues {
 public:
-    /// Before the first step of a stage, and at its end: one warning for both.
+    /// Called before the first step of a stage and at its end; gives one warning for both.
     void look_at_start(const StageView& view, const RunControl& control);
     void look_at_end(const StageView& view, const RunControl& control);
-    /// Whenever `until` is evaluated.
+    /// Called whenever `until` is evaluated.
     void look_at_until(const StageView& view, const RunControl& control);
 
 private:
@@ -36,11 +35,11 @@ private:
     std::optional<std::vector<UndefinedWatch>> in_until_;
 };
 
-/// `evaluate` gives the first result of a plan of the mask.
+/// `evaluate` returns the first result of a plan of the mask.
 void warn_of_undefined_mask(const Environment& environment,
                             const std::function<Field(const StepPlan&)>& evaluate,
                             const RunControl& control);
-/// Pictures that a script reads and that have one level alone.
+/// Warns of pictures that a script reads and that have a single level.
 void warn_of_even_pictures(const Environment& environment, const RunControl& control);
 
 }  // namespace cascade
