@@ -30,6 +30,9 @@ struct Progress {
 /// thread; the run then ends at the next complete step.
 struct RunControl {
     std::atomic<bool> cancel{false};
+    /// A call that takes steps within a stage may leave without looking for values that are not
+    /// finite. They are found by a later call, at most 64 steps after they appeared.
+    bool checks_later = false;
     std::function<void(const Progress&)> report;
     /// Warnings that do not stop the run, such as an interpreted kernel.
     std::function<void(const std::string& message)> warn;

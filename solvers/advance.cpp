@@ -53,9 +53,13 @@ public:
         schedule_.last_step = last_step;
         schedule_.interval = interval;
         progress_.steps = std::max(steps_of_stage_, last_step);
+        may_check_later_ =
+            control.checks_later && last_step < steps_of_stage_ && stepper_.planes().keeps();
         stepper_.planes().take_back(species_);
-        stepper_.planes().keep();
-        clock_.go_on();
+        if (is_checked_) {
+            stepper_.planes().keep();
+            clock_.go_on();
+        }
         tuner_.go_on();
         report(control, false);
         outcome_.ended = clock_.is_over();
@@ -63,7 +67,7 @@ public:
         bool going_on = true;
         while (going_on && is_to_go_on() && !control.cancel) going_on = batch(control, observe);
         outcome_.cancelled = going_on && is_to_go_on();
-        if (outcome_.cancelled && !stepper_.is_finite()) find_spoiled_step();
+        if (going_on && !is_checked_ && (outcome_.cancelled || !may_check_later_)) check();
         outcome_.steps = clock_.step;
         outcome_.t = clock_.now();
         outcome_.threads = tuner_.threads();
@@ -80,10 +84,12 @@ private:
 
     /// Takes some steps and does everything that is due after them; false ends the loop.
     bool batch(RunControl& control, const Observer& observe) {
-        const std::int64_t stop = clock_.next_stop();
+        const std::int64_t next = clock_.next_check();
+        const std::int64_t stop = std::min(next, schedule_.last_step);
         const std::int64_t count = tuner_.begin_batch(stop - clock_.step);
         const bool is_kept = schedule_.keep_is_due && schedule_.keep_is_due();
-        const bool look = clock_.step + count == stop || is_kept;
+        const bool at_stop = clock_.step + count == stop;
+        const bool look = is_kept || (at_stop && (stop == next || !may_check_later_));
         const bool good =
             clock_.judges_next() ? lengths_.take_judged_step(outcome_) : take_steps(count, look);
         const BatchTuner::Clock::time_point now = BatchTuner::Clock::now();
@@ -104,11 +110,24 @@ private:
             find_spoiled_step();
             return false;
         }
-        if (look) {
-            stepper_.planes().keep();
-            clock_.last_look = clock_.step;
-        }
+        is_checked_ = false;
+        if (look) found_finite();
         return true;
+    }
+
+    /// Looks at the steps that no look has followed.
+    void check() {
+        if (stepper_.is_finite()) {
+            found_finite();
+        } else {
+            find_spoiled_step();
+        }
+    }
+
+    void found_finite() {
+        stepper_.planes().keep();
+        clock_.last_look = clock_.step;
+        is_checked_ = true;
     }
 
     void find_spoiled_step() {
@@ -156,8 +175,10 @@ private:
     BatchTuner tuner_;
     Progress progress_;
     std::int64_t steps_of_stage_;
-    bool is_known_to_be_finite_ = false;  ///< The state in which the present call begins.
-    StageOutcome outcome_;                ///< The outcome of that call.
+    bool is_known_to_be_finite_ = false;  ///< The state in which the first call begins.
+    bool is_checked_ = true;        ///< Are all values of the present step known to be finite?
+    bool may_check_later_ = false;  ///< After the last step of the present call.
+    StageOutcome outcome_;          ///< The outcome of that call.
 };
 
 TimeLoop::TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,

@@ -44,13 +44,12 @@ bool LoopClock::judges_next() const {
     return is_judging() && (step + 1 >= time.next_judged || whole_steps_left() <= 1);
 }
 
-std::int64_t LoopClock::next_stop() {
+std::int64_t LoopClock::next_check() {
     if (judges_next()) return step + 1;
     std::int64_t stop = last_look + schedule_.check_every;
     for (const std::int64_t of : {schedule_.interval, schedule_.check, schedule_.choose_every}) {
         if (of > 0) stop = std::min(stop, next_multiple(step, of));
     }
-    stop = std::min(stop, schedule_.last_step);
     if (is_judging()) stop = std::min(stop, time.next_judged - 1);
     if (!has_end_time()) return stop;
     if (looks_at_tenths()) {

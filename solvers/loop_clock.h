@@ -31,11 +31,11 @@ public:
     bool is_judging() const { return schedule_.tolerance > 0; }
     /// Is the error of the next step estimated?
     bool judges_next() const;
-    /// The next step after which values are checked. No picture is made of values that are not
-    /// finite, and no stage ends with them. Steps change their length only after a check, so that
-    /// the steps since the last one can be repeated. A last step that would pass the end is
-    /// shortened.
-    std::int64_t next_stop();
+    /// The next step after which values are checked, whatever the last step of the present call. No
+    /// picture is made of values that are not finite, and no stage ends with them. Steps change
+    /// their length only after a check, so that the steps since the last one can be repeated. A
+    /// last step that would pass the end is shortened.
+    std::int64_t next_check();
     /// Must the present step be observed? To be called once for each step.
     bool observation_due();
 

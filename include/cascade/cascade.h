@@ -69,7 +69,9 @@ public:
     std::vector<std::string> species(const std::string& stage) const;
 
     /// Takes up to `count` steps, going on to the next stage where one ends. Returns how many were
-    /// taken: fewer at the end of the last stage, after cancel(), or on failure.
+    /// taken: fewer at the end of the last stage, after cancel(), or on failure. A value that is
+    /// not finite is found within 64 steps, at the end of a stage or by values(). The pattern has
+    /// then failed, and is back at the last step at which all values were finite.
     std::int64_t step(std::int64_t count);
     /// True when every stage has taken all its steps.
     bool finished() const;
@@ -82,6 +84,7 @@ public:
     /// or parameter of the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b -
     /// stage1.b"). Cells outside of the domain's mask are NaN, unless the expression is the same in
     /// all cells. Empty if the expression is wrong; error() says why, and the pattern stays ok.
+    /// Empty, too, if a value of the state is not finite, as step() says.
     std::vector<float> values(const std::string& expression);
 
     /// Makes a step() that is going on return after the present step. The next step() goes on.

@@ -61,6 +61,14 @@ struct Pattern::Implementation {
         if (!end) fail(end.error());
         return end && *end != StageEnd::cancelled;
     }
+
+    /// Are all values of the present step finite? Fails as the steps would have where not.
+    bool check() {
+        control.cancel = control.checks_later = false;
+        if (simulation->state(stage).steps == 0 || stage_is_done()) return true;
+        std::int64_t none = 0;
+        return advance(none);
+    }
 };
 
 Pattern::Pattern(const std::string& text, const PatternOptions& options)
@@ -141,13 +149,15 @@ std::vector<std::string> Pattern::species(const std::string& stage) const {
 std::int64_t Pattern::step(std::int64_t count) {
     if (!self_->running()) return 0;
     self_->control.cancel = false;
+    self_->control.checks_later = true;
     std::int64_t left = std::max<std::int64_t>(count, 0);
     while (!self_->failed) {
         if (!self_->stage_is_done() && left > 0 && !self_->advance(left)) break;
         if (!self_->stage_is_done() || self_->is_last_stage()) break;
         if (!self_->start(self_->stage + 1)) break;
     }
-    return std::max<std::int64_t>(count, 0) - left;
+    // Fewer than none where a value that is not finite takes back steps of earlier calls.
+    return std::max<std::int64_t>(std::max<std::int64_t>(count, 0) - left, 0);
 }
 
 bool Pattern::finished() const {
@@ -183,7 +193,7 @@ const Formula* Pattern::Implementation::formula(const std::string& text) {
 }
 
 std::vector<float> Pattern::values(const std::string& text) {
-    if (!self_->running()) return {};
+    if (!self_->running() || !self_->check()) return {};
     self_->error.clear();
     const Formula* formula = self_->formula(text);
     if (!formula) return {};
