@@ -80,9 +80,10 @@ public:
     /// the cell, and `species` then holds the last step at which all values were finite. Without a
     /// kept copy the check itself names a cell, and `species` keeps the spoiled values. Reports
     /// through `control`: at once, about ten times a second, and with `stage_done` at the end,
-    /// however it ends. The last step of a call is checked unless `control.checks_later`. If `control.cancel` is set, the loop ends at the next complete step; the
-    /// flag is read after each batch of steps, about every 20 ms. May be called again unless a
-    /// value was spoiled or steps became too short.
+    /// however it ends. The last step of a call is checked unless `control.checks_later`. If
+    /// `control.cancel` is set, the loop ends at the next complete step; the flag is read after
+    /// each batch of steps, about every 20 ms. May be called again unless a value was spoiled or
+    /// steps became too short.
     StageOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
                          const Observer& observe);
 
