@@ -30,7 +30,8 @@ target_link_libraries(cascade_jit PUBLIC cascade_options cascade_ir cascade_core
 target_include_directories(cascade_jit PRIVATE ${code_version_folder})
 get_target_property(llvm_library LLVM LOCATION)
 target_compile_definitions(cascade_jit PRIVATE
-  CASCADE_LLVM_MODULE="libcascade_llvm.so" CASCADE_LLVM_LIBRARY="${llvm_library}")
+  CASCADE_LLVM_MODULE="libcascade_llvm.so" CASCADE_LLVM_LIBRARY="${llvm_library}"
+  CASCADE_LLVM_VERSION="${LLVM_PACKAGE_VERSION}")
 
 # The module's parts, which tests use directly instead of through its function table.
 add_library(cascade_llvm_parts STATIC ${jit_with_llvm} ${PROJECT_SOURCE_DIR}/jit/code_version.cpp

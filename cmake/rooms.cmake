@@ -48,6 +48,15 @@ function(cascade_rooms_below name result)
   set(${result} ${rooms} PARENT_SCOPE)
 endfunction()
 
+# cascade_load_late(TARGET MACRO FILE): the target loads a shared library when it first needs it
+# (core/late_library.h), by the name that the macro holds, such as libembree3.so.3.
+function(cascade_load_late target macro file)
+  file(REAL_PATH ${file} real)
+  get_filename_component(name ${real} NAME)
+  string(REGEX REPLACE "(\\.so\\.[0-9]+).*" "\\1" name ${name})
+  target_compile_definitions(${target} PRIVATE ${macro}="${name}")
+endfunction()
+
 # cascade_room(NAME PACKAGES…): the library of the folder NAME and its subfolders.
 function(cascade_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)

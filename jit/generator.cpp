@@ -1,6 +1,8 @@
 // Loads the module of the code generator.
 #include "jit/generator.h"
 
+#include "jit/processor.h"
+
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -79,8 +81,8 @@ std::vector<std::string> known_targets() {
 }
 
 std::string describe_jit() {
-    const auto generator = code_generator();
-    return generator ? (*generator)->describe() : generator.error().message;
+    return fmt::format("LLVM {}{}, {} cells a vector", CASCADE_LLVM_VERSION,
+                       llvm_identity().empty() ? " (not installed)" : "", host_lanes());
 }
 
 }  // namespace cascade

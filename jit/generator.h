@@ -23,7 +23,6 @@ struct CodeGenerator {
     Result<std::vector<std::uint8_t>> (*compile_object)(const ObjectContent&, Stencil,
                                                         const std::string& cpu);
     std::vector<std::string> (*known_targets)();
-    std::string (*describe)();
 };
 
 /// Loads the module at the first call. Fails if there is none, or one of another build.

@@ -34,7 +34,7 @@ Result<std::string> dump_llvm(const CellKernel& kernel, Stencil stencil, const J
 Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
                                   const JitOptions& options);
 
-/// Cascade's version of LLVM and the host's CPU name and vector width, for `--version`.
+/// Cascade's version of LLVM and the host's vector width, for `--version`. Does not load LLVM.
 std::string describe_jit();
 
 /// A function of an object file: a kernel under a C name.

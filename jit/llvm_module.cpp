@@ -65,21 +65,14 @@ Result<CodeImage> compile(const CellKernel& kernel, const KernelShape& shape, in
     return image;
 }
 
-std::string describe() {
-    const auto target = choose_target("", {});
-    if (!target) return fmt::format("LLVM {}: {}", LLVM_VERSION_STRING, target.error().message);
-    return fmt::format("LLVM {}, {}, {} cells a vector", LLVM_VERSION_STRING, host_cpu_name(),
-                       target->lanes);
-}
-
 }  // namespace llvm_module
 }  // namespace cascade
 
 extern "C" __attribute__((visibility("default"))) const cascade::CodeGenerator*
 cascade_code_generator(const char* version) {
     using namespace cascade;
-    static const CodeGenerator generator = {llvm_module::compile,       llvm_module::dump_llvm,
+    static const CodeGenerator generator = {llvm_module::compile, llvm_module::dump_llvm,
                                             llvm_module::dump_assembly, llvm_module::compile_object,
-                                            llvm_module::known_targets, llvm_module::describe};
+                                            llvm_module::known_targets};
     return std::strcmp(version, code_version()) == 0 ? &generator : nullptr;
 }

@@ -14,6 +14,5 @@ Result<std::string> dump_assembly(const CellKernel& kernel, Stencil stencil,
 Result<std::vector<std::uint8_t>> compile_object(const ObjectContent& content, Stencil stencil,
                                                  const std::string& cpu);
 std::vector<std::string> known_targets();
-std::string describe();
 
 }  // namespace cascade::llvm_module

@@ -2,6 +2,7 @@
 // otherwise. Power is summed over rings of wave numbers; the rings at the peak give the wavelength.
 #include "measure/spectrum.h"
 
+#include "core/late_library.h"
 #include "core/transform_planner.h"
 
 #include <fftw3.h>
@@ -20,14 +21,28 @@ namespace {
 /// The ratio of a peak's ends to its centre; less than √2, the second wave of a square lattice.
 constexpr double peak_breadth = 1.3;
 
+struct Fftw {
+    LateLibrary library{CASCADE_FFTW_LIBRARY};
+    decltype(&fftw_free) free = library["fftw_free"];
+    decltype(&fftw_alloc_real) alloc_real = library["fftw_alloc_real"];
+    decltype(&fftw_plan_r2r) plan_r2r = library["fftw_plan_r2r"];
+    decltype(&fftw_execute) execute = library["fftw_execute"];
+    decltype(&fftw_destroy_plan) destroy_plan = library["fftw_destroy_plan"];
+};
+
+const Fftw& fftw() {
+    static const Fftw functions;
+    return functions;
+}
+
 struct FreeBuffer {
-    void operator()(double* buffer) const { fftw_free(buffer); }
+    void operator()(double* buffer) const { fftw().free(buffer); }
 };
 using Buffer = std::unique_ptr<double[], FreeBuffer>;
 
 /// The values minus their mean; 0 for cells outside of the domain.
 Buffer centred(const Samples& samples) {
-    Buffer buffer(fftw_alloc_real(samples.count()));
+    Buffer buffer(fftw().alloc_real(samples.count()));
     double sum = 0;
     std::size_t inside = 0;
     for (const double value : samples.values) {
@@ -55,11 +70,11 @@ void transform(const Samples& samples, double* values) {
     fftw_plan plan = nullptr;
     {
         const std::lock_guard lock(transform_planner());
-        plan = fftw_plan_r2r(3, sizes, values, values, kinds, FFTW_ESTIMATE);
+        plan = fftw().plan_r2r(3, sizes, values, values, kinds, FFTW_ESTIMATE);
     }
-    fftw_execute(plan);
+    fftw().execute(plan);
     const std::lock_guard lock(transform_planner());
-    fftw_destroy_plan(plan);
+    fftw().destroy_plan(plan);
 }
 
 /// Along one axis: the wave number of every coefficient, and its weight in Parseval's sum.

@@ -4,6 +4,7 @@
 #include "solvers/wave_filter.h"
 
 #include "core/check.h"
+#include "core/late_library.h"
 #include "core/plane.h"
 #include "core/transform_planner.h"
 
@@ -19,23 +20,31 @@
 namespace cascade {
 namespace {
 
-/// FFTW's names in both precisions.
+/// FFTW's functions in both precisions.
 template <typename Number>
 struct Fftw;
 template <>
 struct Fftw<float> {
     using Plan = fftwf_plan;
-    static constexpr auto plan_many = fftwf_plan_many_r2r;
-    static constexpr auto execute = fftwf_execute_r2r;
-    static constexpr auto destroy = fftwf_destroy_plan;
+    LateLibrary library{CASCADE_FFTW_FLOAT_LIBRARY};
+    decltype(&fftwf_plan_many_r2r) plan_many = library["fftwf_plan_many_r2r"];
+    decltype(&fftwf_execute_r2r) execute = library["fftwf_execute_r2r"];
+    decltype(&fftwf_destroy_plan) destroy = library["fftwf_destroy_plan"];
 };
 template <>
 struct Fftw<double> {
     using Plan = fftw_plan;
-    static constexpr auto plan_many = fftw_plan_many_r2r;
-    static constexpr auto execute = fftw_execute_r2r;
-    static constexpr auto destroy = fftw_destroy_plan;
+    LateLibrary library{CASCADE_FFTW_LIBRARY};
+    decltype(&fftw_plan_many_r2r) plan_many = library["fftw_plan_many_r2r"];
+    decltype(&fftw_execute_r2r) execute = library["fftw_execute_r2r"];
+    decltype(&fftw_destroy_plan) destroy = library["fftw_destroy_plan"];
 };
+
+template <typename Number>
+const Fftw<Number>& fftw() {
+    static const Fftw<Number> functions;
+    return functions;
+}
 
 /// The waves along an axis, which depend on the rules at its two sides.
 struct AxisWaves {
@@ -119,7 +128,7 @@ struct WaveFilter<Number>::Implementation {
     }
     ~Implementation() {
         const std::lock_guard lock(transform_planner());
-        for (const auto& [key, plan] : plans) Fftw<Number>::destroy(plan);
+        for (const auto& [key, plan] : plans) fftw<Number>().destroy(plan);
     }
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
@@ -149,9 +158,9 @@ struct WaveFilter<Number>::Implementation {
         const std::int64_t stride = axis == x ? 1 : axis == y ? layout.stride : layout.slice_stride;
         const int many = axis == x ? 1 : static_cast<int>(block);
         const std::lock_guard lock(transform_planner());
-        known = Fftw<Number>::plan_many(1, &size, many, place, nullptr, static_cast<int>(stride), 1,
-                                        place, nullptr, static_cast<int>(stride), 1, &kind,
-                                        FFTW_ESTIMATE);
+        known = fftw<Number>().plan_many(1, &size, many, place, nullptr, static_cast<int>(stride),
+                                         1, place, nullptr, static_cast<int>(stride), 1, &kind,
+                                         FFTW_ESTIMATE);
         CHECK(known != nullptr, "FFTW has a plan for every size");
         return known;
     }
@@ -245,7 +254,7 @@ void WaveFilter<Number>::apply(Team& team, int thread, int threads, std::span<Nu
     };
     const auto transform = [&](auto plan, Axis axis, std::int64_t piece, Number* plane) {
         Number* const cells = plane + self.first_line(axis, piece).offset;
-        Fftw<Number>::execute(plan, cells, cells);
+        fftw<Number>().execute(plan, cells, cells);
     };
     // Rows are shared as for kernels, columns are not.
     const bool begins_with_rows = self.axes.front() == Axis::x;
