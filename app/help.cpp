@@ -18,7 +18,7 @@ const std::string_view examples = R"(Examples:
   cascade run leopard.cascade --set stage2.ka=1/200 --seed 7 -o other.png
   cascade run leopard.png                            draws a picture again
   cascade check my.cascade                           says what is wrong with it
-  cascade systems                                    what there is to begin with
+  cascade systems                                    the systems of the library
   cascade new brusselator -o my.cascade              a script to start from
 
 A first script, spots.cascade:
@@ -45,7 +45,7 @@ const std::string_view run_examples = R"(Examples:
   cascade run coral.cascade --log 'mean(v over domain)' --features
   cascade run coral.cascade --mesh horse.ply --up z -o coral.png -o coral.glb
 
-Ctrl-C stops at a complete step and writes what there is; a second one leaves at once.)";
+Ctrl-C stops at a complete step and writes the results so far; a second one leaves at once.)";
 
 const std::string_view sweep =
     "Runs a script with many values of its parameters: one labelled sheet, one table.";
@@ -63,7 +63,7 @@ const std::string_view check_examples = R"(Examples:
   cascade check leopard.cascade --dump ir            what a cell computes in a step)";
 
 const std::string_view bench =
-    "Measures the steps of scripts and says what keeps them from being faster. Writes no file.";
+    "Measures the steps of scripts and says what limits their speed. Writes no file.";
 const std::string_view bench_examples = R"(Examples:
   cascade bench leopard.cascade                      a table for each stage
   cascade bench leopard.cascade --stage 2 --grid 512x512 --threads 1

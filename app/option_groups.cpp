@@ -132,7 +132,7 @@ void add_shown(CLI::App& app, PictureChanges& picture) {
               [&](const auto& depth) { picture.depth = depth == "16" ? 16 : 8; })
         ->group(group);
     add_value(app, "--slice", "AXIS=PLACE",
-              "Of a grid with slices: z=0.5, or another place from 0\n"
+              "On a grid with slices: z=0.5, or another place from 0\n"
               "to 1 along x, y or z",
               parse_slice, [&](auto slice) { picture.slice = slice; })
         ->group(group);
@@ -144,15 +144,15 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
     add_value(app, "--scale", "N", "Pixels for the side of a cell (1 to 64)", whole_number(1, 64),
               [&](auto scale) { picture.scale = static_cast<int>(scale); })
         ->group(group);
-    app.add_flag("--flat", picture.flat, "Of a surface: the texture alone, without the surface")
+    app.add_flag("--flat", picture.flat, "On a surface: the texture alone, without the surface")
         ->group(group);
     add_value(app, "--view", "AROUND,ABOVE",
-              "Of a surface: from where it is seen, in degrees around\nit and above the horizon",
+              "On a surface: the direction of view, in degrees around\nit and above the horizon",
               parse_view, [&](auto view) { picture.view = view; })
         ->group(group);
     add_value(app, "--bump", "S",
-              "Of a model: what is shown stands out, by up to S times\nthe model's longest side, "
-              "such as 0.02",
+              "On a model: raise the surface by the number shown, by up\n"
+              "to S times the model's longest side, such as 0.02",
               parse_bump, [&](float bump) { picture.bump = bump; })
         ->group(group);
     app.add_flag("--space-time", picture.space_time,
@@ -188,10 +188,9 @@ void add_files(CLI::App& app, RunRequest& run) {
         add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
                   any_text, [&](auto path) { run.save = path; })
             ->group(group);
-    add_value(
-        app, "--checkpoint", "DURATION",
-        "Save every 30s, 10m, 2h on the way too, so that a run\nthat is killed can be resumed",
-        parse_duration, [&](double seconds) { run.checkpoint_seconds = seconds; })
+    add_value(app, "--checkpoint", "DURATION",
+              "Also save every 30s, 10m, 2h during the run, so that a\nkilled run can be resumed",
+              parse_duration, [&](double seconds) { run.checkpoint_seconds = seconds; })
         ->needs(save)
         ->group(group);
     add_value(app, "--turntable", "N", "Pictures from N places around, as NAME-001.png, …",
@@ -220,7 +219,8 @@ void add_log(CLI::App& app, RunRequest& run) {
                                       "A number over time, such as 'mean(u over domain)', as a\n"
                                       "table; may be given again");
     log->allow_extra_args(false)->type_name("EXPR")->group(group);
-    add_value(app, "--log-every", "N", "Steps from row to row; without it each stage's interval",
+    add_value(app, "--log-every", "N",
+              "Steps from one row to the next; without it each stage's\ninterval",
               whole_number(1, std::numeric_limits<std::int64_t>::max()),
               [&](auto every) { run.log.every = every; })
         ->needs(log)
@@ -249,7 +249,7 @@ void add_simulation(CLI::App& app, Options& options, const std::string& threads)
     add_value(app, "--threads", "N", threads, whole_number(1, 1024), [&](auto count) {
         simulation.threads = static_cast<int>(count);
     })->group(group);
-    add_value(app, "--lanes", "4|8|16", "Cells in a vector; without it what the processor has",
+    add_value(app, "--lanes", "4|8|16", "Cells in a vector; without it the processor's width",
               one_of({"4", "8", "16"}),
               [&](const auto& lanes) {
                   simulation.lanes = lanes == "4" ? 4 : lanes == "8" ? 8 : 16;
@@ -274,7 +274,7 @@ void add_mesh(CLI::App& app, Options& options) {
         "'all': everywhere; may be given\nagain");
     add_value(app, "--cells", "N|faces|vertices",
               "Spread N cells over the surface, or make cells of the\n"
-              "model's faces or points, and say how they turn out",
+              "model's faces or points, and describe them",
               parse_cells, [&](const CellOptions& cells) { options.cells = cells; })
         ->group("Cells");
     add_value(app, "--seed", "N", "The seed of the cells' random places (with --cells N)",
@@ -290,7 +290,7 @@ void add_stop(CLI::App& app, Options& options) {
 }
 
 void add_timing(CLI::App& app, Options& options) {
-    app.add_flag("--timing", options.timing, "Say where the time went, as a table")
+    app.add_flag("--timing", options.timing, "Print a table of where the time went")
         ->group(execution_group);
 }
 
@@ -299,7 +299,7 @@ void add_limits(CLI::App& app, Options& options) {
     add_value(app, "--limit-time", "DURATION", "Stop after 90s, 20m, 1.5h as Ctrl-C would",
               parse_duration, [&](double seconds) { options.limit_seconds = seconds; })
         ->group(group);
-    add_value(app, "--limit-memory", "SIZE", "Use no more than 500MB, 2GB; refuse what needs more",
+    add_value(app, "--limit-memory", "SIZE", "Use at most 500MB, 2GB; refuse runs that need more",
               parse_size, [&](std::uint64_t bytes) { options.run.simulation.memory_limit = bytes; })
         ->group(group);
 }

@@ -31,7 +31,7 @@ void add_sweep(CLI::App& app, Options& options) {
         ->group(files);
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
         ->group(files);
-    app.add_flag("--force", sweep.force, "Run again what an earlier sweep has done")->group(files);
+    app.add_flag("--force", sweep.force, "Repeat runs of an earlier sweep")->group(files);
 }
 
 }  // namespace cascade::option_groups

@@ -72,7 +72,7 @@ struct Parser {
     }
     Leave leave(const std::string& program, const std::string& message) {
         return {exit_status::wrong_use,
-                fmt::format("{}\n'{} --help' lists what there is.\n", message, called(program))};
+                fmt::format("{}\n'{} --help' shows how to use it.\n", message, called(program))};
     }
     Leave wrong_use(const std::string& program, const CLI::ParseError& error);
     std::string near_option(const std::string& word);
@@ -143,7 +143,7 @@ void Parser::add_all() {
         ->type_name("");
     groups::add_bench(*bench, options);
     groups::add_overrides(*bench, options.overrides);
-    groups::add_simulation(*bench, options, "Threads at most; without it all cores");
+    groups::add_simulation(*bench, options, "At most N threads; without it all cores");
     groups::add_quiet(*bench, options);
     groups::add_limits(*bench, options);
 

@@ -63,7 +63,7 @@ private:
                     (other.exists() && !fits(here, other))) {
                     return failure(
                         fmt::format("edge {} of triangle {} of the surface does not fit "
-                                    "what lies across it",
+                                    "the triangle across it",
                                     k, t));
                 }
                 const bool is_first =

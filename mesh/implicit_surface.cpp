@@ -210,8 +210,7 @@ public:
         }
         if (triangles_.empty()) {
             return failure(
-                "the function of the surface is nowhere above 0 in the box, as far as it "
-                "was looked at",
+                "the function of the surface is nowhere above 0 in the box, at any sample",
                 "choose shorter edges, or another box");
         }
         return joined();

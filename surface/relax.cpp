@@ -17,8 +17,8 @@ namespace {
 constexpr double strength = 0.15;
 /// The neighbour lists reach this much farther than the force, in radii.
 constexpr double skin = 0.25;
-/// The longest move of a place in a round, in radii. Where a surface is folded a place has so many
-/// neighbours that it would oscillate.
+/// The longest move of a place in a round, in radii. On folded surfaces, places have many
+/// neighbours and would oscillate without this limit.
 constexpr double longest_step = 0.06;
 /// Two places nearer than this, in radii, are pushed apart harder: by a force that only grows
 /// linearly towards 0, other places could press them together for good. Even places are 0.54 apart.

@@ -62,7 +62,7 @@ refused 2 'open.cascade:1:100036: error: this' run open.cascade
 rm -f ./*.png
 
 # Numbers that make no run.
-for bad in '-1|at least 0' '2.5|a whole number' '1e30|at most' 'x|varying by cell'; do
+for bad in '-1|at least 0' '2.5|a whole number' '1e30|at most' 'x|varies by cell'; do
     stage "iterations: ${bad%|*}" number.cascade
     refused 2 "number.cascade:1:37: error: iterations must be" run number.cascade
     grep -qF "${bad#*|}" err || fail "iterations: ${bad%|*}"
@@ -83,7 +83,7 @@ for nonsense in '--range 1' '--range 1,1' '--scale 0' '--depth 9' '--palette nop
     '--steps 1.5' '--threads 0' '--lanes 5' '--backend gpu' '--stop-at s' \
     '--dump nope' '-o picture.jpg' '--volume volume.txt' '--log-file numbers.csv' '--log-every 5'; do
     # shellcheck disable=SC2086
-    refused 64 "'cascade run --help' lists what there is." run good.cascade $nonsense
+    refused 64 "'cascade run --help' shows how to use it." run good.cascade $nonsense
 done
 refused 3 'are both to be written to' run good.cascade -o a.png --sheet ./a.png
 refused 64 'are both to be written to' compile good.cascade -o a.h

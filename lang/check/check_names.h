@@ -110,8 +110,8 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
 /// True if a part of the system could not be read.
 bool is_incomplete(const Workspace& work, std::uint32_t system);
 
-/// True after so many errors or compared names that suggestions are no longer made, which bounds
-/// the time to refuse a script.
+/// True if the number of errors or compared names is so large that no more suggestions are made,
+/// which bounds the time to refuse a script.
 bool is_hopeless(const Workspace& work);
 
 /// "did you mean 'beta'?", or "".

@@ -78,7 +78,7 @@ static inline double $_rounded(double product) {
     return rounded;
 }
 
-/* What stands beyond a side. */
+/* The value beyond a side. */
 static inline float $_beyond(const struct $_side *side, float cell, float value) {
     if (side->kind == $_fixed) return (value + value) - cell;
     {
@@ -262,7 +262,7 @@ inline constexpr std::string_view clock = R"(    if (length != s->length) {
 )";
 
 inline constexpr std::string_view ending = R"(
-/* Takes so many steps. */
+/* Takes this number of steps. */
 static inline void $_run(struct $ *s, int64_t steps) {
     for (; steps > 0; --steps) $_step(s);
 }

@@ -90,15 +90,15 @@ TEST(HalfEdges, RefusesWhatIsNoSurface) {
     SurfaceMesh turned = test::square();
     std::swap(turned.triangles[1][0], turned.triangles[1][1]);
     EXPECT_EQ(message(turned),
-              "edge 2 of triangle 0 of the surface does not fit what lies across it");
+              "edge 2 of triangle 0 of the surface does not fit the triangle across it");
     SurfaceMesh one_way = test::square();
     one_way.across[1] = {};
     EXPECT_EQ(message(one_way),
-              "edge 2 of triangle 0 of the surface does not fit what lies across it");
+              "edge 2 of triangle 0 of the surface does not fit the triangle across it");
     SurfaceMesh outside = test::square();
     outside.points.pop_back();
     EXPECT_EQ(message(outside),
-              "edge 2 of triangle 1 of the surface does not fit what lies across it");
+              "edge 2 of triangle 1 of the surface does not fit the triangle across it");
     SurfaceMesh unlinked = test::square();
     unlinked.across.clear();
     EXPECT_EQ(message(unlinked), "the surface has triangles whose neighbours are not known");

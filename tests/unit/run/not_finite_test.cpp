@@ -56,7 +56,7 @@ TEST(NotFinite, DoesNotAskAStateThatIsSpoiled) {
     report.estimate_before.largest_speed = 2.19e-63;
     EXPECT_THAT(describe(report).hint, Not(HasSubstr("largest stable speed")));
     EXPECT_THAT(describe(report).hint,
-                HasSubstr("or steps are too long to follow it; 'solver: rk23' finds out"));
+                HasSubstr("or steps are too long to follow it; 'solver: rk23', which"));
     report.estimate_at_start.largest_speed = 1.5;
     EXPECT_THAT(describe(report).hint, HasSubstr("the largest stable speed is about 1.5 "));
     // A state that has only begun to grow is asked.
