@@ -19,6 +19,10 @@ public:
     constexpr Id() = default;
     constexpr explicit Id(std::size_t index) : index_(static_cast<std::uint32_t>(index)) {}
     constexpr std::uint32_t index() const { return index_; }
+    constexpr Id& operator++() {
+        ++index_;
+        return *this;
+    }
     friend constexpr auto operator<=>(Id, Id) = default;
 
 private:

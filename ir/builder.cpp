@@ -14,12 +14,12 @@ namespace {
 
 std::uint64_t hash_of(const Instruction& instruction) {
     std::uint64_t hash = static_cast<std::uint64_t>(instruction.op) + 1;
-    const auto [a, b, c] = instruction.operands;
-    for (const std::uint64_t word :
-         {std::uint64_t{a}, std::uint64_t{b}, std::uint64_t{c}, instruction.payload}) {
+    const auto add = [&](std::uint64_t word) {
         hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
         hash ^= hash >> 29;
-    }
+    };
+    for (const ValueId operand : instruction.operands) add(operand.index());
+    add(instruction.payload);
     return hash;
 }
 
@@ -88,12 +88,12 @@ ValueId KernelBuilder::cell_slice() { return emit({Op::cell_slice, {}, 0}); }
 
 ValueId KernelBuilder::apply(Op op, ValueId a) {
     CHECK(info(op).arity == 1, "builder: the operation takes one operand");
-    return emit({op, {a, 0, 0}, 0});
+    return emit({op, {a}, 0});
 }
 
 ValueId KernelBuilder::apply(Op op, ValueId a, ValueId b) {
     CHECK(info(op).arity == 2, "builder: the operation takes two operands");
-    return emit({op, {a, b, 0}, 0});
+    return emit({op, {a, b}, 0});
 }
 
 ValueId KernelBuilder::apply(Op op, ValueId a, ValueId b, ValueId c) {
@@ -120,7 +120,7 @@ ValueId KernelBuilder::clamp_above(ValueId x, ValueId bound) {
 }
 
 void KernelBuilder::result(const std::string& name, ValueId value) {
-    CHECK(value < kernel_.code.size(), "builder: a result is a value of this builder");
+    CHECK(value < next(), "builder: a result is a value of this builder");
     kernel_.results.push_back(value);
     kernel_.result_names.push_back(name);
 }
@@ -128,8 +128,7 @@ void KernelBuilder::result(const std::string& name, ValueId value) {
 ValueId KernelBuilder::emit(Instruction instruction) {
     const int arity = info(instruction.op).arity;
     for (std::size_t k = 0; static_cast<int>(k) < arity; ++k) {
-        CHECK(instruction.operands[k] < kernel_.code.size(),
-              "builder: an operand is a value of this builder");
+        CHECK(instruction.operands[k] < next(), "builder: an operand is a value of this builder");
     }
     if (arity > 0) {
         if (const std::optional<ValueId> known = simplify(instruction)) return *known;
@@ -139,7 +138,7 @@ ValueId KernelBuilder::emit(Instruction instruction) {
          found = numbering_.find(++key)) {
         if (kernel_.code[found->second] == instruction) return found->second;
     }
-    const auto id = static_cast<ValueId>(kernel_.code.size());
+    const ValueId id = next();
     numbering_.emplace(key, id);
     kernel_.code.push_back(instruction);
     return id;
@@ -186,25 +185,25 @@ std::optional<ValueId> KernelBuilder::simplify_logic(Op op, ValueId x, std::uint
 }
 
 CellKernel KernelBuilder::finish() && {
-    const std::vector<Instruction> code = std::move(kernel_.code);
-    std::vector<bool> needed(code.size());
+    const IdVector<ValueId, Instruction> code = std::move(kernel_.code);
+    IdVector<ValueId, bool> needed(code.size());
     for (const ValueId id : kernel_.results) needed[id] = true;
-    for (std::size_t id = code.size(); id-- > 0;) {
+    for (const ValueId id : code.ids_backwards()) {
         const int arity = needed[id] ? info(code[id].op).arity : 0;
         for (std::size_t k = 0; static_cast<int>(k) < arity; ++k) {
             needed[code[id].operands[k]] = true;
         }
     }
     kernel_.code.clear();
-    std::vector<ValueId> renamed(code.size());
-    for (std::size_t id = 0; id < code.size(); ++id) {
+    IdVector<ValueId, ValueId> renamed(code.size());
+    for (const ValueId id : code.ids()) {
         if (!needed[id]) continue;
         Instruction instruction = code[id];
         const int arity = info(instruction.op).arity;
         for (std::size_t k = 0; static_cast<int>(k) < arity; ++k) {
             instruction.operands[k] = renamed[instruction.operands[k]];
         }
-        renamed[id] = static_cast<ValueId>(kernel_.code.size());
+        renamed[id] = next();
         kernel_.code.push_back(instruction);
     }
     for (ValueId& id : kernel_.results) id = renamed[id];

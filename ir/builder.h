@@ -119,7 +119,7 @@ public:
     void keep(ValueId id) { kernel_.kept.push_back(id); }
     /// Excludes all values from this one on.
     void keep_from(ValueId first) {
-        for (ValueId id = first; id < kernel_.code.size(); ++id) keep(id);
+        for (ValueId id = first; id < next(); ++id) keep(id);
     }
 
     /// Appends an output.
@@ -128,7 +128,8 @@ public:
     /// The finished kernel, without instructions that no result needs; unused slots stay.
     CellKernel finish() &&;
 
-    std::size_t size() const { return kernel_.code.size(); }
+    /// The next new value.
+    ValueId next() const { return kernel_.code.next(); }
     const Instruction& operator[](ValueId id) const { return kernel_.code[id]; }
     bool is_constant(ValueId id) const { return kernel_.code[id].op == Op::constant; }
     /// The number that a constant represents.

@@ -99,15 +99,15 @@ std::string verify_shift(const CellKernel& kernel, const Instruction& instructio
     return amount.payload <= most ? "" : fmt::format("shifts by {}", amount.payload);
 }
 
-std::string verify_instruction(const CellKernel& kernel, std::size_t id) {
+std::string verify_instruction(const CellKernel& kernel, ValueId id) {
     const Instruction& instruction = kernel.code[id];
     if (static_cast<int>(instruction.op) >= op_count) return "is no operation of the table";
     for (std::size_t k = 0; k < instruction.operands.size(); ++k) {
         const ValueId operand = instruction.operands[k];
         if (static_cast<int>(k) >= info(instruction.op).arity) {
-            if (operand != 0) return "has an operand too many";
+            if (operand != ValueId{}) return "has an operand too many";
         } else if (operand >= id) {
-            return fmt::format("reads %{}, which does not come before it", operand);
+            return fmt::format("reads %{}, which does not come before it", operand.index());
         }
     }
     if (std::string wrong = verify_payload(kernel, instruction); !wrong.empty()) return wrong;
@@ -136,8 +136,8 @@ bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
     return false;
 }
 
-std::vector<bool> varying(const CellKernel& kernel) {
-    std::vector<bool> varies;
+IdVector<ValueId, bool> varying(const CellKernel& kernel) {
+    IdVector<ValueId, bool> varies;
     varies.reserve(kernel.code.size());
     for (const Instruction& instruction : kernel.code) {
         const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
@@ -156,42 +156,43 @@ std::uint64_t hash(const CellKernel& kernel) {
     if (kernel.precision != Precision::single) result = mix(result, bytes_of(kernel.precision));
     for (const Instruction& instruction : kernel.code) {
         const auto [a, b, c] = instruction.operands;
-        result = mix(result, static_cast<std::uint64_t>(instruction.op) << 32 | a);
-        if (info(instruction.op).arity > 1) result = mix(result, std::uint64_t{b} << 32 | c);
+        result = mix(result, static_cast<std::uint64_t>(instruction.op) << 32 | a.index());
+        if (info(instruction.op).arity > 1)
+            result = mix(result, std::uint64_t{b.index()} << 32 | c.index());
         result = mix(result, instruction.payload);
     }
-    for (const ValueId value : kernel.results) result = mix(result, value);
+    for (const ValueId value : kernel.results) result = mix(result, value.index());
     return result;
 }
 
 std::string print(const CellKernel& kernel) {
     fmt::memory_buffer text;
     const auto out = std::back_inserter(text);
-    for (std::size_t id = 0; id < kernel.code.size(); ++id) {
+    for (const ValueId id : kernel.code.ids()) {
         const Instruction& instruction = kernel.code[id];
         const OpInfo& op = info(instruction.op);
-        fmt::format_to(out, "%{} = {}", id, op.name);
+        fmt::format_to(out, "%{} = {}", id.index(), op.name);
         for (std::size_t k = 0; static_cast<int>(k) < op.arity; ++k) {
-            fmt::format_to(out, "{} %{}", k == 0 ? "" : ",", instruction.operands[k]);
+            fmt::format_to(out, "{} %{}", k == 0 ? "" : ",", instruction.operands[k].index());
         }
         fmt::format_to(out, "{}\n", payload_text(kernel, instruction));
     }
     for (std::size_t k = 0; k < kernel.results.size(); ++k) {
         const std::string name =
             k < kernel.result_names.size() ? kernel.result_names[k] : std::to_string(k);
-        fmt::format_to(out, "result {} = %{}\n", name, kernel.results[k]);
+        fmt::format_to(out, "result {} = %{}\n", name, kernel.results[k].index());
     }
     return fmt::to_string(text);
 }
 
 std::string verify(const CellKernel& kernel) {
-    for (std::size_t id = 0; id < kernel.code.size(); ++id) {
+    for (const ValueId id : kernel.code.ids()) {
         const std::string wrong = verify_instruction(kernel, id);
-        if (!wrong.empty()) return fmt::format("%{} {}", id, wrong);
+        if (!wrong.empty()) return fmt::format("%{} {}", id.index(), wrong);
     }
     for (std::size_t k = 0; k < kernel.results.size(); ++k) {
-        if (kernel.results[k] < kernel.code.size()) continue;
-        return fmt::format("result {} is %{}, which does not exist", k, kernel.results[k]);
+        if (kernel.results[k] < kernel.code.next()) continue;
+        return fmt::format("result {} is %{}, which does not exist", k, kernel.results[k].index());
     }
     if (kernel.result_names.size() != kernel.results.size()) {
         return fmt::format("{} results have {} names", kernel.results.size(),

@@ -6,6 +6,7 @@
 // memory (KernelArguments does). It cannot fail: users' errors are found in lang/.
 #pragma once
 
+#include "core/id.h"
 #include "core/precision.h"
 #include "ir/word_format.h"
 
@@ -53,7 +54,7 @@ constexpr int info_arity(Op op) {
 }
 
 /// The index of the instruction that computes a value.
-using ValueId = std::uint32_t;
+using ValueId = Id<struct ValueTag>;
 
 struct Instruction {
     Op op = Op::constant;
@@ -105,7 +106,7 @@ constexpr bool is_link_sum(Op op) {
 /// The program of one cell. `results[k]` is the value stored in output field k. Slot numbers are
 /// indices into the lists of slot names, which serve dumps and messages.
 struct CellKernel {
-    std::vector<Instruction> code;
+    IdVector<ValueId, Instruction> code;
     std::vector<ValueId> results;
     std::vector<std::string> field_names;
     std::vector<std::string> mask_names;
@@ -121,7 +122,7 @@ struct CellKernel {
 
 /// For each value, whether it can differ between cells, that is, is not computed from uniforms
 /// only.
-std::vector<bool> varying(const CellKernel& kernel);
+IdVector<ValueId, bool> varying(const CellKernel& kernel);
 
 /// A hash of everything that determines the generated code, which excludes names.
 std::uint64_t hash(const CellKernel& kernel);

@@ -34,7 +34,7 @@ public:
 
     /// finish() drops products that are no longer used.
     CellKernel contracted() && {
-        for (ValueId id = 0; id < kernel_.code.size(); ++id) renamed_[id] = rewritten(id);
+        for (const ValueId id : kernel_.code.ids()) renamed_[id] = rewritten(id);
         for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
             builder_.result(kernel_.result_names[k], renamed_[kernel_.results[k]]);
         }
@@ -93,9 +93,9 @@ private:
 
     const CellKernel& kernel_;
     KernelBuilder builder_;
-    std::vector<bool> varies_, is_kept_;
-    std::vector<std::optional<Product>> products_;  ///< By old value.
-    std::vector<ValueId> renamed_;                  ///< By old value, the new value.
+    IdVector<ValueId, bool> varies_, is_kept_;
+    IdVector<ValueId, std::optional<Product>> products_;  ///< By old value.
+    IdVector<ValueId, ValueId> renamed_;                  ///< By old value, the new value.
 };
 
 }  // namespace

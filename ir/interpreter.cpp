@@ -71,7 +71,7 @@ public:
 
     Plan<Number> plan() && {
         count_readers();
-        for (ValueId id = 0; id < kernel_.code.size(); ++id) locate(id);
+        for (const ValueId id : kernel_.code.ids()) locate(id);
         for (const ValueId id : kernel_.results) plan_.results.push_back(locations_[id]);
         return std::move(plan_);
     }
@@ -82,7 +82,7 @@ private:
     }
 
     void count_readers() {
-        for (ValueId id = 0; id < kernel_.code.size(); ++id) {
+        for (const ValueId id : kernel_.code.ids()) {
             for (std::size_t k = 0; k < arity(id); ++k) ++readers_[kernel_.code[id].operands[k]];
         }
         // Results are read at the end of the block, so their registers are never released.
@@ -144,9 +144,9 @@ private:
     }
 
     const CellKernel& kernel_;
-    const std::vector<bool> varies_;
-    std::vector<Location> locations_;
-    std::vector<std::uint32_t> readers_;  ///< Remaining reads of a value.
+    const IdVector<ValueId, bool> varies_;
+    IdVector<ValueId, Location> locations_;
+    IdVector<ValueId, std::uint32_t> readers_;  ///< Remaining reads of a value.
     std::vector<std::uint32_t> free_;
     Plan<Number> plan_;
 };

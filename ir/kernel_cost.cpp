@@ -13,8 +13,8 @@ namespace cascade {
 namespace {
 
 /// For each value, whether it is a negation that only multiply-adds use, which include it.
-std::vector<bool> signs_of_multiply_adds(const CellKernel& kernel) {
-    std::vector<bool> is_sign;
+IdVector<ValueId, bool> signs_of_multiply_adds(const CellKernel& kernel) {
+    IdVector<ValueId, bool> is_sign;
     for (const Instruction& instruction : kernel.code) {
         is_sign.push_back(instruction.op == Op::negate);
         if (instruction.op == Op::multiply_add) continue;
@@ -38,8 +38,8 @@ public:
           is_folded_(signs_of_multiply_adds(kernel)) {}
 
     KernelCost count() {
-        for (std::size_t k = 0; k < kernel_.code.size(); ++k) {
-            if (varies_[k] && !is_folded_[k]) add(kernel_.code[k]);
+        for (const ValueId id : kernel_.code.ids()) {
+            if (varies_[id] && !is_folded_[id]) add(kernel_.code[id]);
         }
         const auto stores = static_cast<double>(kernel_.results.size());
         cost_.stores += stores;
@@ -134,7 +134,7 @@ private:
     Stencil stencil_;
     double links_;
     double word_;  ///< Bytes.
-    std::vector<bool> varies_, is_folded_;
+    IdVector<ValueId, bool> varies_, is_folded_;
     std::set<Read> loaded_;
     std::set<std::uint32_t> masks_, gathered_;
     std::set<Op> weights_;

@@ -15,8 +15,8 @@ namespace cascade {
 
 /// One axis of the domain, and the coordinate of the cell along it.
 struct SpaceAxis {
-    ValueId coordinate = 0;  ///< 0 … length.
-    double length = 1;       ///< Of the whole axis.
+    ValueId coordinate;  ///< 0 … length.
+    double length = 1;   ///< Of the whole axis.
     bool is_periodic = false;
     bool has_extent = false;  ///< More than one cell.
 };
@@ -48,7 +48,7 @@ ValueId turned_stripe(KernelBuilder& builder, const Space& space, ValueId positi
 /// The source of a position's random numbers: a word that changes when they are drawn anew, and the
 /// key of one occurrence in a script.
 struct Draw {
-    ValueId word = 0;
+    ValueId word;
     std::uint64_t key = 0;
 };
 

@@ -29,9 +29,9 @@ struct Body {
     const CellKernel& kernel;
     const KernelShape& shape;
     WordFormat format;
-    std::vector<LoopLevel> levels;  ///< By value.
-    llvm::VectorType* number_type;  ///< <N x float>
-    llvm::VectorType* bits_type;    ///< <N x i32>
+    IdVector<ValueId, LoopLevel> levels;  ///< By value.
+    llvm::VectorType* number_type;        ///< <N x float>
+    llvm::VectorType* bits_type;          ///< <N x i32>
 
     /// A constant word in all lanes, as numbers or as bits.
     llvm::Constant* number(std::uint64_t word) const;
@@ -102,7 +102,7 @@ private:
     Sources& sources_;
     BodyScope* outer_;
     std::map<std::uint64_t, llvm::Value*> hidden_;  ///< By word; of the outermost scope alone.
-    std::vector<Forms> values_;                     ///< By value; only those of this level.
+    IdVector<ValueId, Forms> values_;               ///< By value; only those of this level.
 };
 
 }  // namespace cascade

@@ -285,7 +285,7 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
 void emit_body(BodyScope& scope) {
     const Body& body = scope.body();
     BodyEmitter emitter(scope);
-    for (ValueId id = 0; id < body.kernel.code.size(); ++id) {
+    for (const ValueId id : body.kernel.code.ids()) {
         if (body.levels[id] == scope.level()) scope.define(id, emitter.emit(body.kernel.code[id]));
     }
 }

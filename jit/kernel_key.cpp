@@ -23,10 +23,10 @@ std::string kernel_key(const CellKernel& kernel, const KernelShape& shape) {
          kernel.results.size()});
     for (const Instruction& instruction : kernel.code) {
         const auto& [a, b, c] = instruction.operands;
-        add({static_cast<std::uint64_t>(instruction.op) << 32 | a, std::uint64_t{b} << 32 | c,
-             instruction.payload});
+        add({static_cast<std::uint64_t>(instruction.op) << 32 | a.index(),
+             std::uint64_t{b.index()} << 32 | c.index(), instruction.payload});
     }
-    for (const ValueId result : kernel.results) add({result});
+    for (const ValueId result : kernel.results) add({result.index()});
     return key;
 }
 

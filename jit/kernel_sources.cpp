@@ -44,8 +44,8 @@ llvm::Value* Sources::link_sum(const Instruction&) { return not_here(); }
 llvm::Value* Sources::mask(std::uint32_t) { return not_here(); }
 llvm::Value* Sources::cell_column() { return not_here(); }
 
-std::vector<LoopLevel> loop_levels_of(const CellKernel& kernel) {
-    std::vector<LoopLevel> levels;
+IdVector<ValueId, LoopLevel> loop_levels_of(const CellKernel& kernel) {
+    IdVector<ValueId, LoopLevel> levels;
     levels.reserve(kernel.code.size());
     for (const Instruction& instruction : kernel.code) {
         LoopLevel level = level_of_source(instruction.op);

@@ -24,7 +24,7 @@ enum class LoopLevel : std::uint8_t {
 };
 
 /// The loop level of every instruction of a kernel.
-std::vector<LoopLevel> loop_levels_of(const CellKernel& kernel);
+IdVector<ValueId, LoopLevel> loop_levels_of(const CellKernel& kernel);
 
 /// The sources of one loop level; to ask for one of another level is a mistake of ours. N is the
 /// number of lanes. Of kernels of binary64, read double for float and i64 for i32, here and below.

@@ -61,7 +61,7 @@ PassLowering::PassLowering(const PassView& pass, KernelAssembly& assembly,
 }
 
 void PassLowering::compute(NodeId id) {
-    const auto first = static_cast<ValueId>(builder_.size());
+    const ValueId first = builder_.next();
     if (pass_.graph[id].type == ValueType::vector) {
         for_each_face(values_.needs(id), [&](Face face) {
             values_.slot(id, face.number()) = {fluxes_.at_face(id, face)};

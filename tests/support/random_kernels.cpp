@@ -41,7 +41,7 @@ constexpr std::uint64_t special_long_words[] = {
 };
 
 struct Value {
-    ValueId id = 0;
+    ValueId id;
     bool is_exact = false;  ///< Its bits are determined, even if they read as NaN.
 };
 

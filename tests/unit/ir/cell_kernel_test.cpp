@@ -49,11 +49,11 @@ TEST(Verify, Neighbours) {
     CellKernel kernel = std::move(builder).finish();
     EXPECT_EQ(verify(kernel), "");
     EXPECT_TRUE(kernel.reads_neighbours(0));
-    kernel.code[0].payload = 27;
+    kernel.code[ValueId(0)].payload = 27;
     EXPECT_THAT(verify(kernel), HasSubstr("farther"));
-    kernel.code[0].payload = 13;
+    kernel.code[ValueId(0)].payload = 13;
     EXPECT_THAT(verify(kernel), HasSubstr("itself"));
-    kernel.code[0].payload = Neighbour{1, 1, 0, 0}.payload();
+    kernel.code[ValueId(0)].payload = Neighbour{1, 1, 0, 0}.payload();
     EXPECT_THAT(verify(kernel), HasSubstr("slot 1 of 1"));
 }
 
@@ -76,25 +76,25 @@ TEST(Hash, IgnoresNames) {
 
 TEST(Hash, SeesEverythingThatDecidesTheCode) {
     const std::uint64_t original = hash(heat_kernel());
-    const std::size_t count = heat_kernel().code.size();
-    for (std::size_t k = 0; k < count; ++k) {
+    for (const ValueId id : heat_kernel().code.ids()) {
         CellKernel changed = heat_kernel();
-        changed.code[k].payload ^= 1;
-        EXPECT_NE(hash(changed), original) << "payload of %" << k;
-        for (int operand = 0; operand < info(changed.code[k].op).arity; ++operand) {
+        changed.code[id].payload ^= 1;
+        EXPECT_NE(hash(changed), original) << "payload of %" << id.index();
+        for (int operand = 0; operand < info(changed.code[id].op).arity; ++operand) {
             changed = heat_kernel();
-            changed.code[k].operands[static_cast<std::size_t>(operand)] ^= 1;
-            EXPECT_NE(hash(changed), original) << "operand " << operand << " of %" << k;
+            ValueId& read = changed.code[id].operands[static_cast<std::size_t>(operand)];
+            read = ValueId(read.index() ^ 1);
+            EXPECT_NE(hash(changed), original) << "operand " << operand << " of %" << id.index();
         }
     }
     CellKernel changed = heat_kernel();
-    changed.code[6].op = Op::subtract;
+    changed.code[ValueId(6)].op = Op::subtract;
     EXPECT_NE(hash(changed), original);
     changed = heat_kernel();
-    changed.results[0] = 6;
+    changed.results[0] = ValueId(6);
     EXPECT_NE(hash(changed), original);
     changed = heat_kernel();
-    changed.results.push_back(8);
+    changed.results.push_back(ValueId(8));
     EXPECT_NE(hash(changed), original);
 }
 
@@ -104,27 +104,27 @@ TEST(Verify, AcceptsNothing) { EXPECT_EQ(verify(CellKernel{}), ""); }
 
 TEST(Verify, OperandsComeBefore) {
     CellKernel kernel = heat_kernel();
-    kernel.code[3].operands[0] = 3;
+    kernel.code[ValueId(3)].operands[0] = ValueId(3);
     EXPECT_THAT(verify(kernel), HasSubstr("%3 reads %3, which does not come before it"));
 }
 
 TEST(Verify, UnusedOperandsAreZero) {
     CellKernel kernel = heat_kernel();
-    kernel.code[3].operands[2] = 1;
+    kernel.code[ValueId(3)].operands[2] = ValueId(1);
     EXPECT_THAT(verify(kernel), HasSubstr("%3 has an operand too many"));
 }
 
 TEST(Verify, SlotsExist) {
     for (const std::size_t source : {0u, 1u, 2u, 7u}) {
         CellKernel kernel = heat_kernel();
-        kernel.code[source].payload = 1;
+        kernel.code[ValueId(source)].payload = 1;
         EXPECT_THAT(verify(kernel), HasSubstr("names slot 1 of 1")) << "%" << source;
     }
 }
 
 TEST(Verify, NoPayloadWhereNoneIsTaken) {
     CellKernel kernel = heat_kernel();
-    kernel.code[6].payload = 1;
+    kernel.code[ValueId(6)].payload = 1;
     EXPECT_THAT(verify(kernel), HasSubstr("%6 has a payload but takes none"));
 }
 
@@ -135,15 +135,15 @@ TEST(Verify, ShiftAmounts) {
     builder.result("r", builder.apply(Op::bits_shift_left, column, amount));
     CellKernel kernel = std::move(builder).finish();
     EXPECT_EQ(verify(kernel), "");
-    kernel.code[1].payload = 32;
+    kernel.code[ValueId(1)].payload = 32;
     EXPECT_THAT(verify(kernel), HasSubstr("%2 shifts by 32"));
-    kernel.code[2].operands[1] = 0;
+    kernel.code[ValueId(2)].operands[1] = ValueId(0);
     EXPECT_THAT(verify(kernel), HasSubstr("%2 shifts by an amount that is not constant"));
 }
 
 TEST(Verify, ResultsExistAndHaveNames) {
     CellKernel kernel = heat_kernel();
-    kernel.results[0] = 9;
+    kernel.results[0] = ValueId(9);
     EXPECT_THAT(verify(kernel), HasSubstr("result 0 is %9, which does not exist"));
     kernel = heat_kernel();
     kernel.result_names.clear();
@@ -152,7 +152,7 @@ TEST(Verify, ResultsExistAndHaveNames) {
 
 TEST(Verify, OperationsAreOfTheTable) {
     CellKernel kernel = heat_kernel();
-    kernel.code[4].op = static_cast<Op>(op_count);
+    kernel.code[ValueId(4)].op = static_cast<Op>(op_count);
     EXPECT_THAT(verify(kernel), HasSubstr("%4 is no operation of the table"));
 }
 

@@ -37,10 +37,10 @@ private:
             : kernel_(std::move(kernel)), stencil_(stencil) {}
 
         void run(const KernelArguments& arguments, RowRange rows) const override {
-            std::vector<std::uint32_t> words(kernel_.code.size());
+            Words words(kernel_.code.size());
             for (std::int64_t row = rows.begin; row < rows.end; ++row) {
                 for (std::int64_t i = 0; i < arguments.layout.width; ++i) {
-                    for (std::size_t id = 0; id < words.size(); ++id) {
+                    for (const ValueId id : words.ids()) {
                         words[id] = word(arguments, i, row, kernel_.code[id], words);
                     }
                     const std::int64_t at = arguments.layout.row_start(row) + i;
@@ -52,9 +52,10 @@ private:
         }
 
     private:
+        using Words = IdVector<ValueId, std::uint32_t>;
+
         std::uint32_t word(const KernelArguments& arguments, std::int64_t i, std::int64_t row,
-                           const Instruction& instruction,
-                           const std::vector<std::uint32_t>& words) const {
+                           const Instruction& instruction, const Words& words) const {
             const std::uint32_t slot = instruction.slot();
             const PlaneLayout& layout = arguments.layout;
             const std::int64_t at = layout.row_start(row) + i;
@@ -352,7 +353,7 @@ TEST(Interpreter, AMillionOperations) {
         x = builder.add(builder.multiply(x, builder.number(0.5f)), builder.number(1));
     }
     builder.result("x", x);
-    EXPECT_GT(builder.size(), 1000000u);
+    EXPECT_GT(builder.next().index(), 1000000u);
     const CellKernel kernel = std::move(builder).finish();
     EXPECT_EQ(verify(kernel), "");
     const Grid grid{10, 1, Boundary::periodic};

@@ -36,7 +36,7 @@ TEST(KernelCost, AMultiplyAddIsOneOperationWithItsSign) {
     builder.result("r", sum);
     CellKernel kernel = std::move(builder).finish();
     EXPECT_EQ(cost_of(kernel, Stencil::plane, 0).operations, 1);
-    kernel.results = {2};  // The sign itself is written: now it takes an operation.
+    kernel.results = {ValueId(2)};  // The sign itself is written: now it takes an operation.
     EXPECT_EQ(cost_of(kernel, Stencil::plane, 0).operations, 2);
 }
 

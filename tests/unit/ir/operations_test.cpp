@@ -130,10 +130,10 @@ CellKernel kernel_of(Op op, unsigned scalars, std::uint32_t shift) {
         const bool is_amount = is_shift(op) && k == 1;
         const bool is_scalar = (scalars >> k & 1) != 0;
         const Op source = is_amount ? Op::constant : is_scalar ? Op::uniform : Op::field;
+        instruction.operands[k] = kernel.code.next();
         kernel.code.push_back({source, {}, is_amount ? shift : k});
-        instruction.operands[k] = k;
     }
-    kernel.results = {static_cast<ValueId>(kernel.code.size())};
+    kernel.results = {kernel.code.next()};
     kernel.result_names = {"r"};
     kernel.code.push_back(instruction);
     return kernel;

@@ -300,11 +300,11 @@ TEST(JitAgreement, PartsOfTheRowsMakeTheWhole) {
 // Identities that LLVM takes for granted and that are none where denormals are flushed. The
 // kernels are written by hand, as the builder folds some of them.
 TEST(JitAgreement, FlushingIsNotOptimisedAway) {
-    using Code = std::vector<Instruction>;
+    using Code = IdVector<ValueId, Instruction>;
     const auto word = [](std::uint32_t bits) { return Instruction{Op::constant, {}, bits}; };
     const Instruction x{Op::field, {}, 0}, y{Op::field, {}, 1};
-    const auto on = [](Op op, ValueId a, ValueId b = 0, ValueId c = 0) {
-        return Instruction{op, {a, b, c}, 0};
+    const auto on = [](Op op, std::size_t a, std::size_t b = 0, std::size_t c = 0) {
+        return Instruction{op, {ValueId(a), ValueId(b), ValueId(c)}, 0};
     };
     const std::array<Code, 16> cases{{
         {x, word(0x3f800000), on(Op::multiply, 0, 1)},
@@ -327,7 +327,7 @@ TEST(JitAgreement, FlushingIsNotOptimisedAway) {
     }};
     Backends backends;
     for (const Code& code : cases) {
-        CellKernel kernel{code, {static_cast<ValueId>(code.size() - 1)}, {"x", "y"}, {}, {}, {"r"}};
+        CellKernel kernel{code, {ValueId(code.size() - 1)}, {"x", "y"}, {}, {}, {"r"}};
         ASSERT_EQ(verify(kernel), "");
         for (int width = 0; width < 3; ++width) {
             for (std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -46,7 +46,7 @@ private:
         }
     }
 
-    ValueId unary() { return emit(one_of(Op::negate, Op::round_to_even), {operand(), 0, 0}, 0); }
+    ValueId unary() { return emit(one_of(Op::negate, Op::round_to_even), {operand()}, 0); }
 
     ValueId ternary(Op op) {
         const ValueId a = operand(), b = operand(), c = operand();
@@ -55,7 +55,7 @@ private:
 
     ValueId binary(Op first, Op last) {
         const ValueId a = operand(), b = operand();
-        return emit(one_of(first, last), {a, b, 0}, 0);
+        return emit(one_of(first, last), {a, b}, 0);
     }
 
     Op one_of(Op first, Op last) {
@@ -69,8 +69,9 @@ private:
     }
 
     ValueId emit(Op op, std::array<ValueId, 3> operands, std::uint32_t payload) {
+        const ValueId made = kernel_.code.next();
         kernel_.code.push_back({op, operands, payload});
-        return static_cast<ValueId>(kernel_.code.size() - 1);
+        return made;
     }
 
     RandomStream stream_;
