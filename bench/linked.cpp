@@ -51,13 +51,13 @@ double beta_value(std::size_t cell) { return 12 + 0.1 * std::sin(static_cast<dou
 
 CellKernel turing_kernel() {
     KernelBuilder b;
-    const std::uint32_t u_slot = b.field_slot("u"), v_slot = b.field_slot("v");
+    const FieldSlot u_slot = b.field_slot("u"), v_slot = b.field_slot("v");
     const ValueId u = b.field(u_slot), v = b.field(v_slot), uv = b.multiply(u, v);
     const auto uniform = [&](const char* name) { return b.uniform(b.uniform_slot(name)); };
     const ValueId step = uniform("step"), s = uniform("s");
     const ValueId du = uniform("diff_u"), dv = uniform("diff_v");
     const ValueId eaten = b.subtract(b.subtract(uv, v), b.field(b.field_slot("beta")));
-    const auto next = [&](ValueId value, ValueId reaction, ValueId diffusion, std::uint32_t slot) {
+    const auto next = [&](ValueId value, ValueId reaction, ValueId diffusion, FieldSlot slot) {
         const ValueId rate =
             b.add(b.multiply(s, reaction), b.multiply(diffusion, b.laplacian(slot)));
         return b.add(value, b.multiply(step, rate));

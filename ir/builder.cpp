@@ -23,9 +23,10 @@ std::uint64_t hash_of(const Instruction& instruction) {
     return hash;
 }
 
-std::uint32_t slot_of(const std::string& name, std::vector<std::string>& names,
-                      std::unordered_map<std::string, std::uint32_t>& slots) {
-    const auto [entry, is_new] = slots.try_emplace(name, static_cast<std::uint32_t>(names.size()));
+template <typename Slot>
+Slot slot_of(const std::string& name, IdVector<Slot, std::string>& names,
+             std::unordered_map<std::string, Slot>& slots) {
+    const auto [entry, is_new] = slots.try_emplace(name, names.next());
     if (is_new) names.push_back(name);
     return entry->second;
 }
@@ -51,21 +52,21 @@ ValueId KernelBuilder::word(std::uint64_t bits) {
     return emit({Op::constant, {}, bits & format().all()});
 }
 
-std::uint32_t KernelBuilder::field_slot(const std::string& name) {
+FieldSlot KernelBuilder::field_slot(const std::string& name) {
     return slot_of(name, kernel_.field_names, field_slots_);
 }
 
-std::uint32_t KernelBuilder::mask_slot(const std::string& name) {
+MaskSlot KernelBuilder::mask_slot(const std::string& name) {
     return slot_of(name, kernel_.mask_names, mask_slots_);
 }
 
-std::uint32_t KernelBuilder::uniform_slot(const std::string& name) {
+UniformSlot KernelBuilder::uniform_slot(const std::string& name) {
     return slot_of(name, kernel_.uniform_names, uniform_slots_);
 }
 
-ValueId KernelBuilder::field(std::uint32_t slot) { return emit({Op::field, {}, slot}); }
-ValueId KernelBuilder::laplacian(std::uint32_t slot) { return emit({Op::laplacian, {}, slot}); }
-ValueId KernelBuilder::neighbour(std::uint32_t slot, int dx, int dy, int dz) {
+ValueId KernelBuilder::field(FieldSlot slot) { return emit({Op::field, {}, slot.index()}); }
+ValueId KernelBuilder::laplacian(FieldSlot slot) { return emit({Op::laplacian, {}, slot.index()}); }
+ValueId KernelBuilder::neighbour(FieldSlot slot, int dx, int dy, int dz) {
     for (const int offset : {dx, dy, dz}) {
         CHECK(-1 <= offset && offset <= 1, "builder: a neighbour is at most one cell away");
     }
@@ -73,15 +74,15 @@ ValueId KernelBuilder::neighbour(std::uint32_t slot, int dx, int dy, int dz) {
     return emit({Op::neighbour, {}, Neighbour{slot, dx, dy, dz}.payload()});
 }
 
-ValueId KernelBuilder::over_links(Op op, std::uint32_t slot) {
+ValueId KernelBuilder::over_links(Op op, FieldSlot slot) {
     CHECK(is_link_sum(op) && op != Op::link_flow,
           "builder: it is a sum of differences of one field");
-    return emit({op, {}, slot});
+    return emit({op, {}, slot.index()});
 }
 
 ValueId KernelBuilder::link_flow(Flow flow) { return emit({Op::link_flow, {}, flow.payload()}); }
-ValueId KernelBuilder::mask(std::uint32_t slot) { return emit({Op::mask, {}, slot}); }
-ValueId KernelBuilder::uniform(std::uint32_t slot) { return emit({Op::uniform, {}, slot}); }
+ValueId KernelBuilder::mask(MaskSlot slot) { return emit({Op::mask, {}, slot.index()}); }
+ValueId KernelBuilder::uniform(UniformSlot slot) { return emit({Op::uniform, {}, slot.index()}); }
 ValueId KernelBuilder::cell_column() { return emit({Op::cell_column, {}, 0}); }
 ValueId KernelBuilder::cell_row() { return emit({Op::cell_row, {}, 0}); }
 ValueId KernelBuilder::cell_slice() { return emit({Op::cell_slice, {}, 0}); }

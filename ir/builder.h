@@ -32,18 +32,18 @@ public:
     // Sources. A slot is created at its first use; the same name gives the same slot.
     ValueId number(double value);  ///< Rounded to the kernel's precision; denormals become zero.
     ValueId word(std::uint64_t bits);  ///< Modulo 2^32 or 2^64.
-    std::uint32_t field_slot(const std::string& name);
-    std::uint32_t mask_slot(const std::string& name);
-    std::uint32_t uniform_slot(const std::string& name);
-    ValueId field(std::uint32_t slot);
-    ValueId laplacian(std::uint32_t slot);
+    FieldSlot field_slot(const std::string& name);
+    MaskSlot mask_slot(const std::string& name);
+    UniformSlot uniform_slot(const std::string& name);
+    ValueId field(FieldSlot slot);
+    ValueId laplacian(FieldSlot slot);
     /// The value of a field in a neighbouring cell; each offset is −1, 0 or 1, and all may be 0.
-    ValueId neighbour(std::uint32_t slot, int dx, int dy, int dz = 0);
+    ValueId neighbour(FieldSlot slot, int dx, int dy, int dz = 0);
     /// A sum over a cell's links of differences of one field; only in a kernel for a surface.
-    ValueId over_links(Op op, std::uint32_t slot);
+    ValueId over_links(Op op, FieldSlot slot);
     ValueId link_flow(Flow flow);
-    ValueId mask(std::uint32_t slot);
-    ValueId uniform(std::uint32_t slot);
+    ValueId mask(MaskSlot slot);
+    ValueId uniform(UniformSlot slot);
     ValueId cell_column();
     ValueId cell_row();
     ValueId cell_slice();
@@ -144,7 +144,9 @@ private:
     CellKernel kernel_;
     std::optional<ValueId> cell_;                           ///< Used for draws if set.
     std::unordered_map<std::uint64_t, ValueId> numbering_;  ///< By hash, with linear probing.
-    std::unordered_map<std::string, std::uint32_t> field_slots_, mask_slots_, uniform_slots_;
+    std::unordered_map<std::string, FieldSlot> field_slots_;
+    std::unordered_map<std::string, MaskSlot> mask_slots_;
+    std::unordered_map<std::string, UniformSlot> uniform_slots_;
 };
 
 }  // namespace cascade

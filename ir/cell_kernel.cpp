@@ -24,9 +24,10 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     return hash ^ (hash >> 32);
 }
 
-std::string slot_text(const std::vector<std::string>& names, std::uint32_t slot) {
-    if (slot < names.size()) return fmt::format(" {}", names[slot]);
-    return fmt::format(" slot {} of {}", slot, names.size());
+template <typename Slot>
+std::string slot_text(const IdVector<Slot, std::string>& names, Slot slot) {
+    if (slot < names.next()) return fmt::format(" {}", names[slot]);
+    return fmt::format(" slot {} of {}", slot.index(), names.size());
 }
 
 std::string payload_text(const CellKernel& kernel, const Instruction& instruction) {
@@ -39,7 +40,7 @@ std::string payload_text(const CellKernel& kernel, const Instruction& instructio
             }
             return fmt::format(" 0x{:016x}  # {}", instruction.payload,
                                number_of(instruction.payload, kernel.precision));
-        case PayloadKind::field: return slot_text(kernel.field_names, payload);
+        case PayloadKind::field: return slot_text(kernel.field_names, instruction.field());
         case PayloadKind::neighbour: {
             const Neighbour at = Neighbour::of(payload);
             return fmt::format("{} at ({}, {}, {})", slot_text(kernel.field_names, at.slot), at.dx,
@@ -50,8 +51,8 @@ std::string payload_text(const CellKernel& kernel, const Instruction& instructio
             return fmt::format("{} times{}", slot_text(kernel.field_names, flow.of),
                                slot_text(kernel.field_names, flow.factor));
         }
-        case PayloadKind::mask: return slot_text(kernel.mask_names, payload);
-        case PayloadKind::uniform: return slot_text(kernel.uniform_names, payload);
+        case PayloadKind::mask: return slot_text(kernel.mask_names, MaskSlot(payload));
+        case PayloadKind::uniform: return slot_text(kernel.uniform_names, UniformSlot(payload));
     }
     return "";
 }
@@ -81,11 +82,11 @@ std::string verify_payload(const CellKernel& kernel, const Instruction& instruct
         const std::uint32_t offset = slot % Neighbour::offset_count;
         if (offset > Neighbour::last_offset) return "reads farther than the next cell";
         if (offset == Neighbour::own_offset) return "reads the cell itself as a neighbour";
-        slot = Neighbour::of(instruction.slot()).slot;
+        slot = Neighbour::of(instruction.slot()).slot.index();
     }
     if (kind == PayloadKind::flow) {
         const Flow flow = Flow::with(instruction.payload);
-        slot = std::max(flow.factor, flow.of);
+        slot = std::max(flow.factor, flow.of).index();
     }
     const std::size_t slots = slot_count(kernel, kind);
     return slot < slots ? "" : fmt::format("names slot {} of {}", slot, slots);
@@ -123,14 +124,14 @@ const OpInfo& info(Op op) {
     return table[static_cast<std::size_t>(op)];
 }
 
-bool CellKernel::reads_neighbours(std::uint32_t field_slot) const {
+bool CellKernel::reads_neighbours(FieldSlot slot) const {
     for (const Instruction& instruction : code) {
         if (instruction.op == Op::neighbour) {
-            if (Neighbour::of(instruction.slot()).slot == field_slot) return true;
+            if (Neighbour::of(instruction.slot()).slot == slot) return true;
         } else if (is_link_sum(instruction.op)) {
-            if (instruction.slot() == field_slot) return true;
+            if (instruction.field() == slot) return true;
             const bool is_flow = instruction.op == Op::link_flow;
-            if (is_flow && Flow::with(instruction.payload).factor == field_slot) return true;
+            if (is_flow && Flow::with(instruction.payload).factor == slot) return true;
         }
     }
     return false;

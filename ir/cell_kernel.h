@@ -55,6 +55,10 @@ constexpr int info_arity(Op op) {
 
 /// The index of the instruction that computes a value.
 using ValueId = Id<struct ValueTag>;
+// Indices into the lists of what a kernel reads.
+using FieldSlot = Id<struct FieldSlotTag>;
+using MaskSlot = Id<struct MaskSlotTag>;
+using UniformSlot = Id<struct UniformSlotTag>;
 
 struct Instruction {
     Op op = Op::constant;
@@ -63,6 +67,7 @@ struct Instruction {
 
     /// The payload of an instruction that reads a slot.
     std::uint32_t slot() const { return static_cast<std::uint32_t>(payload); }
+    FieldSlot field() const { return FieldSlot(payload); }
 
     friend bool operator==(const Instruction&, const Instruction&) = default;
 };
@@ -70,30 +75,33 @@ struct Instruction {
 /// The operands of `neighbour`: the field in `slot`, `dx` columns, `dy` rows and `dz` slices away.
 /// Each is −1, 0 or 1, and not all are 0. Executors treat an offset along an axis of one cell as 0.
 struct Neighbour {
-    std::uint32_t slot = 0;  ///< Below 2^27.
+    FieldSlot slot;  ///< Below 2^27.
     int dx = 0, dy = 0, dz = 0;
 
     static constexpr std::uint32_t offset_count = 32, last_offset = 26, own_offset = 13;
 
     /// As a payload: 32 · slot + (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
     constexpr std::uint32_t payload() const {
-        return offset_count * slot +
+        return offset_count * slot.index() +
                static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
     }
     static constexpr Neighbour of(std::uint32_t payload) {
         const int offset = static_cast<int>(payload % offset_count);
-        return {payload / offset_count, offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1};
+        return {FieldSlot(payload / offset_count), offset % 3 - 1, offset / 3 % 3 - 1,
+                offset / 9 - 1};
     }
 };
 
 /// The operands of `link_flow`: the field `of`, whose differences flow, and the field `factor`,
 /// whose mean over the two cells multiplies them.
 struct Flow {
-    std::uint32_t factor = 0, of = 0;  ///< Field slots.
+    FieldSlot factor, of;
 
-    constexpr std::uint64_t payload() const { return std::uint64_t{factor} << 32 | of; }
+    constexpr std::uint64_t payload() const {
+        return std::uint64_t{factor.index()} << 32 | of.index();
+    }
     static constexpr Flow with(std::uint64_t payload) {
-        return {static_cast<std::uint32_t>(payload >> 32), static_cast<std::uint32_t>(payload)};
+        return {FieldSlot(payload >> 32), FieldSlot(payload)};
     }
 };
 
@@ -108,16 +116,16 @@ constexpr bool is_link_sum(Op op) {
 struct CellKernel {
     IdVector<ValueId, Instruction> code;
     std::vector<ValueId> results;
-    std::vector<std::string> field_names;
-    std::vector<std::string> mask_names;
-    std::vector<std::string> uniform_names;
+    IdVector<FieldSlot, std::string> field_names;
+    IdVector<MaskSlot, std::string> mask_names;
+    IdVector<UniformSlot, std::string> uniform_names;
     std::vector<std::string> result_names;
     Precision precision = Precision::single;  ///< Of all words.
     std::vector<ValueId> kept = {};  ///< Values excluded from contraction (ir/contraction.h).
 
     /// Whether some instruction reads this field slot in other cells, which needs the halo on
     /// grids.
-    bool reads_neighbours(std::uint32_t field_slot) const;
+    bool reads_neighbours(FieldSlot slot) const;
 };
 
 /// For each value, whether it can differ between cells, that is, is not computed from uniforms

@@ -215,7 +215,7 @@ private:
         if (stencil_.x) offset += at.dx;
         if (stencil_.y) offset += at.dy * arguments_.layout.stride;
         if (stencil_.z) offset += at.dz * arguments_.layout.slice_stride;
-        return arguments_.fields[at.slot] + offset;
+        return arguments_.fields[at.slot.index()] + offset;
     }
 
     void compute(const BlockStep<Number>& step) {
@@ -294,7 +294,7 @@ private:
     void over_links(Number* out, const BlockStep<Number>& step) const {
         const LinkTable<Number>& links = arguments_.links;
         const Flow flow = Flow::with(step.payload);
-        const Number* f = arguments_.fields[flow.of];
+        const Number* f = arguments_.fields[flow.of.index()];
         const auto gradient = [&](int axis) {
             const Number* weights = links.gradients[static_cast<std::size_t>(axis)];
             return [=](std::int64_t link, Number difference, std::int64_t, std::int64_t) {
@@ -311,7 +311,7 @@ private:
                     return links.weights[link] * (difference * difference);
                 });
             case Op::link_flow: {
-                const Number* s = arguments_.fields[flow.factor];
+                const Number* s = arguments_.fields[flow.factor.index()];
                 return sum_over_links(out, f, [&](auto link, Number difference, auto i, auto j) {
                     return links.weights[link] * ((s[j] + s[i]) * difference);
                 });

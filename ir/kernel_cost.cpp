@@ -48,26 +48,26 @@ public:
     }
 
 private:
-    using Read = std::tuple<std::uint32_t, int, int, int>;
+    using Read = std::tuple<FieldSlot, int, int, int>;
 
     void add(const Instruction& instruction) {
         switch (instruction.op) {
             case Op::cell_column:
             case Op::cell_row:
             case Op::cell_slice: break;
-            case Op::field: load({instruction.slot(), 0, 0, 0}); break;
+            case Op::field: load({instruction.field(), 0, 0, 0}); break;
             case Op::neighbour: load(within_stencil(Neighbour::of(instruction.slot()))); break;
-            case Op::mask: load_mask(instruction.slot()); break;
-            case Op::laplacian: add_laplacian(instruction.slot()); break;
+            case Op::mask: load_mask(MaskSlot(instruction.slot())); break;
+            case Op::laplacian: add_laplacian(instruction.field()); break;
             case Op::link_flow: {
                 const Flow flow = Flow::with(instruction.payload);
                 add_link_sum({flow.factor, flow.of}, Op::laplacian, 5);
                 break;
             }
-            case Op::link_squares: add_link_sum({instruction.slot()}, Op::laplacian, 4); break;
+            case Op::link_squares: add_link_sum({instruction.field()}, Op::laplacian, 4); break;
             case Op::gradient_x:
             case Op::gradient_y:
-            case Op::gradient_z: add_link_sum({instruction.slot()}, instruction.op, 3); break;
+            case Op::gradient_z: add_link_sum({instruction.field()}, instruction.op, 3); break;
             default: add_operation(instruction);
         }
     }
@@ -88,13 +88,13 @@ private:
         cost_.load_bytes += word_;
     }
 
-    void load_mask(std::uint32_t slot) {
+    void load_mask(MaskSlot slot) {
         if (!masks_.insert(slot).second) return;
         cost_.loads += 1;
         cost_.load_bytes += 1;
     }
 
-    void add_laplacian(std::uint32_t slot) {
+    void add_laplacian(FieldSlot slot) {
         if (stencil_.links) return add_link_sum({slot}, Op::laplacian, 3);
         load({slot, 0, 0, 0});
         for (const int side : {-1, 1}) {
@@ -107,9 +107,9 @@ private:
     }
 
     /// `weights` names the table of weights: of Laplacians or of a component of gradients.
-    void add_link_sum(std::initializer_list<std::uint32_t> slots, Op weights, double operations) {
+    void add_link_sum(std::initializer_list<FieldSlot> slots, Op weights, double operations) {
         cost_.operations += operations * links_;
-        for (const std::uint32_t slot : slots) {
+        for (const FieldSlot slot : slots) {
             load({slot, 0, 0, 0});
             if (!gathered_.insert(slot).second) continue;
             cost_.loads += links_;
@@ -136,7 +136,8 @@ private:
     double word_;  ///< Bytes.
     IdVector<ValueId, bool> varies_, is_folded_;
     std::set<Read> loaded_;
-    std::set<std::uint32_t> masks_, gathered_;
+    std::set<MaskSlot> masks_;
+    std::set<FieldSlot> gathered_;
     std::set<Op> weights_;
     bool has_places_ = false;
     KernelCost cost_;

@@ -19,10 +19,10 @@ public:
 
     /// A field's vector from the iteration before this one, or, in the first iteration, the one
     /// that `first` writes before the loop.
-    llvm::Value* take(std::uint32_t slot, llvm::function_ref<llvm::Value*(Builder& outside)> first);
+    llvm::Value* take(FieldSlot slot, llvm::function_ref<llvm::Value*(Builder& outside)> first);
     /// The vector for the next iteration; after take().
-    void give(std::uint32_t slot, llvm::Value* vector);
-    llvm::Value* given(std::uint32_t slot) { return carried_[slot].next; }
+    void give(FieldSlot slot, llvm::Value* vector);
+    llvm::Value* given(FieldSlot slot) { return carried_[slot].next; }
     /// Completes the phi nodes of the loop, which is entered from `before` and repeated from
     /// `latch`.
     void close(llvm::BasicBlock* before, llvm::BasicBlock* latch);
@@ -36,7 +36,7 @@ private:
 
     llvm::BasicBlock& header_;
     Builder& outside_;
-    std::map<std::uint32_t, Carried> carried_;
+    std::map<FieldSlot, Carried> carried_;
 };
 
 }  // namespace cascade

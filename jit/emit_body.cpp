@@ -113,10 +113,10 @@ Forms BodyEmitter::emit_source(const Instruction& instruction) {
     switch (instruction.op) {
         case Op::constant: return constant(instruction.payload);
         case Op::field:
-            value.number = sources.field(instruction.slot());
+            value.number = sources.field(instruction.field());
             value.may_be_denormal = true;
             break;
-        case Op::laplacian: value.number = sources.laplacian(instruction.slot()); break;
+        case Op::laplacian: value.number = sources.laplacian(instruction.field()); break;
         case Op::neighbour:
             value.number = sources.neighbour(Neighbour::of(instruction.slot()));
             value.may_be_denormal = true;
@@ -127,11 +127,11 @@ Forms BodyEmitter::emit_source(const Instruction& instruction) {
         case Op::gradient_y:
         case Op::gradient_z: value.number = sources.link_sum(instruction); break;
         case Op::mask:
-            value.truth = sources.mask(instruction.slot());
+            value.truth = sources.mask(MaskSlot(instruction.slot()));
             value.is_boolean = value.is_choice = true;
             break;
         case Op::uniform:
-            value.number = sources.uniform(instruction.slot());
+            value.number = sources.uniform(UniformSlot(instruction.slot()));
             value.may_be_denormal = true;
             break;
         default:

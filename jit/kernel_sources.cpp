@@ -33,15 +33,15 @@ llvm::Value* not_here() {
 
 }  // namespace
 
-llvm::Value* Sources::uniform(std::uint32_t) { return not_here(); }
+llvm::Value* Sources::uniform(UniformSlot) { return not_here(); }
 llvm::Value* Sources::hidden(std::uint64_t) { return not_here(); }
 llvm::Value* Sources::cell_row() { return not_here(); }
 llvm::Value* Sources::cell_slice() { return not_here(); }
-llvm::Value* Sources::field(std::uint32_t) { return not_here(); }
-llvm::Value* Sources::laplacian(std::uint32_t) { return not_here(); }
+llvm::Value* Sources::field(FieldSlot) { return not_here(); }
+llvm::Value* Sources::laplacian(FieldSlot) { return not_here(); }
 llvm::Value* Sources::neighbour(Neighbour) { return not_here(); }
 llvm::Value* Sources::link_sum(const Instruction&) { return not_here(); }
-llvm::Value* Sources::mask(std::uint32_t) { return not_here(); }
+llvm::Value* Sources::mask(MaskSlot) { return not_here(); }
 llvm::Value* Sources::cell_column() { return not_here(); }
 
 IdVector<ValueId, LoopLevel> loop_levels_of(const CellKernel& kernel) {

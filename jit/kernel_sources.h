@@ -32,17 +32,17 @@ class Sources {
 public:
     virtual ~Sources() = default;
     // Of the call.
-    virtual llvm::Value* uniform(std::uint32_t slot);  ///< <N x float>
-    virtual llvm::Value* hidden(std::uint64_t word);   ///< <N x float>; see BodyScope::hidden
+    virtual llvm::Value* uniform(UniformSlot slot);   ///< <N x float>
+    virtual llvm::Value* hidden(std::uint64_t word);  ///< <N x float>; see BodyScope::hidden
     // Of the row.
     virtual llvm::Value* cell_row();    ///< <N x i32>
     virtual llvm::Value* cell_slice();  ///< <N x i32>
     // Of the cells.
-    virtual llvm::Value* field(std::uint32_t slot);         ///< <N x float>
-    virtual llvm::Value* laplacian(std::uint32_t slot);     ///< <N x float>
+    virtual llvm::Value* field(FieldSlot slot);             ///< <N x float>
+    virtual llvm::Value* laplacian(FieldSlot slot);         ///< <N x float>
     virtual llvm::Value* neighbour(Neighbour at);           ///< <N x float>
     virtual llvm::Value* link_sum(const Instruction& sum);  ///< <N x float>; all but `laplacian`
-    virtual llvm::Value* mask(std::uint32_t slot);          ///< <N x i1>
+    virtual llvm::Value* mask(MaskSlot slot);               ///< <N x i1>
     virtual llvm::Value* cell_column();                     ///< <N x i32>
 };
 

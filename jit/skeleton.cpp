@@ -5,8 +5,9 @@ namespace cascade {
 
 using llvm::Value;
 
-Value* KernelFrame::uniform(std::size_t slot) {
-    Value* address = builder_.CreateConstInBoundsGEP1_64(number(), function_.getArg(2), slot);
+Value* KernelFrame::uniform(UniformSlot slot) {
+    Value* address =
+        builder_.CreateConstInBoundsGEP1_64(number(), function_.getArg(2), slot.index());
     llvm::LoadInst* load = builder_.CreateAlignedLoad(number(), address, alignment(number_bytes()));
     return splat(builder_, aliases_.mark(load, 0));
 }
@@ -38,8 +39,7 @@ Value* KernelFrame::plane(unsigned table, std::size_t slot) {
     return address;
 }
 
-Value* CarriedVectors::take(std::uint32_t slot,
-                            llvm::function_ref<Value*(Builder& outside)> first) {
+Value* CarriedVectors::take(FieldSlot slot, llvm::function_ref<Value*(Builder& outside)> first) {
     Carried& carried = carried_[slot];
     carried.first = first(outside_);
     carried.entering = llvm::PHINode::Create(carried.first->getType(), 2, "carried");
@@ -47,7 +47,7 @@ Value* CarriedVectors::take(std::uint32_t slot,
     return carried.entering;
 }
 
-void CarriedVectors::give(std::uint32_t slot, Value* vector) { carried_[slot].next = vector; }
+void CarriedVectors::give(FieldSlot slot, Value* vector) { carried_[slot].next = vector; }
 
 void CarriedVectors::close(llvm::BasicBlock* before, llvm::BasicBlock* latch) {
     for (auto& [slot, carried] : carried_) {
@@ -56,7 +56,7 @@ void CarriedVectors::close(llvm::BasicBlock* before, llvm::BasicBlock* latch) {
     }
 }
 
-Value* CellSources::field(std::uint32_t slot) {
+Value* CellSources::field(FieldSlot slot) {
     Value*& value = loads_[slot];
     if (!value) {
         llvm::Type* number = frame_.number();
@@ -68,7 +68,7 @@ Value* CellSources::field(std::uint32_t slot) {
     return value;
 }
 
-Value* CellSources::mask(std::uint32_t slot) {
+Value* CellSources::mask(MaskSlot slot) {
     llvm::Type* byte = builder_.getInt8Ty();
     Value* address = builder_.CreateInBoundsGEP(byte, frame_.mask_plane(slot), element_);
     llvm::LoadInst* bytes =

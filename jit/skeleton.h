@@ -72,8 +72,8 @@ public:
     llvm::Value* slice() { return extra_argument(2); }
 
     // Addresses of planes, loaded once.
-    llvm::Value* field_plane(std::size_t slot) { return plane(0, slot); }
-    llvm::Value* mask_plane(std::size_t slot) { return plane(1, slot); }
+    llvm::Value* field_plane(FieldSlot slot) { return plane(0, slot.index()); }
+    llvm::Value* mask_plane(MaskSlot slot) { return plane(1, slot.index()); }
     llvm::Value* result_plane(std::size_t slot) { return plane(3, slot); }
 
     llvm::Type* vector_of(llvm::Type* element) const {
@@ -85,11 +85,11 @@ public:
 
     /// Tells LLVM that no result is written to the field that is read, where that is so.
     template <typename Load>
-    Load* mark(Load* load, std::uint32_t slot) const {
+    Load* mark(Load* load, FieldSlot slot) const {
         return kernel_.reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
     }
 
-    llvm::Value* uniform(std::size_t slot);
+    llvm::Value* uniform(UniformSlot slot);
     /// A constant that is loaded from a variable of the module, so that LLVM cannot fold it.
     llvm::Value* hidden(std::uint64_t word);
 
@@ -132,8 +132,8 @@ public:
     CellSources(KernelFrame& frame, Builder& builder, const CellVector& vector)
         : frame_(frame), builder_(builder), vector_(vector), element_(opaque(vector.element)) {}
 
-    llvm::Value* field(std::uint32_t slot) override;
-    llvm::Value* mask(std::uint32_t slot) override;
+    llvm::Value* field(FieldSlot slot) override;
+    llvm::Value* mask(MaskSlot slot) override;
     llvm::Value* cell_column() override;
     void store(std::size_t result, llvm::Value* number);
 
@@ -149,7 +149,7 @@ protected:
     llvm::Value* element_;  ///< The vector's, made opaque.
 
 private:
-    std::map<std::uint32_t, llvm::Value*> loads_;
+    std::map<FieldSlot, llvm::Value*> loads_;
 };
 
 /// Builds the loops around the body of a kernel.
@@ -173,7 +173,7 @@ private:
         OuterSources(KernelFrame& frame, Builder& builder, llvm::Value* row)
             : frame_(frame), builder_(builder), row_(row) {}
 
-        llvm::Value* uniform(std::uint32_t slot) override { return frame_.uniform(slot); }
+        llvm::Value* uniform(UniformSlot slot) override { return frame_.uniform(slot); }
         llvm::Value* hidden(std::uint64_t word) override { return frame_.hidden(word); }
         llvm::Value* cell_row() override;
         llvm::Value* cell_slice() override;

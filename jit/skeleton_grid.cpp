@@ -68,7 +68,7 @@ private:
 };
 
 /// What a vector of cells reads: a field, and the numbers of rows, columns and slices to it.
-using Reading = std::tuple<std::uint32_t, int, int, int>;
+using Reading = std::tuple<FieldSlot, int, int, int>;
 
 /// All that a kernel reads, each once.
 std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
@@ -79,9 +79,9 @@ std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
             readings.emplace(at.slot, stencil.y ? at.dy : 0, stencil.x ? at.dx : 0,
                              stencil.z ? at.dz : 0);
         } else if (instruction.op == Op::field) {
-            readings.emplace(instruction.slot(), 0, 0, 0);
+            readings.emplace(instruction.field(), 0, 0, 0);
         } else if (instruction.op == Op::laplacian) {
-            const std::uint32_t slot = instruction.slot();
+            const FieldSlot slot = instruction.field();
             readings.emplace(slot, 0, 0, 0);
             for (const int way : {-1, 1}) {
                 if (stencil.y) readings.emplace(slot, way, 0, 0);
@@ -103,8 +103,8 @@ constexpr std::size_t most_shifted_fields = 8;
 /// The fields whose eastern neighbours are shifted together from this vector and the next one,
 /// which stays in a register until the loop comes there. The western neighbours are loaded:
 /// shifting them, too, would take two more operations of the units that compute.
-std::set<std::uint32_t> shifted_fields(const KernelFrame& frame) {
-    std::set<std::uint32_t> fields;
+std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
+    std::set<FieldSlot> fields;
     if (!frame.shape().is_short_of_loads || frame.vector_bytes() != cache_line) return fields;
     const std::set<Reading> readings = readings_of(frame.kernel(), frame.stencil());
     std::size_t operations = 0;
@@ -129,15 +129,15 @@ enum class Fetching { nothing, ahead, unless_near };
 class GridSources final : public CellSources {
 public:
     GridSources(KernelFrame& frame, Builder& builder, const CellVector& vector, RowOffsets& offsets,
-                const std::set<std::uint32_t>& shifted)
+                const std::set<FieldSlot>& shifted)
         : CellSources(frame, builder, vector), offsets_(offsets), shifted_(shifted) {
         elements_[{0, 0}] = element_;
     }
 
-    Value* field(std::uint32_t slot) override;
-    Value* laplacian(std::uint32_t slot) override;
+    Value* field(FieldSlot slot) override;
+    Value* laplacian(FieldSlot slot) override;
     Value* neighbour(Neighbour at) override;
-    void prefetch(std::uint32_t slot, int rows, Fetching fetching);
+    void prefetch(FieldSlot slot, int rows, Fetching fetching);
 
 private:
     Value* element(int row, int slice = 0) {
@@ -146,21 +146,21 @@ private:
         return moved;
     }
 
-    Value* load(Builder& builder, std::uint32_t slot, Value* element, int column) const;
-    Value* beside(std::uint32_t slot, int row, int column, int slice = 0);
-    Value* east(std::uint32_t slot);
+    Value* load(Builder& builder, FieldSlot slot, Value* element, int column) const;
+    Value* beside(FieldSlot slot, int row, int column, int slice = 0);
+    Value* east(FieldSlot slot);
     Value* without_own(Value* sum, Value* own);
 
     RowOffsets& offsets_;
-    const std::set<std::uint32_t>& shifted_;
-    std::map<std::uint32_t, Value*> carried_;  ///< Of shifted fields: what the cells hold.
+    const std::set<FieldSlot>& shifted_;
+    std::map<FieldSlot, Value*> carried_;  ///< Of shifted fields: what the cells hold.
     /// By row and slice, counted from the vector's own.
     std::map<std::pair<int, int>, Value*> elements_;
     std::map<Reading, Value*> loads_;
     std::map<int, Value*> fetched_;  ///< By row, unless near.
 };
 
-Value* GridSources::load(Builder& builder, std::uint32_t slot, Value* element, int column) const {
+Value* GridSources::load(Builder& builder, FieldSlot slot, Value* element, int column) const {
     llvm::Type* number = frame_.number();
     Value* beside = builder.CreateAdd(element, builder.getInt64(column));
     Value* address = builder.CreateInBoundsGEP(number, frame_.field_plane(slot), beside);
@@ -170,7 +170,7 @@ Value* GridSources::load(Builder& builder, std::uint32_t slot, Value* element, i
         builder.CreateAlignedLoad(frame_.vector_of(number), address, alignment(bytes)), slot);
 }
 
-Value* GridSources::field(std::uint32_t slot) {
+Value* GridSources::field(FieldSlot slot) {
     if (!shifted_.contains(slot)) return CellSources::field(slot);
     Value*& own = carried_[slot];
     if (!own) {
@@ -182,7 +182,7 @@ Value* GridSources::field(std::uint32_t slot) {
     return own;
 }
 
-Value* GridSources::beside(std::uint32_t slot, int row, int column, int slice) {
+Value* GridSources::beside(FieldSlot slot, int row, int column, int slice) {
     if (row == 0 && column == 0 && slice == 0) return field(slot);
     Value*& value = loads_[{slot, row, column, slice}];
     if (!value) {
@@ -194,7 +194,7 @@ Value* GridSources::beside(std::uint32_t slot, int row, int column, int slice) {
     return value;
 }
 
-Value* GridSources::east(std::uint32_t slot) {
+Value* GridSources::east(FieldSlot slot) {
     Value* own = field(slot);
     llvm::SmallVector<int, 16> lanes;
     for (int lane = 1; lane <= frame_.lanes(); ++lane) lanes.push_back(lane);
@@ -202,7 +202,7 @@ Value* GridSources::east(std::uint32_t slot) {
 }
 
 // The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
-Value* GridSources::laplacian(std::uint32_t slot) {
+Value* GridSources::laplacian(FieldSlot slot) {
     const Stencil stencil = frame_.stencil();
     Value* sum = nullptr;
     const auto add = [&](Value* number) { sum = sum ? builder_.CreateFAdd(sum, number) : number; };
@@ -250,7 +250,7 @@ Value* GridSources::neighbour(Neighbour at) {
 }
 
 // The address may lie beyond the plane.
-void GridSources::prefetch(std::uint32_t slot, int rows, Fetching fetching) {
+void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
     Value* ahead = nullptr;
     if (fetching == Fetching::ahead) {
         ahead = element(rows);
@@ -265,13 +265,13 @@ void GridSources::prefetch(std::uint32_t slot, int rows, Fetching fetching) {
 /// All rows, with or without prefetches of what the next row will be the first to read: its own
 /// cells, or, of fields that are read at neighbours, those below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
-                const std::set<std::uint32_t>& shifted, Fetching fetching, Builder& builder) {
+                const std::set<FieldSlot>& shifted, Fetching fetching, Builder& builder) {
     const CellKernel& kernel = frame.kernel();
     loops.rows(builder, [&](const CellVector& vector, Builder& inner, BodyScope& row_scope) {
         GridSources cells(frame, inner, vector, offsets, shifted);
         loops.body(cells, inner, row_scope);
         if (fetching == Fetching::nothing) return;
-        for (std::uint32_t slot = 0; slot < kernel.field_names.size(); ++slot) {
+        for (const FieldSlot slot : kernel.field_names.ids()) {
             cells.prefetch(slot, kernel.reads_neighbours(slot) ? 2 : 1, fetching);
         }
     });
@@ -281,7 +281,7 @@ void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
 /// The loops, once or twice.
 void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& builder) {
     RowOffsets offsets(frame);
-    const std::set<std::uint32_t> shifted = shifted_fields(frame);
+    const std::set<FieldSlot> shifted = shifted_fields(frame);
     const int bytes = frame.vector_bytes();
     const bool may_prefetch = frame.stencil().x && frame.stencil().y && bytes >= cache_line / 2;
     if (!may_prefetch || frame.kernel().code.size() > largest_twofold_kernel) {

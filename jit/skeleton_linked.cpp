@@ -50,8 +50,8 @@ public:
 
 private:
     /// f_j − f_i.
-    Value* difference(std::uint32_t slot);
-    Value* at_targets(std::uint32_t slot);
+    Value* difference(FieldSlot slot);
+    Value* at_targets(FieldSlot slot);
     void load_targets();
     Value* numbers(unsigned array);
     Value* address(unsigned array, llvm::Type* element, int lane = 0) {
@@ -63,9 +63,9 @@ private:
     Builder& builder_;
     Value* link_;
     CellSources& cells_;
-    std::map<unsigned, Value*> numbers_;                    ///< By array.
-    std::map<std::uint32_t, Value*> fields_, differences_;  ///< By slot.
-    std::vector<Value*> targets_;                           ///< By lane.
+    std::map<unsigned, Value*> numbers_;                ///< By array.
+    std::map<FieldSlot, Value*> fields_, differences_;  ///< By slot.
+    std::vector<Value*> targets_;                       ///< By lane.
 };
 
 Value* LinkEntry::term(SumKey sum) {
@@ -80,7 +80,7 @@ Value* LinkEntry::term(SumKey sum) {
     return builder_.CreateFMul(numbers(weights_of(op)), change);
 }
 
-Value* LinkEntry::difference(std::uint32_t slot) {
+Value* LinkEntry::difference(FieldSlot slot) {
     Value*& value = differences_[slot];
     if (!value) value = builder_.CreateFSub(at_targets(slot), cells_.field(slot));
     return value;
@@ -103,7 +103,7 @@ void LinkEntry::load_targets() {
     }
 }
 
-Value* LinkEntry::at_targets(std::uint32_t slot) {
+Value* LinkEntry::at_targets(FieldSlot slot) {
     Value*& value = fields_[slot];
     if (value) return value;
     if (targets_.empty()) load_targets();
@@ -154,7 +154,7 @@ public:
         if (!sums_.empty()) add_up();
     }
 
-    Value* laplacian(std::uint32_t slot) override { return sums_.at({Op::laplacian, slot}); }
+    Value* laplacian(FieldSlot slot) override { return sums_.at({Op::laplacian, slot.index()}); }
     Value* link_sum(const Instruction& sum) override { return sums_.at(key_of(sum)); }
 
 private:

@@ -51,9 +51,9 @@ std::string KernelAssembly::name_of(const std::variant<Sources...>& source) cons
     return std::visit(name, source);
 }
 
-std::uint32_t KernelAssembly::field_slot(const PlaneSource& source) {
-    const std::uint32_t slot = builder_.field_slot(name_of(source));
-    if (slot == bound_.fields.size()) bound_.fields.push_back(source);
+FieldSlot KernelAssembly::field_slot(const PlaneSource& source) {
+    const FieldSlot slot = builder_.field_slot(name_of(source));
+    if (slot == bound_.fields.next()) bound_.fields.push_back(source);
     return slot;
 }
 
@@ -62,8 +62,8 @@ ValueId KernelAssembly::field(const PlaneSource& source, Offset at) {
 }
 
 ValueId KernelAssembly::uniform(const UniformSource& source) {
-    const std::uint32_t slot = builder_.uniform_slot(name_of(source));
-    if (slot == bound_.uniforms.size()) bound_.uniforms.push_back(source);
+    const UniformSlot slot = builder_.uniform_slot(name_of(source));
+    if (slot == bound_.uniforms.next()) bound_.uniforms.push_back(source);
     return builder_.uniform(slot);
 }
 
@@ -71,8 +71,8 @@ ValueId KernelAssembly::item(StageItem item, Offset at) {
     if (program_.stages[item.stage].uniform[item.item]) return uniform(item);
     const bool is_frozen = item == StageItem{stage_, system().frozen_item()};
     if (!is_frozen || !frozen_is_mask_) return field(item, at);
-    const std::uint32_t slot = builder_.mask_slot(name_of(item));
-    if (slot == bound_.masks.size()) bound_.masks.push_back(item);
+    const MaskSlot slot = builder_.mask_slot(name_of(item));
+    if (slot == bound_.masks.next()) bound_.masks.push_back(item);
     return builder_.mask(slot);
 }
 

@@ -24,7 +24,7 @@ public:
     const System& system() const { return program_.system_of(stage_); }
     const Stage& stage() const { return program_.stages[stage_]; }
 
-    std::uint32_t field_slot(const PlaneSource& source);
+    FieldSlot field_slot(const PlaneSource& source);
     /// The value of a plane in the cell at an offset.
     ValueId field(const PlaneSource& source, Offset at = {});
     ValueId uniform(const UniformSource& source);

@@ -31,7 +31,7 @@ private:
     ValueId advection(const Node& node);
     ValueId anisotropic(const Node& node);
 
-    std::uint32_t slot_of_plane(NodeId id) { return assembly_.field_slot(pass_.plane(id)); }
+    FieldSlot slot_of_plane(NodeId id) { return assembly_.field_slot(pass_.plane(id)); }
     ValueId own(NodeId id) const { return values_.number_at(id, {}); }
     ValueId beside(NodeId id, Offset offset) const { return values_.beside(id, offset); }
     ValueId scaled(ValueId value, double factor) const { return values_.scaled(value, factor); }
@@ -66,7 +66,7 @@ ValueId Stencils::stencil(const Node& node) {
 /// Sums over the links of a cell. |∇e|² is half of the Laplacian of e² minus e times that of e.
 ValueId Stencils::over_links(const Node& node) {
     const NodeId operand = node.reads().back();
-    const std::uint32_t slot = slot_of_plane(operand);
+    const FieldSlot slot = slot_of_plane(operand);
     if (const Derivative derivative = derivative_of(node.function); derivative.order == 1) {
         constexpr std::array gradients{Op::gradient_x, Op::gradient_y, Op::gradient_z};
         return builder_.over_links(gradients[static_cast<std::size_t>(derivative.first)], slot);

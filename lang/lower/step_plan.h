@@ -19,9 +19,9 @@ namespace cascade {
 /// A kernel, the sources of its slots and the targets of its results.
 struct BoundKernel {
     CellKernel kernel;
-    std::vector<PlaneSource> fields;
-    std::vector<StageItem> masks;
-    std::vector<UniformSource> uniforms;
+    IdVector<FieldSlot, PlaneSource> fields;
+    IdVector<MaskSlot, StageItem> masks;
+    IdVector<UniformSlot, UniformSource> uniforms;
     std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
 };
 

@@ -129,10 +129,9 @@ private:
         std::string text;
         std::set<TemporaryId> with_halo;
         for (const Pass& pass : plan.passes) {
-            for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+            for (const FieldSlot slot : pass.bound.fields.ids()) {
                 const auto* const id = std::get_if<TemporaryId>(&pass.bound.fields[slot]);
-                if (id != nullptr &&
-                    pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) {
+                if (id != nullptr && pass.bound.kernel.reads_neighbours(slot)) {
                     with_halo.insert(*id);
                 }
             }
@@ -168,11 +167,11 @@ private:
     /// Adds the planes that passes read but do not change; the halo of those read at neighbours is
     /// filled before the pass.
     void add_reads(const Pass& pass, PassText& lines) {
-        for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+        for (const FieldSlot slot : pass.bound.fields.ids()) {
             const PlaneSource& source = pass.bound.fields[slot];
             lines.fields.push_back(tables_.plane(source));
             if (std::holds_alternative<TemporaryId>(source)) continue;
-            if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
+            if (!pass.bound.kernel.reads_neighbours(slot)) continue;
             lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
         }
         for (const StageItem item : pass.bound.masks) lines.masks.push_back(tables_.mask(item));
@@ -269,16 +268,16 @@ private:
                 reduction(bound.reductions[k].aggregate, bound.reductions[k].kind,
                           plane(bound.reductions[k].operand, pass.reductions[k].operand)));
         }
-        for (std::size_t slot = 0; slot < bound.fields.size(); ++slot) {
+        for (const FieldSlot slot : pass.bound.fields.ids()) {
             const PlaneSource& source = pass.bound.fields[slot];
-            lines.fields.push_back(plane(bound.fields[slot], source));
-            if (bound.fields[slot].kind == PlaneRef::Kind::fixed &&
-                pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) {
+            const PlaneRef& ref = bound.fields[slot.index()];
+            lines.fields.push_back(plane(ref, source));
+            if (ref.kind == PlaneRef::Kind::fixed && pass.bound.kernel.reads_neighbours(slot)) {
                 lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
             }
         }
         for (const StageItem item : pass.bound.masks) lines.masks.push_back(tables_.mask(item));
-        for (std::uint32_t slot = 0; slot < pass.bound.uniforms.size(); ++slot) {
+        for (const UniformSlot slot : pass.bound.uniforms.ids()) {
             lines.uniforms.push_back(step_uniform(bound, slot, pass.bound.uniforms[slot]));
         }
         for (const StepProblem::Result& result : bound.results) {
@@ -313,11 +312,11 @@ private:
         return false;
     }
 
-    std::string step_uniform(const StepProblem::Pass& bound, std::uint32_t slot,
+    std::string step_uniform(const StepProblem::Pass& bound, UniformSlot slot,
                              const UniformSource& source) {
         using Kind = StepProblem::ChangingUniform::Kind;
         for (const StepProblem::ChangingUniform& changing : bound.changing) {
-            if (changing.slot != slot) continue;
+            if (changing.slot != slot.index()) continue;
             switch (changing.kind) {
                 case Kind::step: return "(float)s->steps";
                 case Kind::draw: return fmt::format("{}_draw(s->steps)", request_.name);

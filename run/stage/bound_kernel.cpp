@@ -141,9 +141,9 @@ private:
     }
 
     void find_halos(const Pass& pass) {
-        for (std::size_t slot = 0; slot < pass.bound.fields.size(); ++slot) {
+        for (const FieldSlot slot : pass.bound.fields.ids()) {
             if (context_.grid.linked) continue;  // Links need no halo.
-            if (!pass.bound.kernel.reads_neighbours(static_cast<std::uint32_t>(slot))) continue;
+            if (!pass.bound.kernel.reads_neighbours(slot)) continue;
             const PlaneRef plane = bind_plane(pass.bound.fields[slot]);
             switch (plane.kind) {
                 case PlaneRef::Kind::species:

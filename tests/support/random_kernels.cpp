@@ -112,9 +112,8 @@ private:
                             false);
             case Op::link_flow: {
                 if (!options_.links) return keep(trouble(), true);
-                const std::uint32_t factor =
-                    builder_.field_slot(fmt::format("f{}", stream_.below(3)));
-                const std::uint32_t of = builder_.field_slot(fmt::format("f{}", which));
+                const FieldSlot factor = builder_.field_slot(fmt::format("f{}", stream_.below(3)));
+                const FieldSlot of = builder_.field_slot(fmt::format("f{}", which));
                 return keep(builder_.link_flow({factor, of}), false);
             }
             case Op::mask:

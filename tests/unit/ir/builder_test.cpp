@@ -19,22 +19,22 @@ TEST(Builder, EqualInstructionsAreOneValue) {
     KernelBuilder builder;
     const ValueId a = builder.field(builder.field_slot("a"));
     const ValueId b = builder.field(builder.field_slot("b"));
-    EXPECT_EQ(builder.field(0), a);
+    EXPECT_EQ(builder.field(FieldSlot(0)), a);
     EXPECT_EQ(builder.add(a, b), builder.add(a, b));
     EXPECT_NE(builder.add(a, b), builder.add(b, a)) << "operands are not reordered";
     EXPECT_NE(builder.add(a, b), builder.subtract(a, b));
     EXPECT_EQ(builder.number(0.5f), builder.number(0.5f));
     EXPECT_NE(builder.number(0.0f), builder.number(-0.0f)) << "words are compared, not numbers";
-    EXPECT_NE(builder.field(0), builder.laplacian(0));
+    EXPECT_NE(builder.field(FieldSlot(0)), builder.laplacian(FieldSlot(0)));
 }
 
 TEST(Builder, SlotsAreMadeOnce) {
     KernelBuilder builder;
-    EXPECT_EQ(builder.field_slot("a"), 0u);
-    EXPECT_EQ(builder.field_slot("b"), 1u);
-    EXPECT_EQ(builder.field_slot("a"), 0u);
-    EXPECT_EQ(builder.mask_slot("a"), 0u);
-    EXPECT_EQ(builder.uniform_slot("b"), 0u);
+    EXPECT_EQ(builder.field_slot("a"), FieldSlot(0));
+    EXPECT_EQ(builder.field_slot("b"), FieldSlot(1));
+    EXPECT_EQ(builder.field_slot("a"), FieldSlot(0));
+    EXPECT_EQ(builder.mask_slot("a"), MaskSlot(0));
+    EXPECT_EQ(builder.uniform_slot("b"), UniformSlot(0));
 }
 
 TEST(Builder, NumbersAreCanonical) {

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 /// new = a + speed · lap(a), the old value where a mask is set.
 CellKernel heat_kernel() {
     KernelBuilder builder;
-    const std::uint32_t a = builder.field_slot("a");
+    const FieldSlot a = builder.field_slot("a");
     const ValueId old = builder.field(a);
     const ValueId speed = builder.uniform(builder.uniform_slot("speed"));
     const ValueId flow = builder.multiply(speed, builder.laplacian(a));
@@ -48,12 +48,12 @@ TEST(Verify, Neighbours) {
     builder.result("r", builder.neighbour(builder.field_slot("a"), 1, 1, 1));
     CellKernel kernel = std::move(builder).finish();
     EXPECT_EQ(verify(kernel), "");
-    EXPECT_TRUE(kernel.reads_neighbours(0));
+    EXPECT_TRUE(kernel.reads_neighbours(FieldSlot(0)));
     kernel.code[ValueId(0)].payload = 27;
     EXPECT_THAT(verify(kernel), HasSubstr("farther"));
     kernel.code[ValueId(0)].payload = 13;
     EXPECT_THAT(verify(kernel), HasSubstr("itself"));
-    kernel.code[ValueId(0)].payload = Neighbour{1, 1, 0, 0}.payload();
+    kernel.code[ValueId(0)].payload = Neighbour{FieldSlot(1), 1, 0, 0}.payload();
     EXPECT_THAT(verify(kernel), HasSubstr("slot 1 of 1"));
 }
 
@@ -63,13 +63,13 @@ TEST(ReadsNeighbours, OfLaplaciansOnly) {
     const ValueId around = builder.laplacian(builder.field_slot("around"));
     builder.result("r", builder.add(here, around));
     const CellKernel kernel = std::move(builder).finish();
-    EXPECT_FALSE(kernel.reads_neighbours(0));
-    EXPECT_TRUE(kernel.reads_neighbours(1));
+    EXPECT_FALSE(kernel.reads_neighbours(FieldSlot(0)));
+    EXPECT_TRUE(kernel.reads_neighbours(FieldSlot(1)));
 }
 
 TEST(Hash, IgnoresNames) {
     CellKernel renamed = heat_kernel();
-    renamed.field_names[0] = "other";
+    renamed.field_names[FieldSlot(0)] = "other";
     renamed.result_names[0] = "other";
     EXPECT_EQ(hash(renamed), hash(heat_kernel()));
 }

@@ -65,8 +65,9 @@ private:
                 case Op::laplacian: return laplacian(arguments.fields[slot] + at, layout);
                 case Op::neighbour: {
                     const Neighbour beside = Neighbour::of(slot);
-                    return to_bits(arguments.fields[beside.slot][at + step(layout, beside.dx,
-                                                                           beside.dy, beside.dz)]);
+                    return to_bits(
+                        arguments.fields[beside.slot.index()]
+                                        [at + step(layout, beside.dx, beside.dy, beside.dz)]);
                 }
                 case Op::mask: return testing::truth(arguments.masks[slot][at] != 0);
                 case Op::uniform: return to_bits(arguments.uniforms[slot]);

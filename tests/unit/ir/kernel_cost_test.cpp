@@ -10,7 +10,7 @@ namespace {
 /// new = a + d · lap(a), d the same in all cells, or a plane.
 CellKernel diffusion(bool plane, Precision precision = Precision::single) {
     KernelBuilder builder(precision);
-    const std::uint32_t a = builder.field_slot("a");
+    const FieldSlot a = builder.field_slot("a");
     const ValueId d =
         plane ? builder.field(builder.field_slot("d")) : builder.uniform(builder.uniform_slot("d"));
     builder.result("a", builder.add(builder.field(a), builder.multiply(d, builder.laplacian(a))));
@@ -80,7 +80,7 @@ TEST(KernelCost, LaplaciansShareTheirLinks) {
 
 TEST(KernelCost, SumsOfOtherKindsOverLinks) {
     KernelBuilder builder;
-    const std::uint32_t a = builder.field_slot("a"), b = builder.field_slot("b");
+    const FieldSlot a = builder.field_slot("a"), b = builder.field_slot("b");
     const ValueId flow = builder.link_flow({b, a});
     const ValueId squares = builder.over_links(Op::link_squares, a);
     const ValueId gradient = builder.over_links(Op::gradient_y, a);
@@ -126,7 +126,7 @@ TEST(KernelCost, MasksAreBytes) {
 
 TEST(KernelCost, NeighboursAlongAnAxisOfOneCellAreTheCell) {
     KernelBuilder builder;
-    const std::uint32_t a = builder.field_slot("a");
+    const FieldSlot a = builder.field_slot("a");
     const ValueId east = builder.neighbour(a, 1, 0), south = builder.neighbour(a, 0, 1);
     builder.result("r", builder.add(builder.add(east, south), builder.laplacian(a)));
     const CellKernel kernel = std::move(builder).finish();

@@ -17,7 +17,7 @@ constexpr std::array sums{Op::laplacian,  Op::link_squares, Op::link_flow,
 
 CellKernel kernel_of_sums() {
     KernelBuilder builder;
-    const std::uint32_t f = builder.field_slot("f"), s = builder.field_slot("s");
+    const FieldSlot f = builder.field_slot("f"), s = builder.field_slot("s");
     for (const Op op : sums) {
         builder.result(std::string(info(op).name),
                        op == Op::link_flow ? builder.link_flow({s, f}) : builder.over_links(op, f));

@@ -120,7 +120,7 @@ TEST(JitAgreement, ContractedKernels) {
 /// All sums over links, of two fields, and what depends on a cell's own place.
 CellKernel kernel_of_links(Precision precision) {
     KernelBuilder builder(precision);
-    const std::uint32_t a = builder.field_slot("a"), b = builder.field_slot("b");
+    const FieldSlot a = builder.field_slot("a"), b = builder.field_slot("b");
     builder.result("heat", builder.add(builder.field(a), builder.laplacian(a)));
     builder.result("flow", builder.add(builder.link_flow({b, a}), builder.link_flow({a, b})));
     builder.result("squares", builder.over_links(Op::link_squares, b));
@@ -249,7 +249,7 @@ TEST(JitAgreement, WidePlanes) {
 CellKernel diffusion_kernel(Precision precision) {
     KernelBuilder builder(precision);
     for (const char* name : {"a", "b"}) {
-        const std::uint32_t slot = builder.field_slot(name);
+        const FieldSlot slot = builder.field_slot(name);
         const ValueId rate = builder.uniform(builder.uniform_slot("d"));
         builder.result(name, builder.add(builder.field(slot),
                                          builder.multiply(rate, builder.laplacian(slot))));

@@ -19,7 +19,7 @@ using ::testing::Not;
 /// a + amount, and the Laplacian of a.
 CellKernel small_kernel(float amount, const std::string& field_name = "a") {
     KernelBuilder builder;
-    const std::uint32_t slot = builder.field_slot(field_name);
+    const FieldSlot slot = builder.field_slot(field_name);
     const ValueId sum = builder.add(builder.field(slot), builder.number(amount));
     builder.result("r", builder.add(sum, builder.laplacian(slot)));
     return std::move(builder).finish();

@@ -119,7 +119,7 @@ TEST_F(CacheTest, KeysDifferInAllThatDecidesTheCode) {
     other.code.back().payload ^= 1;
     EXPECT_NE(key, kernel_key(other, {Stencil::plane, 16}));
     other = kernel;
-    other.field_names[0] += "x";
+    other.field_names[FieldSlot(0)] += "x";
     EXPECT_EQ(key, kernel_key(other, {Stencil::plane, 16})) << "names decide nothing";
     EXPECT_NE(environment_key(2), environment_key(0));
 }

@@ -411,8 +411,8 @@ TEST(Lower, UniformParametersAreSlotsAndNeverConstants) {
     EXPECT_THAT(step.kernel.uniform_names,
                 ::testing::UnorderedElementsAre("speed", "ka", "diff_a", "diff_b"));
     EXPECT_THAT(step.kernel.field_names, ElementsAre("a", "b", "beta"));
-    EXPECT_TRUE(step.kernel.reads_neighbours(0));
-    EXPECT_FALSE(step.kernel.reads_neighbours(2));
+    EXPECT_TRUE(step.kernel.reads_neighbours(FieldSlot(0)));
+    EXPECT_FALSE(step.kernel.reads_neighbours(FieldSlot(2)));
     const BoundKernel view =
         only_pass(plan_view(*checked->program, checked->program->stages[0].show, 0));
     EXPECT_THAT(view.kernel.field_names, ElementsAre("b"));

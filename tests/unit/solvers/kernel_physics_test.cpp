@@ -28,7 +28,7 @@ KernelPointer interpreted(KernelBuilder builder, const Grid& grid) {
 /// c + diffusion · lap c, where not frozen.
 StepProblem heat(const Grid& grid, const Mask* frozen) {
     KernelBuilder builder;
-    const std::uint32_t slot = builder.field_slot("c");
+    const FieldSlot slot = builder.field_slot("c");
     const ValueId c = builder.field(slot);
     const ValueId flow =
         builder.multiply(builder.uniform(builder.uniform_slot("d")), builder.laplacian(slot));
@@ -90,10 +90,10 @@ TEST(KernelPhysics, FrozenEndsMakeAStraightLine) {
 /// Turing's system with ka 1/80, beta 12; uniforms diff_a, diff_b. Rates, or a step of size 1.
 StepProblem turing(const Grid& grid, float diff_a, float diff_b, bool step) {
     KernelBuilder k;
-    const std::uint32_t a_slot = k.field_slot("a"), b_slot = k.field_slot("b");
+    const FieldSlot a_slot = k.field_slot("a"), b_slot = k.field_slot("b");
     const ValueId a = k.field(a_slot), b = k.field(b_slot), ka = k.number(1.0f / 80);
     const ValueId ab = k.multiply(a, b);
-    const auto diffusion = [&](const char* name, std::uint32_t slot) {
+    const auto diffusion = [&](const char* name, FieldSlot slot) {
         return k.multiply(k.uniform(k.uniform_slot(name)), k.laplacian(slot));
     };
     const ValueId made_a = k.multiply(ka, k.subtract(k.number(16), ab));

@@ -38,7 +38,7 @@ public:
     /// A step of f + `part` of the differences to both neighbours.
     StepProblem heat(double part) const {
         KernelBuilder builder(links_.precision());
-        const std::uint32_t slot = builder.field_slot("f");
+        const FieldSlot slot = builder.field_slot("f");
         const ValueId flow = builder.multiply(builder.uniform(builder.uniform_slot("part")),
                                               builder.laplacian(slot));
         builder.result("f", builder.add(builder.field(slot), flow));
