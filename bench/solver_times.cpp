@@ -4,12 +4,12 @@
 //        all solvers, large and small spots, 256 and 1024 without them
 //
 // Every solver of the language grows the same spots from the same noise for the same time, as
-// `cascade run --solver NAME` does. Beside Euler's pattern stand the correlation with it, the
-// wavelength and the number of spots: a solver that is fast and has another pattern shows. Quiet
-// machines only; the time is that on the wall, kernels compiled within it.
+// `cascade run --solver NAME` does. Each pattern is compared with Euler's by correlation,
+// wavelength and number of spots, so that a fast solver with another pattern is noticed. For quiet
+// machines only; times are wall times and include compiling.
 //
 // The opponent is Euler's method in straight C++ (straight_cpp.h) on one thread. Its steps all take
-// the same time, so it takes some and their time is multiplied.
+// the same time, so only some are taken and their time is multiplied.
 #include "bench/cascade_side.h"
 #include "bench/straight_side.h"
 #include "core/floating_point.h"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Bad input as a user would give it: sizes, files, disks, options. Each has its exit status and its
-# message, and leaves nothing behind. What a wrong statement is told is tested in spec/messages.md.
+# message, and leaves no files. Messages about wrong statements are tested by spec/messages.md.
 set -u
 rm -rf ./* .cascade-*
 unset NO_COLOR
@@ -50,7 +50,7 @@ if [ "$(id -u)" != 0 ]; then
     refused 2 "cannot read 'secret.cascade': Permission denied" run secret.cascade
 fi
 
-# Deep and long expressions, in a value, a rate and a setting: they run, or they are told apart.
+# Deep and long expressions, in a value, a rate and a setting: they run, or they get a message.
 { printf 'stage s: turing_spots { iterations: 2; ka: '; repeat 100000 '('; printf 'x*0.01'; repeat 100000 ')'; echo ' }'; } >deep.cascade
 { printf "system t { u: 1; u' = lap(u) - "; repeat 100001 '-'; echo 'u }'; echo 'stage s: t { iterations: 2 }'; } >signs.cascade
 { printf "system t { u: 1; u' = lap(u) - 0.0000001*(u"; yes '+u' | head -n 1000000 | tr -d '\n'; echo ') }'; echo 'stage s: t { iterations: 2 }'; } >chain.cascade

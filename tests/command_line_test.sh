@@ -146,7 +146,7 @@ says out 'cascade 0.1.0'
 "$CASCADE" run spots.cascade -o pipe.png 2>&1 >/dev/null | true
 [ "${PIPESTATUS[0]}" = 0 ] && [ -s pipe.png ] || fail "nobody reads the progress"
 
-# Ctrl-C: what there is is written, and said.
+# Ctrl-C: the results so far are written, and the program says so.
 timeout --preserve-status -s INT 2 "$CASCADE" run long.cascade --save stopped >out 2>err
 [ $? = 130 ] || fail "Ctrl-C is not 130"
 says err "interrupted at stage 's', step"

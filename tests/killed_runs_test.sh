@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# SIGKILL at single system calls (by strace) of runs that save over an older run and of runs that are
-# kept while they run. Never is there no run to resume, whatever is resumed ends with the bits of a run
-# in one go, and nothing of the killed ones stays. `KILLS=500 ctest -R killed_runs` kills so many times.
+# Kills runs at single system calls (SIGKILL by strace): runs that save over an older run, and runs with
+# checkpoints. There is always a run to resume, it ends with the bits of an uninterrupted run, and no file
+# of the killed runs stays. `KILLS=500 ctest -R killed_runs` kills 500 times.
 set -u
 rm -rf ./*
 

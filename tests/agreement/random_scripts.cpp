@@ -91,7 +91,7 @@ private:
         return number();
     }
 
-    /// Above −0.1 where it is known now: in functions a name may stand for any number.
+    /// Above −0.1, if that is known here: in functions a name may have any value.
     std::string scale(Place place) { return function_count_ < 2 ? number() : leaf(place); }
 
     std::string call(const FunctionRow& row, Place place, int depth) {
@@ -135,7 +135,7 @@ private:
         return std::find(stencils.begin(), stencils.end(), spelling) != stencils.end();
     }
 
-    /// What is no number for certain: derivatives of those are refused.
+    /// An expression that is certainly not constant: derivatives of constants are refused.
     std::string varying(Place place, int depth) {
         return fmt::format("(x * {} + {})", leaf(place), expression(place, depth));
     }

@@ -52,7 +52,7 @@ private:
     }
     ScriptCase& current() { return file.cases.empty() ? shared_ : file.cases.back(); }
 
-    ScriptCase shared_;          ///< What stands before the first case.
+    ScriptCase shared_;          ///< The lines before the first case.
     std::size_t line_ = 0;       ///< From 1.
     std::size_t code_line_ = 1;  ///< The last line that holds more than comments.
 };

@@ -97,7 +97,7 @@ TEST(Scripts, AreThere) {
     EXPECT_GT(scripts_below(scripts_folder).size(), 10u);
 }
 
-/// Their first line tells what is wrong, after "# ".
+/// The first line of each is the expected message, after "# ".
 TEST(Scripts, ThatAreWrongFail) {
     const auto wrong = scripts_below(scripts_folder / "wrong");
     EXPECT_GT(wrong.size(), 10u);

@@ -1,4 +1,4 @@
-// What must hold of whatever is read of any model, for tests and fuzzers alike.
+// Properties of every mesh that is read from a model, for tests and fuzzers.
 #pragma once
 
 #include "mesh/make_mesh.h"

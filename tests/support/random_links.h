@@ -8,8 +8,8 @@
 
 namespace cascade::testing {
 
-/// Links of each cell to any others: mostly 0 to 9, of a few cells 70, and stretches of cells
-/// without. Weights and gradients are in [−1, 1) but for a share of zeros, NaN, infinities,
+/// Links of each cell to any others: mostly 0 to 9, for a few cells 70, and some ranges of cells
+/// have none. Weights and gradients are in [−1, 1), except for a share of zeros, NaN, infinities,
 /// denormals and huge numbers. A pure function of its arguments.
 LinkList random_links(std::size_t cells, std::uint64_t seed, int trouble_percent = 0);
 
