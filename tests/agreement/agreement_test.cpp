@@ -245,8 +245,8 @@ TEST(Agreement, RandomScriptsOnModels) {
                      fmt::format("domain {{ surface: sphere; {}; seed: {} }}",
                                  domains[seed % domains.size()], seed));
         overrides.precision = seed % 3 == 0 ? Precision::binary64 : Precision::single;
-        // Scripts without a meaning on models are refused; of the others, those that read neighbours
-        // are run.
+        // Scripts without a meaning on models are refused; of the others, those that read
+        // neighbours are run.
         if (!load_script("random", text, ".", overrides).program) continue;
         const bool reads_neighbours =
             text.find("lap(") != text.npos || text.find("grad") != text.npos;
