@@ -1,5 +1,9 @@
 // Threads paint bands of rows of texels, each texel as the mean of its samples in linear light;
 // then gaps are filled and colours stored.
+//
+// Filtered values vary smoothly within a triangle, but thresholds and places make colours jump. So
+// the filter is queried at knots along a row of samples, its values are interpolated, and every
+// sample gets a colour of its own.
 #include "export/bake.h"
 
 #include "core/check.h"
@@ -21,17 +25,22 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t rows_of_band = 16;  ///< Texels; a thread's unit of work.
-constexpr double most_covered_area = 64;   ///< Beyond it, the texture repeats all over the model.
+/// The distance of knots, in radii of the filter: linear interpolation between them leaves an error
+/// below 1/255 of the range of the values.
+constexpr double knots_apart = 1.0 / 16;
+constexpr std::int64_t most_steps = 64;   ///< Samples from one knot to the next.
+constexpr double most_covered_area = 64;  ///< Beyond it, the texture repeats all over the model.
 
 /// Working memory of one thread, allocated in advance.
 struct Scratch {
-    std::vector<std::uint32_t> owners;
-    std::vector<SurfacePlace> places;    ///< Of the samples in one row of texels.
-    std::vector<Colour> lights;          ///< Of each sample.
-    std::vector<float> heights;          ///< Likewise.
-    std::vector<std::uint32_t> columns;  ///< The texel of each sample.
     PlacePainter painter;
-    std::int64_t covered = 0, again = 0;  ///< Numbers of samples.
+    std::vector<std::uint32_t> owners = {};    ///< Of the samples of a band.
+    std::span<const std::uint32_t> row = {};   ///< Those of a row of texels.
+    std::vector<Colour> lights = {};           ///< Of the samples of a row of texels.
+    std::vector<float> heights = {};           ///< Likewise.
+    std::vector<float> here = {}, there = {};  ///< Filtered values at two knots,
+    std::vector<float> between = {};           ///< and between them.
+    std::int64_t covered = 0, again = 0;       ///< Numbers of samples.
 };
 
 class TextureBaker {
@@ -81,14 +90,14 @@ private:
     }
 
     Scratch make_scratch() const {
-        Scratch own{{}, {}, {}, {}, {}, PlacePainter(filter_, cells_)};
-        const auto row = static_cast<std::size_t>(layout_.width());
-        const auto deep = static_cast<std::size_t>(samples());
-        own.owners.resize(row * deep * static_cast<std::size_t>(rows_of_band));
-        own.places.reserve(row * deep);
-        own.columns.reserve(row * deep);
-        own.lights.reserve(row * deep);
-        own.heights.reserve(row * deep);
+        Scratch own{PlacePainter(filter_, cells_)};
+        const auto row = static_cast<std::size_t>(layout_.width() * samples());
+        own.owners.resize(row * static_cast<std::size_t>(rows_of_band));
+        own.lights.resize(row);
+        own.heights.resize(row);
+        for (auto* values : {&own.here, &own.there, &own.between}) {
+            values->resize(own.painter.number_of_values());
+        }
         return own;
     }
 
@@ -96,82 +105,116 @@ private:
         const auto count = static_cast<std::size_t>((last - first) * samples() * layout_.width());
         const std::span<std::uint32_t> owners(own.owners.data(), count);
         own.again += layout_.find_owners(first * samples(), last * samples(), owners);
+        const auto width = static_cast<std::size_t>(layout_.width());
         for (std::int64_t y = first; y < last; ++y) {
-            collect_row(y,
-                        owners.subspan(
-                            static_cast<std::size_t>((y - first) * samples() * layout_.width())),
-                        own);
-            if (own.places.empty()) continue;
-            own.covered += static_cast<std::int64_t>(own.places.size());
-            paint_row(y, own);
-            if (has_heights()) raise_row(y, own);
+            own.row = owners.subspan(static_cast<std::size_t>((y - first) * samples()) * width,
+                                     static_cast<std::size_t>(samples()) * width);
+            for (std::int64_t j = 0; j < samples(); ++j) paint_samples(y, j, own);
+            for (std::int64_t x = 0; x < options_.width; ++x) paint_texel(x, y, own);
         }
     }
 
-    /// Collects the samples of a row of texels on the surface, texel after texel.
-    void collect_row(std::int64_t y, std::span<const std::uint32_t> owners, Scratch& own) const {
-        own.places.clear();
-        own.columns.clear();
-        own.lights.clear();
-        own.heights.clear();
-        for (std::int64_t x = 0; x < options_.width; ++x) {
-            for (std::int64_t j = 0; j < samples(); ++j) {
-                for (std::int64_t i = x * samples(); i < (x + 1) * samples(); ++i) {
-                    const std::uint32_t owner =
-                        owners[static_cast<std::size_t>(j * layout_.width() + i)];
-                    if (owner == TextureLayout::nothing) continue;
-                    own.places.push_back(layout_.place_at(owner, i, y * samples() + j));
-                    own.columns.push_back(static_cast<std::uint32_t>(x));
+    /// The number of a sample in the row of texels that a thread paints.
+    std::size_t sample(std::int64_t i, std::int64_t j) const {
+        return static_cast<std::size_t>(j * layout_.width() + i);
+    }
+
+    /// Paints the samples of a row span by span; the samples of a span are in one triangle.
+    void paint_samples(std::int64_t y, std::int64_t j, Scratch& own) const {
+        for (std::int64_t i = 0; i < layout_.width();) {
+            const std::uint32_t owner = own.row[sample(i, j)];
+            const std::int64_t first = i;
+            do ++i;
+            while (i < layout_.width() && own.row[sample(i, j)] == owner);
+            if (owner != TextureLayout::nothing) paint_span(owner, first, i, y, j, own);
+        }
+    }
+
+    void paint_span(std::uint32_t owner, std::int64_t first, std::int64_t end, std::int64_t y,
+                    std::int64_t j, Scratch& own) const {
+        const auto place_of = [&](std::int64_t i) {
+            return layout_.place_at(owner, i, y * samples() + j);
+        };
+        const auto paint = [&](std::int64_t i, std::span<const float> values,
+                               const SurfacePlace& place) {
+            const PlacePainter::Look look = own.painter.look_of(values, place);
+            own.lights[sample(i, j)] = light_of(look.colour);
+            own.heights[sample(i, j)] = look.height;
+        };
+        const SurfacePlace begin = place_of(first);
+        own.painter.filter_at(begin, own.here);
+        paint(first, own.here, begin);
+        const std::int64_t steps = end - first > 2 ? steps_of(begin, place_of(first + 1)) : 1;
+        for (std::int64_t knot = first, next; knot + 1 < end; knot = next) {
+            next = std::min(knot + steps, end - 1);
+            const SurfacePlace there = place_of(next);
+            own.painter.filter_at(there, own.there);
+            for (std::int64_t i = knot + 1; i < next; ++i) {
+                const float part = static_cast<float>(i - knot) / static_cast<float>(next - knot);
+                for (std::size_t k = 0; k < own.between.size(); ++k) {
+                    own.between[k] = own.here[k] + part * (own.there[k] - own.here[k]);
                 }
+                paint(i, own.between, place_of(i));
             }
+            paint(next, own.there, there);
+            std::swap(own.here, own.there);
         }
-        for (const SurfacePlace& place : own.places) {
-            const PlacePainter::Look look = own.painter.at(place);
-            own.lights.push_back(light_of(look.colour));
-            own.heights.push_back(look.height);
-        }
+        own.covered += end - first;
     }
 
-    /// Calls `visit(x, first, last)` for each texel of a row and its samples.
+    /// The number of samples from one knot to the next, given two neighbouring samples.
+    std::int64_t steps_of(const SurfacePlace& one, const SurfacePlace& other) const {
+        const double apart = length(position_of(mesh_, one) - position_of(mesh_, other));
+        const double reach = knots_apart * filter_.radius();
+        return apart * most_steps > reach
+                   ? std::max(static_cast<std::int64_t>(reach / apart), std::int64_t{1})
+                   : most_steps;
+    }
+
+    /// Calls `visit(i, j)` for each sample of a texel that is on the surface.
     template <typename Visit>
-    static void visit_texels(const Scratch& own, const Visit& visit) {
-        for (std::size_t first = 0; first < own.columns.size();) {
-            std::size_t last = first + 1;
-            while (last < own.columns.size() && own.columns[last] == own.columns[first]) ++last;
-            visit(static_cast<std::int64_t>(own.columns[first]), first, last);
-            first = last;
+    void visit_samples(std::int64_t x, const Scratch& own, const Visit& visit) const {
+        for (std::int64_t j = 0; j < samples(); ++j) {
+            for (std::int64_t i = x * samples(); i < (x + 1) * samples(); ++i) {
+                if (own.row[sample(i, j)] != TextureLayout::nothing) visit(i, j);
+            }
         }
     }
 
-    void paint_row(std::int64_t y, const Scratch& own) {
-        visit_texels(own, [&](std::int64_t x, std::size_t first, std::size_t last) {
-            Colour sum{};
-            for (std::size_t k = first; k < last; ++k) {
-                for (std::size_t c = 0; c < 3; ++c) sum[c] += own.lights[k][c];
-            }
-            for (float& light : sum) light /= static_cast<float>(last - first);
-            colour_.texels[texel(x, y)] = sum;
-            colour_.is_filled[texel(x, y)] = 1;
+    void paint_texel(std::int64_t x, std::int64_t y, Scratch& own) {
+        Colour sum{};
+        int count = 0;
+        visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += own.lights[sample(i, j)][c];
+            ++count;
         });
+        if (count == 0) return;
+        for (float& light : sum) light /= static_cast<float>(count);
+        colour_.texels[texel(x, y)] = sum;
+        colour_.is_filled[texel(x, y)] = 1;
+        if (has_heights()) raise_texel(x, y, count, own);
     }
 
-    void raise_row(std::int64_t y, Scratch& own) {
-        visit_texels(own, [&](std::int64_t x, std::size_t first, std::size_t last) {
-            double sum = 0, count = 0;
-            for (std::size_t k = first; k < last; ++k) {
-                if (!std::isfinite(own.heights[k])) continue;
-                sum += static_cast<double>(own.heights[k]);
-                ++count;
+    void raise_texel(std::int64_t x, std::int64_t y, int count, Scratch& own) {
+        double sum = 0, finite = 0;
+        int number = 0;
+        SurfacePlace middle;  // The normal of the middle sample represents all.
+        visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
+            if (number++ == count / 2) {
+                middle = layout_.place_at(own.row[sample(i, j)], i, y * samples() + j);
             }
-            if (count == 0) return;
-            relief_.texels[texel(x, y)][0] = static_cast<float>(sum / count);
-            relief_.is_filled[texel(x, y)] = 1;
-            // The normal of the middle sample represents all.
-            const Vector3 normal = bumped_normal(own.places[(first + last) / 2], own.painter);
-            if (!std::isfinite(normal.x + normal.y + normal.z)) return;
-            slopes_.texels[texel(x, y)] = {normal.x, normal.y, normal.z};
-            slopes_.is_filled[texel(x, y)] = 1;
+            const float height = own.heights[sample(i, j)];
+            if (!std::isfinite(height)) return;
+            sum += static_cast<double>(height);
+            ++finite;
         });
+        if (finite == 0) return;
+        relief_.texels[texel(x, y)][0] = static_cast<float>(sum / finite);
+        relief_.is_filled[texel(x, y)] = 1;
+        const Vector3 normal = bumped_normal(middle, own.painter);
+        if (!std::isfinite(normal.x + normal.y + normal.z)) return;
+        slopes_.texels[texel(x, y)] = {normal.x, normal.y, normal.z};
+        slopes_.is_filled[texel(x, y)] = 1;
     }
 
     /// The normal of the displaced surface, relative to the tangent, the bitangent and the smooth

@@ -9,18 +9,25 @@
 namespace cascade {
 
 PlacePainter::Look PlacePainter::at(const SurfacePlace& place) {
+    filter_at(place, values_);
+    return look_of(values_, place);
+}
+
+void PlacePainter::filter_at(const SurfacePlace& place, std::span<float> values) {
     filter_.shares(place, shares_);
-    std::fill(values_.begin(), values_.end(), 0.0F);
-    Look look;
+    std::fill(values.begin(), values.end(), 0.0F);
     for (const CellShare& share : shares_) {
         const std::size_t first = share.cell * cells_.channels;
         for (std::size_t c = 0; c < cells_.channels; ++c) {
-            values_[c] += share.weight * cells_.values[first + c];
+            values[c] += share.weight * cells_.values[first + c];
         }
-        if (!cells_.heights.empty()) look.height += share.weight * cells_.heights[share.cell];
+        if (!cells_.heights.empty()) values.back() += share.weight * cells_.heights[share.cell];
     }
-    look.colour = shown(cells_.colour(values_, place));
-    return look;
+}
+
+PlacePainter::Look PlacePainter::look_of(std::span<const float> values,
+                                         const SurfacePlace& place) const {
+    return {shown(cells_.colour(values.first(cells_.channels), place)), values.back()};
 }
 
 Vector3d PlacePainter::rise_at(const SurfacePlace& place) {

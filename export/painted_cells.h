@@ -29,7 +29,7 @@ struct PaintedCells {
 class PlacePainter {
 public:
     PlacePainter(const CellFilter& filter, const PaintedCells& cells)
-        : filter_(filter), cells_(cells), values_(cells.channels) {}
+        : filter_(filter), cells_(cells), values_(number_of_values()) {}
 
     struct Look {
         Colour colour;
@@ -37,6 +37,11 @@ public:
     };
     /// The colour of the filtered values, and the filtered height.
     Look at(const SurfacePlace& place);
+    /// The two halves of `at`: the filtered values with the filtered height as the last, which vary
+    /// smoothly along the surface, and their look. `values` has number_of_values() elements.
+    void filter_at(const SurfacePlace& place, std::span<float> values);
+    Look look_of(std::span<const float> values, const SurfacePlace& place) const;
+    std::size_t number_of_values() const { return cells_.channels + 1; }
 
     /// The gradient of the height, in the plane of the triangle. Exactly 0 if heights are equal
     /// around.

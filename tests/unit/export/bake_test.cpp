@@ -197,6 +197,30 @@ struct BakedSphere {
     PaintedCells look = {1, values, grey, values};
 };
 
+TEST(Bake, EveryTexelIsNearlyWhatTheFilterSaysThere) {
+    const BakedSphere sphere;
+    const std::int64_t width = 1024, height = 512;
+    const Bake result =
+        baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(width, height, 1));
+    Team team(1);
+    const CellFilter filter(sphere.mesh, sphere.cells, team);
+    PlacePainter painter(filter, sphere.look);
+    const TextureLayout layout(sphere.mesh, width, height);
+    std::vector<std::uint32_t> owners(static_cast<std::size_t>(width * height));
+    layout.find_owners(0, height, owners);
+    float largest = 0;
+    for (std::int64_t y = 0; y < height; ++y) {
+        for (std::int64_t x = 0; x < width; ++x) {
+            const std::uint32_t owner = owners[static_cast<std::size_t>(y * width + x)];
+            if (owner == TextureLayout::nothing) continue;
+            const float exact = painter.at(layout.place_at(owner, x, y)).colour[0];
+            largest = std::max(largest, std::abs(result.colour.at(x, y)[0] - exact));
+        }
+    }
+    EXPECT_LT(largest, 0.5F / 255);
+    EXPECT_GT(largest, 0) << "values are interpolated";
+}
+
 TEST(Bake, BothSidesOfASeamAgree) {
     const BakedSphere sphere;
     const Bake result = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(256, 128));
