@@ -79,8 +79,7 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     return canvas;
 }
 
-Result<std::vector<std::filesystem::path>> FrameRecorder::write(const Painter& painter,
-                                                                PngDepth depth,
+Result<std::vector<std::filesystem::path>> FrameRecorder::write(Painter& painter, PngDepth depth,
                                                                 const PngTexts& texts) {
     std::vector<std::filesystem::path> written;
     std::rewind(file_.get());
@@ -99,7 +98,7 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const Painter& p
     return written;
 }
 
-Image FrameRecorder::space_time(const Painter& painter) const {
+Image FrameRecorder::space_time(Painter& painter) const {
     Image whole(0, 0);
     for (const Canvas& row : rows_) {
         const Image image = painter.image(row, automatic_range(values_));

@@ -29,11 +29,11 @@ public:
     bool holds_starts_alone() const;
 
     /// Draws every frame as NUMBER-STAGE-STEP.png with one range for all.
-    Result<std::vector<std::filesystem::path>> write(const Painter& painter, PngDepth depth,
+    Result<std::vector<std::filesystem::path>> write(Painter& painter, PngDepth depth,
                                                      const PngTexts& texts);
 
     /// The rows of a one-row grid, stacked vertically, the first frame at the top.
-    Image space_time(const Painter& painter) const;
+    Image space_time(Painter& painter) const;
 
 private:
     struct Frame {

@@ -41,13 +41,13 @@ public:
     /// Throws std::bad_alloc.
     explicit ModelDrawer(std::shared_ptr<const ModelCells> model);
 
-    Image draw(const ModelLook& look, const DrawOptions& options) const;
+    Image draw(const ModelLook& look, const DrawOptions& options);
     const ModelCells& model() const { return *model_; }
     const CellFilter& filter() const { return scene_.filter(); }
 
 private:
     std::shared_ptr<const ModelCells> model_;
-    mutable Team team_;  ///< For one picture at a time.
+    Team team_;
     CellScene scene_;
 };
 

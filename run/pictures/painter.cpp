@@ -120,8 +120,8 @@ ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) c
     return look;
 }
 
-Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) const {
-    if (!drawer_) drawer_ = std::make_shared<const ModelDrawer>(model_);
+Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
+    if (!drawer_) drawer_ = std::make_shared<ModelDrawer>(model_);
     DrawOptions options;
     options.width *= request_.scale;
     options.height *= request_.scale;
@@ -130,7 +130,7 @@ Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) c
     return drawer_->draw(look(canvas, range), options);
 }
 
-Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) const {
+Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
     if (model_) return on_model(canvas, range);
     Image flat = texture(canvas, range);
     const DomainSettings& domain = script_->program->domain;

@@ -39,7 +39,7 @@ public:
 
     /// The canvas as an image, enlarged, and transparent outside of the mask; drawn on the surface
     /// if the domain has one. `range` overrides the automatic range.
-    Image image(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
+    Image image(const Canvas& canvas, std::optional<ValueRange> range = {});
     const PictureRequest& request() const { return request_; }
     /// Sets the view of later pictures.
     void set_view(const View& view) { request_.view = view; }
@@ -49,7 +49,7 @@ public:
 private:
     Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
     ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range) const;
-    Image on_model(const Canvas& canvas, std::optional<ValueRange> range) const;
+    Image on_model(const Canvas& canvas, std::optional<ValueRange> range);
     std::optional<Formula> formula_for(std::uint32_t stage, std::uint32_t last_stage);
 
     Script* script_ = nullptr;
@@ -57,8 +57,8 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
-    std::shared_ptr<const ModelCells> model_;            ///< Of the last canvas; null on grids.
-    mutable std::shared_ptr<const ModelDrawer> drawer_;  ///< Made with the first picture.
+    std::shared_ptr<const ModelCells> model_;  ///< Of the last canvas; null on grids.
+    std::shared_ptr<ModelDrawer> drawer_;      ///< Made with the first picture.
     Field outside_;  ///< Of the last canvas: NaN outside of the domain; empty without a mask.
 };
 
