@@ -107,11 +107,12 @@ Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precisio
         weights_ = std::move(weights);
     };
     with_number(precision, [&](auto zero) { make(Weights<decltype(zero)>{}); });
-    if (!list.gradients.empty()) add_gradients(list.gradients, list.ends, layout, order);
+    if (!list.gradients.empty()) *this = with_gradients(list.gradients, list.ends, layout, order);
 }
 
-void Links::add_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
-                          const PlaneLayout& layout, std::span<const std::uint32_t> order) {
+Links Links::with_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
+                            const PlaneLayout& layout, std::span<const std::uint32_t> order) const {
+    Links links = *this;
     const Placing placing(ends, layout, order);
     const std::size_t size = std::size_t{starts_.back()} * static_cast<std::size_t>(slice_cells);
     const auto add = [&]<typename Number>(Weights<Number>& weights) {
@@ -123,7 +124,8 @@ void Links::add_gradients(std::span<const Vector3d> gradients, std::span<const s
         };
         placing.for_each(starts_, put, [](auto...) {});
     };
-    std::visit(add, weights_);
+    std::visit(add, links.weights_);
+    return links;
 }
 
 template <typename Number>

@@ -43,27 +43,24 @@ struct LinkList {
     std::vector<Vector3d> gradients;  ///< Empty, or one for each link.
 };
 
-/// An array aligned to 64 bytes, initially zero.
+/// An array aligned to 64 bytes, initially zero. Copies share it.
 template <typename T>
 class AlignedArray {
 public:
     AlignedArray() = default;
     explicit AlignedArray(std::size_t count)
-        : count_(count), data_(static_cast<T*>(allocate_plane(count * sizeof(T)))) {}
+        : count_(count), data_(static_cast<T*>(allocate_plane(count * sizeof(T))), free_plane) {}
 
     T* data() { return data_.get(); }
     const T* data() const { return data_.get(); }
     std::size_t bytes() const { return count_ * sizeof(T); }
 
 private:
-    struct Free {
-        void operator()(T* data) const { free_plane(data); }
-    };
     std::size_t count_ = 0;
-    std::unique_ptr<T[], Free> data_;
+    std::shared_ptr<T[]> data_;
 };
 
-/// Owns a table in one precision.
+/// Owns a table in one precision. Copies share its arrays, which do not change.
 class Links {
 public:
     Links() = default;
@@ -74,10 +71,11 @@ public:
     Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
           std::span<const std::uint32_t> order = {});
 
-    /// Adds gradient weights, one for each link of the list given to the constructor; `ends` is
-    /// that list's, and layout and order are the same. Throws std::bad_alloc.
-    void add_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
-                       const PlaneLayout& layout, std::span<const std::uint32_t> order = {});
+    /// A copy with gradient weights, one for each link of the list given to the constructor; `ends`
+    /// is that list's, and layout and order are the same. Throws std::bad_alloc.
+    Links with_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
+                         const PlaneLayout& layout,
+                         std::span<const std::uint32_t> order = {}) const;
 
     Precision precision() const {
         return weights_.index() == 0 ? Precision::single : Precision::binary64;

@@ -352,14 +352,16 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
     return ModelCellMaker(program, team, control).make(access);
 }
 
-void ModelCells::need_gradients() const {
-    if (has_gradients_) return;
-    const std::atomic<bool> never = false;
-    Team team(hardware_threads());
-    std::vector<Vector3d> gradients = cell_gradient_weights(mesh, cells, team, never);
-    for (Vector3d& gradient : gradients) gradient = gradient * unit;
-    links.add_gradients(gradients, cells.ends, PlaneLayout(grid), order);
-    has_gradients_ = true;
+const Links& ModelCells::links_with_gradients() const {
+    std::call_once(has_gradients_, [&] {
+        const std::atomic<bool> never = false;
+        Team team(hardware_threads());
+        std::vector<Vector3d> gradients = cell_gradient_weights(mesh, cells, team, never);
+        for (Vector3d& gradient : gradients) gradient = gradient * unit;
+        links_with_gradients_ =
+            links.with_gradients(gradients, cells.ends, PlaneLayout(grid), order);
+    });
+    return links_with_gradients_;
 }
 
 SurfaceMesh ModelCells::mesh_of_file() const {

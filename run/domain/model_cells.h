@@ -14,6 +14,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,12 +35,10 @@ struct ModelCells : ModelFacts {
     Mask inside;                ///< 0 in the padding of the last row, else 1.
     double unit = 1;            ///< In lengths of the model.
     std::vector<Field> planes;  ///< By ModelPlane.
-    /// Has no weights of gradients until need_gradients() is called, because few scripts need them.
-    mutable Links links;
+    Links links;                ///< Without weights of gradients: few scripts need them.
 
-    /// Gives the links the weights of gradients, on the first call. From one thread at a time.
-    /// Throws std::bad_alloc.
-    void need_gradients() const;
+    /// The links with weights of gradients, which the first call finds. Throws std::bad_alloc.
+    const Links& links_with_gradients() const;
 
     /// The mesh as it was before it was turned upright, bit for bit.
     SurfaceMesh mesh_of_file() const;
@@ -49,7 +48,8 @@ struct ModelCells : ModelFacts {
     std::uint32_t cell_at(std::int64_t k) const { return order[static_cast<std::size_t>(k)]; }
 
 private:
-    mutable bool has_gradients_ = false;
+    mutable std::once_flag has_gradients_;
+    mutable Links links_with_gradients_;
 };
 
 /// Where the file of a model may lie.

@@ -40,11 +40,19 @@ std::int64_t cells_inside(const BindingContext& context) {
 }
 
 /// Does it read a component of a gradient on a model?
-bool reads_gradients(const CellKernel& kernel) {
-    return std::any_of(kernel.code.begin(), kernel.code.end(), [](const Instruction& instruction) {
+bool reads_gradients(const Pass& pass) {
+    const auto& code = pass.bound.kernel.code;
+    return std::any_of(code.begin(), code.end(), [](const Instruction& instruction) {
         const Op op = instruction.op;
         return op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
     });
+}
+
+/// The links of a model as a plan reads them; null on grids.
+const Links* links_of(const BindingContext& context, const StepPlan& plan) {
+    if (!context.grid.linked) return nullptr;
+    const bool reads = std::any_of(plan.passes.begin(), plan.passes.end(), reads_gradients);
+    return reads ? &context.model->links_with_gradients() : &context.model->links;
 }
 
 /// Binds the slots of a plan's passes.
@@ -78,11 +86,10 @@ public:
         problem_.grid = context_.grid;
         problem_.cells_inside = cells_inside(context_);
         problem_.precision = context_.precision;
-        if (context_.grid.linked) problem_.links = &context_.model->links;
+        problem_.links = links_of(context_, plan_);
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
         for (const Pass& pass : plan_.passes) {
-            if (reads_gradients(pass.bound.kernel)) context_.model->need_gradients();
             problem_.passes.push_back(bind_pass(pass));
             problem_.passes.back().kernel = compile(pass.bound.kernel);
         }
@@ -304,7 +311,6 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.grid = context.grid;
     whole.cells_inside = cells_inside(context);
     whole.precision = context.precision;
-    if (context.grid.linked) whole.links = &context.model->links;
     whole.registers = scheme.registers;
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;
@@ -330,6 +336,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         binders[n].species_needs_halo() = whole.species_needs_halo;
         binders[n].set_halo_registers(with_halo);
         StepProblem part = binders[n].bind(compile);
+        if (whole.links == nullptr || part.links != &context.model->links) whole.links = part.links;
         whole.temporaries = std::max(whole.temporaries, part.temporaries);
         whole.aggregates = std::max(whole.aggregates, part.aggregates);
         if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
