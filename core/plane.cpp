@@ -2,6 +2,7 @@
 #include "core/plane.h"
 
 #include "core/check.h"
+#include "core/side_cells.h"
 
 #include <algorithm>
 #include <array>
@@ -88,8 +89,9 @@ private:
         std::int64_t row, slice;
     };
 
-    static const Number* values_of(const SideRule& rule) {
-        return static_cast<const Number*>(rule.values);
+    /// The value e of a side at a cell beside it.
+    static Number value_at(const SideRule& rule, std::int64_t cell) {
+        return static_cast<Number>(rule.values ? rule.values->at(cell) : rule.value);
     }
     std::int64_t source(Side side) const { return sources_[static_cast<std::size_t>(side)]; }
     std::int64_t start(RowPlace place) const {
@@ -107,18 +109,25 @@ private:
         }
         if (!left.has_value() && !right.has_value()) return;
         for (std::int64_t j = begin; j < end; ++j) {
-            const std::int64_t row = start({j, slice});
-            Number* cells = origin_ + row;
-            const auto value = [&](const SideRule& rule, std::int64_t i) {
-                return rule.values ? values_of(rule)[row + i] : static_cast<Number>(rule.value);
-            };
+            const std::int64_t row = slice * layout_.height + j;
+            Number* cells = origin_ + start({j, slice});
             if (left.has_value()) {
-                cells[-1] = beyond(left, cells[0], value(left, 0), spacing_);
+                cells[-1] = beyond(left, cells[0], value_at(left, row), spacing_);
             }
             if (right.has_value()) {
-                cells[after] = beyond(right, cells[after - 1], value(right, after - 1), spacing_);
+                cells[after] = beyond(right, cells[after - 1], value_at(right, row), spacing_);
             }
         }
+    }
+
+    /// The cell beside a side that comes first in a row, which may be one of the halo: its values
+    /// go on as the field does.
+    std::int64_t first_beside(Side side, RowPlace from) const {
+        const std::int64_t of_slice = from.row < 0                 ? source(Side::top)
+                                      : from.row >= layout_.height ? source(Side::bottom)
+                                                                   : from.row;
+        const std::int64_t row = from.slice * layout_.height + of_slice;
+        return SideCells::of_rows(layout_, side, {row, row + 1}).first;
     }
 
     /// Fills a row of the halo beyond a side, with its halo columns.
@@ -130,10 +139,13 @@ private:
         if (!rule.has_value()) {
             std::memcpy(halo, cells, static_cast<std::size_t>(count) * sizeof(Number));
         } else if (rule.values) {
-            const Number* values = values_of(rule) + start(from) - 1;
-            for (std::int64_t i = 0; i < count; ++i) {
-                halo[i] = beyond(rule, cells[i], values[i], spacing_);
-            }
+            const std::int64_t first = first_beside(side, from);
+            const auto fill = [&](std::int64_t i, std::int64_t column) {
+                halo[i] = beyond(rule, cells[i], value_at(rule, first + column), spacing_);
+            };
+            fill(0, source(Side::left));
+            for (std::int64_t i = 0; i < layout_.width; ++i) fill(i + 1, i);
+            fill(count - 1, source(Side::right));
         } else {
             const auto value = static_cast<Number>(rule.value);
             for (std::int64_t i = 0; i < count; ++i) {

@@ -98,14 +98,6 @@ public:
         return std::visit(std::forward<Look>(look), cells_);
     }
 
-    /// Address of cell (0, 0, 0), for callers that know the precision from elsewhere.
-    void* address() {
-        return visit([](auto& plane) -> void* { return plane.origin(); });
-    }
-    const void* address() const {
-        return visit([](const auto& plane) -> const void* { return plane.origin(); });
-    }
-
     bool empty() const {
         return visit([](const auto& plane) { return plane.empty(); });
     }
@@ -165,9 +157,9 @@ private:
     std::variant<Plane<float>, Plane<double>> cells_;
 };
 
-/// Fills the halo of a field, edges and corners included, by the rules of its sides: columns −1 and
+/// Fills the halo of a plane, edges and corners included, by the rules of its sides: columns −1 and
 /// width, then rows −1 and height with their halo columns and, if there are several slices, slices
-/// −1 and depth with both. Planes of side values have the precision of the field.
+/// −1 and depth with both.
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
 void fill_halo(Field& field, const SideRules& sides);

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 namespace cascade {
 
@@ -38,13 +40,20 @@ constexpr bool takes_value(SideKind kind) {
 inline constexpr std::array<std::string_view, 4> side_kind_words{"periodic", "noflux", "fixed",
                                                                  "flux"};
 
-/// The boundary condition at a side of one field. The side's value e varies if `values` is set: it
-/// points to cell (0, 0, 0) of a plane in the field's precision whose cells at the side hold e
-/// (with its halo filled). Otherwise e is `value` everywhere.
+/// The values e of a side that vary along it, numbers of the field's precision. Cells beside a side
+/// are numbered as in core/side_cells.h.
+struct SideValues {
+    std::int64_t first = 0;       ///< The cell that the first number belongs to.
+    std::vector<double> numbers;  ///< For as many cells as halo is filled from.
+
+    double at(std::int64_t cell) const { return numbers[static_cast<std::size_t>(cell - first)]; }
+};
+
+/// The boundary condition at a side of one field. Where `values` is null, e is `value` everywhere.
 struct SideRule {
     SideKind kind = SideKind::periodic;
     double value = 0;
-    const void* values = nullptr;
+    std::shared_ptr<const SideValues> values;
 
     bool has_value() const { return takes_value(kind); }
 };

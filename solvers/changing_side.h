@@ -24,16 +24,6 @@ struct SideMoment {
     double t = 0;           ///< The stage's time.
 };
 
-/// The numbers of cells beside a side: those in rows [begin, end) are [first, first + count), in
-/// order of rows and columns.
-struct SideCells {
-    std::int64_t first = 0, count = 0;
-
-    static SideCells of_rows(const PlaneLayout& layout, Side side, RowRange rows);
-    /// The distance in elements from cell (0, 0, 0) to a cell beside the side.
-    static std::int64_t offset(const PlaneLayout& layout, Side side, std::int64_t number);
-};
-
 struct ChangingSide {
     std::uint32_t species = 0;
     Side side = Side::left;
@@ -42,17 +32,12 @@ struct ChangingSide {
     std::vector<std::vector<double>> strips;  ///< By field slot: values along the side.
     std::vector<double> uniforms;
     std::optional<std::uint32_t> time_slot, step_slot;  ///< Uniforms that a moment sets.
-    /// Cell (0, 0, 0) of the plane that the side's rule points to; null if one number holds for all
-    /// cells.
-    void* values = nullptr;
+    bool varies = false;                                ///< Along the side.
 };
 
-/// Sets the rules of a species to a moment, for halo that is filled from some rows. Must run inside
-/// a FlushDenormals. Threads may call it at once for different rows.
+/// Sets the rules of a species to a moment, for halo that is filled from these rows. Must run
+/// inside a FlushDenormals.
 void set_side_values(std::span<const ChangingSide> sides, std::size_t species, SideMoment moment,
                      const PlaneLayout& layout, RowRange rows, SideRules& rules);
-
-/// How the values of a side continue beyond its ends: like the species.
-Boundaries boundary_of(const SideRules& rules);
 
 }  // namespace cascade

@@ -25,6 +25,27 @@ Field restricted_field(const Field& fine, const Grid& fine_grid, const Grid& coa
         [&](const auto& plane) { return Field(restricted(plane, fine_grid, coarse_grid)); });
 }
 
+/// The cells beside a side of an axis as a grid of their own, in the same order.
+Grid face_of(const Grid& grid, std::size_t axis) {
+    return {axis == 0 ? grid.height : grid.width, axis == 2 ? grid.height : grid.depth};
+}
+
+/// Values of a side on a coarser grid: means along the side.
+std::shared_ptr<const SideValues> restricted(const SideValues& fine, const Grid& fine_grid,
+                                             const Grid& coarse_grid, std::size_t axis) {
+    const Grid face = face_of(fine_grid, axis), coarse_face = face_of(coarse_grid, axis);
+    Plane<double> numbers{PlaneLayout(face)};
+    for (std::int64_t j = 0; j < face.height; ++j) {
+        std::copy_n(fine.numbers.begin() + j * face.width, face.width, numbers.row(j));
+    }
+    const Plane<double> means = restricted(numbers, face, coarse_face);
+    SideValues coarse;
+    for (std::int64_t j = 0; j < coarse_face.height; ++j) {
+        coarse.numbers.insert(coarse.numbers.end(), means.row(j), means.row(j) + coarse_face.width);
+    }
+    return std::make_shared<const SideValues>(std::move(coarse));
+}
+
 /// The same program on a grid whose cells are `times` as wide. The stage takes times² as many
 /// steps, or as much time, as on the fine grid, because the time that a pattern needs grows with
 /// the square of its lengths.
@@ -57,19 +78,13 @@ StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid&
     };
     all(fine.fields, coarse.fields);
     all(fine.species, coarse.species);
-    all(fine.side_values, coarse.side_values);
     coarse.sides = fine.sides;
     for (SideRules& rules : coarse.sides) {
         rules.spacing = coarse_grid.spacing;
-        for (SideRule& rule : rules.at) {
-            if (rule.values == nullptr) continue;
-            const auto same =
-                std::find_if(fine.side_values.begin(), fine.side_values.end(),
-                             [&](const Field& values) { return values.address() == rule.values; });
-            Field& values =
-                coarse.side_values[static_cast<std::size_t>(same - fine.side_values.begin())];
-            fill_halo(values, coarse_grid.boundary);
-            rule.values = values.address();
+        for (std::size_t side = 0; side < side_count; ++side) {
+            auto& values = rules.at[side].values;
+            if (!values) continue;
+            values = restricted(*values, fine_grid, coarse_grid, side / 2);
         }
     }
     return coarse;

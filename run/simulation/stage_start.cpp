@@ -2,6 +2,7 @@
 #include "run/simulation/stage_start.h"
 
 #include "core/floating_point.h"
+#include "core/side_cells.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
 #include "run/simulation/stage_view.h"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -90,23 +92,16 @@ Result<void> find_sides(const StageView& view, StageState& state) {
                     "a flux needs rows and columns that meet at right angles; fixed(…) does not");
             }
             if (value.changes) {
-                ChangingSide changing =
-                    bind_side(value, species, static_cast<Side>(side), here.kernels->interpreted(),
-                              view.context(), *here.team);
-                if (!value.each.is_uniform) {
-                    changing.values =
-                        state.side_values.emplace_back(PlaneLayout(here.grid), here.precision())
-                            .address();
-                    rule.values = changing.values;
-                }
-                changing_sides.push_back(std::move(changing));
+                changing_sides.push_back(bind_side(value, species, static_cast<Side>(side),
+                                                   here.kernels->interpreted(), view.context(),
+                                                   *here.team));
                 continue;
             }
-            Field values = std::move(view.evaluate(value.each)[0]);
+            const Field values = std::move(view.evaluate(value.each)[0]);
             rule.value = values.number_at(0, 0);
             if (is_same_everywhere(values)) continue;
-            fill_halo(values, boundary_of(rules));
-            rule.values = state.side_values.emplace_back(std::move(values)).address();
+            rule.values = std::make_shared<const SideValues>(
+                SideValues{0, values_beside(values, static_cast<Side>(side))});
         }
         found.push_back(rules);
     }

@@ -2,26 +2,10 @@
 #include "run/stage/bind_side.h"
 
 #include "core/check.h"
+#include "core/side_cells.h"
 #include "run/stage/plan_runner.h"
 
 namespace cascade {
-
-namespace {
-
-/// The values of a plane's cells beside a side.
-std::vector<double> strip_of(const Field& field, Side side) {
-    const PlaneLayout& layout = field.layout();
-    const SideCells all = SideCells::of_rows(layout, side, {0, layout.row_count()});
-    std::vector<double> strip(static_cast<std::size_t>(all.count + PlaneLayout::row_pad));
-    field.visit([&](const auto& plane) {
-        for (std::int64_t k = 0; k < all.count; ++k) {
-            strip[static_cast<std::size_t>(k)] = plane.origin()[SideCells::offset(layout, side, k)];
-        }
-    });
-    return strip;
-}
-
-}  // namespace
 
 ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
                        const Compile& compile, const BindingContext& context, Team& team) {
@@ -34,10 +18,12 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
     changing.side = side;
     changing.kernel = compile(bound.kernel);
     changing.precision = context.precision;
+    changing.varies = !plans.each.is_uniform;
     for (const PlaneSource& source : bound.fields) {
         const auto* const id = std::get_if<StepInvariantId>(&source);
         const Field& plane = id != nullptr ? step_invariants[*id] : plane_of(source, context);
-        changing.strips.push_back(strip_of(plane, side));
+        std::vector<double>& strip = changing.strips.emplace_back(values_beside(plane, side));
+        strip.resize(strip.size() + PlaneLayout::row_pad);  // Kernels read whole vectors.
     }
     for (const UniformSource& source : bound.uniforms) {
         const auto slot = static_cast<std::uint32_t>(changing.uniforms.size());

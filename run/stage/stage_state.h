@@ -32,7 +32,6 @@ struct StageState {
     std::vector<int> species_of_item;          ///< Per item; −1 for parameters.
     Mask frozen;                               ///< Only where `frozen` varies.
     std::vector<SideRules> sides;              ///< By species; empty if the boundary holds for all.
-    std::vector<Field> side_values;            ///< The planes to which the rules of sides point.
     std::vector<ChangingSide> changing_sides;  ///< The sides whose values change with time.
 
     /// Sets the progress of the stage, and the values of sides to those of that moment.

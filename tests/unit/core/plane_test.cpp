@@ -1,12 +1,15 @@
 // Layout and halo of planes.
 #include "core/plane.h"
 
+#include "core/side_cells.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -136,10 +139,20 @@ float expected_beyond(const Field& cells, const Grid& grid, const SideRules& sid
     return cells.at(at[0], at[1], at[2]);
 }
 
+/// The values of a side that halo from these rows needs.
+std::shared_ptr<const SideValues> values_beside(const Field& values, Side side, RowRange rows) {
+    const SideCells cells = SideCells::of_rows(values.layout(), side, rows);
+    SideValues part{cells.first, {}};
+    for (std::int64_t cell = cells.first; cell < cells.first + cells.count; ++cell) {
+        part.numbers.push_back(values.origin()[SideCells::offset(values.layout(), side, cell)]);
+    }
+    return std::make_shared<const SideValues>(part);
+}
+
 TEST_P(Halo, SidesWithValues) {
     const Grid grid{GetParam().width, GetParam().height, Boundary::no_flux, GetParam().depth};
     Field values = numbered(grid);
-    fill_halo(values.origin(), values.layout(), grid.boundary);
+    const std::int64_t rows = values.layout().row_count();
     const SideKind kinds[] = {SideKind::no_flux, SideKind::fixed, SideKind::flux};
     for (int mixture = 0; mixture < 729; mixture += 7) {
         SideRules sides;
@@ -147,14 +160,20 @@ TEST_P(Halo, SidesWithValues) {
         int digits = mixture;
         for (std::size_t side = 0; side < side_count; ++side, digits /= 3) {
             sides.at[side] = {kinds[digits % 3], static_cast<float>(side) + 0.25f, nullptr};
-            if ((mixture + static_cast<int>(side)) % 2 == 0)
-                sides.at[side].values = values.origin();
         }
-        if (mixture % 3 == 1) sides.at[0].kind = sides.at[1].kind = SideKind::periodic;
+        const bool wraps = mixture % 3 == 1;
+        if (wraps) sides.at[0].kind = sides.at[1].kind = SideKind::periodic;
+        // Beyond the ends of a side its values go on as the field does.
+        fill_halo(values, Boundaries(wraps ? Boundary::periodic : Boundary::no_flux,
+                                     Boundary::no_flux, Boundary::no_flux));
         Field field = numbered(grid);
-        const std::int64_t rows = field.layout().row_count();
-        fill_halo_from_rows(field.origin(), field.layout(), sides, rows / 2, rows);
-        fill_halo_from_rows(field.origin(), field.layout(), sides, 0, rows / 2);
+        for (const RowRange part : {RowRange{rows / 2, rows}, RowRange{0, rows / 2}}) {
+            for (std::size_t side = 0; side < side_count; ++side) {
+                if ((mixture + static_cast<int>(side)) % 2 != 0) continue;
+                sides.at[side].values = values_beside(values, static_cast<Side>(side), part);
+            }
+            fill_halo_from_rows(field.origin(), field.layout(), sides, part.begin, part.end);
+        }
         const std::int64_t halo = grid.depth > 1 ? 1 : 0;
         for (std::int64_t k = -halo; k < grid.depth + halo; ++k) {
             for (std::int64_t j = -1; j <= grid.height; ++j) {
