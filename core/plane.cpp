@@ -219,8 +219,8 @@ void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRu
     }
 }
 
-void fill_halo(Field& field, const SideRules& sides) {
-    field.visit([&](auto& plane) { fill_halo(plane.origin(), plane.layout(), sides); });
+void Field::fill_halo(const SideRules& sides) const {
+    visit([&](const auto& plane) { plane.fill_halo(sides); });
 }
 
 template void fill_halo<float>(float*, const PlaneLayout&, const SideRules&);

@@ -20,6 +20,18 @@ namespace cascade {
 void* allocate_plane(std::size_t bytes);
 void free_plane(void* plane);
 
+/// Fills the halo of a plane, edges and corners included, by the rules of its sides: columns −1 and
+/// width, then rows −1 and height with their halo columns and, if there are several slices, slices
+/// −1 and depth with both.
+template <typename Number>
+void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
+
+/// Fills all halo cells whose values come from rows [begin, end), numbered through all slices.
+/// Threads with disjoint parts of the rows fill the whole halo without reading each other's rows.
+template <typename Number>
+void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
+                         std::int64_t begin, std::int64_t end);
+
 /// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and initially zero.
 /// Movable; copied only by clone().
 template <typename T>
@@ -51,6 +63,12 @@ public:
         Plane copy(layout_);
         if (data_) std::memcpy(copy.data_.get(), data_.get(), bytes(layout_));
         return copy;
+    }
+
+    /// The halo is no part of a plane's value but a cache of what its sides say: whoever reads
+    /// neighbours fills it, also of a const plane. One thread at a time.
+    void fill_halo(const SideRules& sides) const {
+        cascade::fill_halo(data_.get() + layout_.offset(0, 0), layout_, sides);
     }
 
     static std::size_t bytes(const PlaneLayout& layout) {
@@ -107,6 +125,7 @@ public:
     Field clone() const {
         return visit([](const auto& plane) { return Field(plane.clone()); });
     }
+    void fill_halo(const SideRules& sides) const;  ///< As Plane::fill_halo().
     /// A copy in another precision, with rounded values if that is lower; includes the halo.
     Field converted(Precision precision) const;
 
@@ -156,18 +175,5 @@ public:
 private:
     std::variant<Plane<float>, Plane<double>> cells_;
 };
-
-/// Fills the halo of a plane, edges and corners included, by the rules of its sides: columns −1 and
-/// width, then rows −1 and height with their halo columns and, if there are several slices, slices
-/// −1 and depth with both.
-template <typename Number>
-void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
-void fill_halo(Field& field, const SideRules& sides);
-
-/// Fills all halo cells whose values come from rows [begin, end), numbered through all slices.
-/// Threads with disjoint parts of the rows fill the whole halo without reading each other's rows.
-template <typename Number>
-void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
-                         std::int64_t begin, std::int64_t end);
 
 }  // namespace cascade

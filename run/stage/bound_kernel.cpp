@@ -28,11 +28,6 @@ const Field& plane_of(const PlaneSource& source, const BindingContext& context) 
 
 namespace {
 
-/// The halo is not part of a field's value: code that reads neighbours fills it first.
-void fill_halo_of(const Field& field, const SideRules& sides) {
-    fill_halo(const_cast<Field&>(field), sides);
-}
-
 /// The number of cells that means are taken over; 0: all.
 std::int64_t cells_inside(const BindingContext& context) {
     if (context.grid.linked) return static_cast<std::int64_t>(context.model->count());
@@ -158,8 +153,7 @@ private:
                     break;
                 case PlaneRef::Kind::temporary: temporary_needs_halo_[plane.number] = true; break;
                 case PlaneRef::Kind::fixed:
-                    fill_halo_of(plane_of(pass.bound.fields[slot], context_),
-                                 sides_of(pass.bound.fields[slot]));
+                    plane.field->fill_halo(sides_of(pass.bound.fields[slot]));
                     break;
             }
         }

@@ -151,7 +151,7 @@ std::shared_ptr<const SideValues> values_beside(const Field& values, Side side, 
 
 TEST_P(Halo, SidesWithValues) {
     const Grid grid{GetParam().width, GetParam().height, Boundary::no_flux, GetParam().depth};
-    Field values = numbered(grid);
+    const Field values = numbered(grid);
     const std::int64_t rows = values.layout().row_count();
     const SideKind kinds[] = {SideKind::no_flux, SideKind::fixed, SideKind::flux};
     for (int mixture = 0; mixture < 729; mixture += 7) {
@@ -164,8 +164,8 @@ TEST_P(Halo, SidesWithValues) {
         const bool wraps = mixture % 3 == 1;
         if (wraps) sides.at[0].kind = sides.at[1].kind = SideKind::periodic;
         // Beyond the ends of a side its values go on as the field does.
-        fill_halo(values, Boundaries(wraps ? Boundary::periodic : Boundary::no_flux,
-                                     Boundary::no_flux, Boundary::no_flux));
+        values.fill_halo(Boundaries(wraps ? Boundary::periodic : Boundary::no_flux,
+                                    Boundary::no_flux, Boundary::no_flux));
         Field field = numbered(grid);
         for (const RowRange part : {RowRange{rows / 2, rows}, RowRange{0, rows / 2}}) {
             for (std::size_t side = 0; side < side_count; ++side) {
@@ -221,6 +221,14 @@ TEST(Plane, CellsAreAlignedZeroAndMovable) {
     EXPECT_EQ(copy.at(32, 6), 5.0f);
     EXPECT_TRUE(field.empty());  // NOLINT: looks at what a move leaves.
     EXPECT_FALSE(moved.empty());
+}
+
+TEST(Plane, ItsHaloIsNoPartOfItsValue) {
+    const Field field = numbered(Grid{3, 2});
+    field.fill_halo(Boundaries(Boundary::no_flux));
+    EXPECT_EQ(field.at(-1, 0), field.at(0, 0));
+    field.fill_halo(Boundaries(Boundary::periodic));
+    EXPECT_EQ(field.at(-1, 0), field.at(2, 0));
 }
 
 }  // namespace

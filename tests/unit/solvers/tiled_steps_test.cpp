@@ -119,7 +119,7 @@ public:
         if (grid.linked) add_links();
         fixed_ = Field(layout_, precision_of<Number>);
         fill(fixed_, 99);
-        fill_halo(fixed_, grid.boundary);
+        fixed_.fill_halo(grid.boundary);
         mask_ = Mask(layout_);
         for (std::int64_t row = 0; row < layout_.row_count(); ++row) {
             for (std::int64_t i = 0; i < grid.width; ++i) mask_.row(row)[i] = dice_.below(7) == 0;
