@@ -33,13 +33,20 @@ void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRu
                          std::int64_t begin, std::int64_t end);
 
 /// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and initially zero.
-/// Movable; copied only by clone().
+/// Movable; copied only where that is written: by clone(), or together with what owns it.
 template <typename T>
 class Plane {
 public:
     Plane() = default;
     explicit Plane(const PlaneLayout& layout)
         : layout_(layout), data_(static_cast<T*>(allocate_plane(bytes(layout)))) {}
+    explicit Plane(const Plane& other) {
+        if (other.empty()) return;
+        *this = Plane(other.layout_);
+        std::memcpy(data_.get(), other.data_.get(), bytes(layout_));
+    }
+    Plane(Plane&&) = default;
+    Plane& operator=(Plane&&) = default;
 
     bool empty() const { return !data_; }
     const PlaneLayout& layout() const { return layout_; }
@@ -59,11 +66,7 @@ public:
         return data_[static_cast<std::size_t>(layout_.offset(i, j, k))];
     }
 
-    Plane clone() const {
-        Plane copy(layout_);
-        if (data_) std::memcpy(copy.data_.get(), data_.get(), bytes(layout_));
-        return copy;
-    }
+    Plane clone() const { return Plane(*this); }
 
     /// The halo is no part of a plane's value but a cache of what its sides say: whoever reads
     /// neighbours fills it, also of a const plane. One thread at a time.
@@ -102,6 +105,9 @@ public:
     }
     template <typename Number>
     explicit Field(Plane<Number> plane) : cells_(std::move(plane)) {}
+    explicit Field(const Field&) = default;
+    Field(Field&&) = default;
+    Field& operator=(Field&&) = default;
 
     Precision precision() const {
         return cells_.index() == 0 ? Precision::single : Precision::binary64;
@@ -122,9 +128,7 @@ public:
     const PlaneLayout& layout() const {
         return visit([](const auto& plane) -> const PlaneLayout& { return plane.layout(); });
     }
-    Field clone() const {
-        return visit([](const auto& plane) { return Field(plane.clone()); });
-    }
+    Field clone() const { return Field(*this); }
     void fill_halo(const SideRules& sides) const;  ///< As Plane::fill_halo().
     /// A copy in another precision, with rounded values if that is lower; includes the halo.
     Field converted(Precision precision) const;

@@ -15,8 +15,14 @@
 
 namespace cascade {
 
-/// Values of one stage's items.
+/// Values of one stage's items. A copy owns planes of its own; it is made only where that is
+/// written.
 struct StageState {
+    StageState() = default;
+    explicit StageState(const StageState&) = default;
+    StageState(StageState&&) = default;
+    StageState& operator=(StageState&&) = default;
+
     bool started = false;
     bool done = false;           ///< All its steps are taken, or it has ended early.
     bool condition_met = false;  ///< Its `until` has ended it.

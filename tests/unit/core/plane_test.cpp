@@ -223,6 +223,16 @@ TEST(Plane, CellsAreAlignedZeroAndMovable) {
     EXPECT_FALSE(moved.empty());
 }
 
+TEST(Plane, WhatOwnsPlanesMayBeCopied) {
+    std::vector<Field> fields(2);
+    fields[1] = Field(PlaneLayout(Grid{5, 3}), Precision::binary64);
+    fields[1].at<double>(4, 2) = 7;
+    const std::vector<Field> copies(fields);
+    fields[1].at<double>(4, 2) = 8;
+    EXPECT_TRUE(copies[0].empty());
+    EXPECT_EQ(copies[1].at<double>(4, 2), 7.0);
+}
+
 TEST(Plane, ItsHaloIsNoPartOfItsValue) {
     const Field field = numbered(Grid{3, 2});
     field.fill_halo(Boundaries(Boundary::no_flux));

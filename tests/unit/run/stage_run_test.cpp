@@ -2,11 +2,17 @@
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"
+#include "run/simulation/environment.h"
+#include "run/simulation/stage_run.h"
+#include "run/simulation/stage_start.h"
+#include "run/simulation/stage_view.h"
 #include "support/kernel_comparison.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,6 +104,56 @@ TEST_F(RunningStage, RemarksChangeNoBits) {
     advance(*second, 0, 60);
     EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");
     EXPECT_EQ(first->remark_on(0), second->remark_on(0));
+}
+
+// Sides that vary, that change, and both.
+constexpr const char* held_at_sides =
+    "domain { grid: 20, 16; boundary: noflux }\n"
+    "system s { u: 1 + x; u' = 0.1 * lap(u)\n"
+    "  u.left: fixed(1 + y); u.right: fixed(sin(t) * y); u.top: flux(cos(t)) }\n"
+    "stage one: s { iterations: 60; speed: 0.2; solver: rk2 }\n";
+
+class CopiedState : public ::testing::Test {
+protected:
+    CopiedState() : script_(load_script("test", held_at_sides, ".")) {
+        environment_ = make_environment(script_, {BackendKind::interpreter, 0, 1}).value();
+    }
+    std::vector<StageState> started() {
+        std::vector<StageState> states(1);
+        EXPECT_TRUE(start_stage(*environment_, states, 0));
+        return states;
+    }
+    void advance(std::span<StageState> states, std::int64_t last) {
+        EXPECT_TRUE(StageRun(*environment_, states, 0, never_).advance(last, control_, {}, 0));
+    }
+    std::vector<Field> rates(std::span<const StageState> states) {
+        return StageView(*environment_, states, 0).rates();
+    }
+
+    Script script_;
+    RunControl control_;
+    const Keeping never_;
+    std::unique_ptr<Environment> environment_;
+};
+
+TEST_F(CopiedState, IsAdvancedAsTheOriginal) {
+    std::vector<StageState> states = started();
+    advance(states, 20);
+    std::vector<StageState> copies(states);
+    advance(states, 60);
+    EXPECT_EQ(copies[0].steps, 20);
+    advance(copies, 60);
+    EXPECT_EQ(same_bits(states[0].species, copies[0].species), "");
+}
+
+TEST_F(CopiedState, KeepsItsSides) {
+    std::vector<StageState> states = started();
+    advance(states, 20);
+    const std::vector<Field> then = rates(states);
+    const std::vector<StageState> copies(states);
+    advance(states, 45);
+    EXPECT_NE(same_bits(rates(states), then), "");
+    EXPECT_EQ(same_bits(rates(copies), then), "");
 }
 
 }  // namespace
