@@ -218,8 +218,9 @@ Result<std::string> parse_output_path(std::string_view text) {
                        how_to_make_a_movie(std::filesystem::path(text)));
     }
     return failure(
-        fmt::format("'{}' does not end in .png", text),
-        "on models .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp their cells");
+        fmt::format("'{}' has no ending of a file that can be written", text),
+        ".png is a picture; on a model, .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp "
+        "their cells");
 }
 
 Result<std::string> parse_png_path(std::string_view text) {

@@ -23,7 +23,8 @@ namespace {
 
 constexpr ByPrecision<double> log2_of_e = {0x1.715476p+0, 0x1.71547652b82fep+0};
 
-/// ln 2 as a tail and a head of 14 (42) bits, whose product with the exponent of a number is exact.
+/// ln 2 as a head of 14 (42) bits, whose product with the exponent of a number is exact, and a
+/// tail.
 struct Split {
     double head;
     double tail;

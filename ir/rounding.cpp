@@ -1,5 +1,5 @@
-// Rounding to integers, signs and steps, expanded into operations of the table. All are exact but
-// `modulus`, which is rounded once, and `smooth_step`.
+// Rounding to integers, signs and steps, expanded into operations of the table. All are
+// exact except `modulus`, which rounds once, and `smooth_step`, which rounds several times.
 #include "ir/expression.h"
 
 namespace cascade {

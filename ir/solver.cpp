@@ -12,7 +12,8 @@ namespace {
 struct Row {
     std::string_view name;
     int order;
-    double interval;  ///< Of stability on the negative real axis; for solvers without stages.
+    double interval;  ///< Of stability, on the negative real axis. 0 where the number of stages
+                      ///< is chosen, which decides it.
 };
 
 /// In the order of Solver. Semi-implicit solvers have the interval of their explicit part: two of

@@ -48,7 +48,8 @@ Result<std::unique_ptr<llvm::TargetMachine>> make_target_machine(const std::stri
         const std::vector<std::string> known = llvm_module::known_targets();
         if (std::find(known.begin(), known.end(), cpu) == known.end()) {
             return failure(fmt::format("'{}' is not a processor that code can be made for", cpu),
-                           "such as x86-64, x86-64-v2, x86-64-v3, x86-64-v4");
+                           known.empty() ? "on this machine code is made for its own processor"
+                                         : "such as x86-64, x86-64-v2, x86-64-v3, x86-64-v4");
         }
     }
     const std::string triple = llvm::sys::getProcessTriple();

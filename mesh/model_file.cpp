@@ -1,6 +1,7 @@
 // Selects the reader by the extension of the name.
 #include "mesh/model_file.h"
 
+#include "core/check.h"
 #include "core/file.h"
 #include "core/printable.h"
 
@@ -22,11 +23,34 @@ std::string ending_of(const std::filesystem::path& path) {
     return ending;
 }
 
+struct Format {
+    std::string_view ending;
+    Result<PolygonSoup> (*read)(std::string_view bytes, const GrantedFiles& files);
+};
+
+template <Result<PolygonSoup> (*read)(std::string_view)>
+Result<PolygonSoup> read_alone(std::string_view bytes, const GrantedFiles&) {
+    return read(bytes);
+}
+
+constexpr std::array<Format, 6> formats = {{{"ply", read_alone<read_ply>},
+                                            {"obj", read_alone<read_obj>},
+                                            {"off", read_alone<read_off>},
+                                            {"stl", read_alone<read_stl>},
+                                            {"gltf", read_gltf},
+                                            {"glb", read_gltf}}};
+
+const Format* format_of(std::string_view ending) {
+    const auto* const found = std::find_if(formats.begin(), formats.end(), [&](const Format& each) {
+        return each.ending == ending;
+    });
+    return found == formats.end() ? nullptr : found;
+}
+
 /// The extension of a model's name in lower case; fails for others.
 Result<std::string> model_ending(const std::string& name) {
-    constexpr std::array<std::string_view, 6> endings = {"ply", "obj", "off", "stl", "gltf", "glb"};
     std::string ending = ending_of(name);
-    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return ending;
+    if (format_of(ending) != nullptr) return ending;
     return failure(
         fmt::format("'{}' is no model: its name ends in none of .ply, .obj, .off, .stl, "
                     ".gltf, .glb",
@@ -52,11 +76,9 @@ Result<PolygonSoup> parse_model(const std::string& name, std::string_view ending
 
 Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
                                      const GrantedFiles& files) {
-    if (ending == "ply") return read_ply(bytes);
-    if (ending == "off") return read_off(bytes);
-    if (ending == "gltf" || ending == "glb") return read_gltf(bytes, files);
-    if (ending == "stl") return read_stl(bytes);
-    return read_obj(bytes);
+    const Format* const format = format_of(ending);
+    CHECK(format != nullptr, "the ending of a model is checked before its file is read");
+    return format->read(bytes, files);
 }
 
 Result<PolygonSoup> read_model(const GrantedFiles& files, const std::string& name) {

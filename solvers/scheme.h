@@ -17,8 +17,8 @@ struct Scheme {
     std::uint32_t registers = 2;
     std::vector<SweepForm> forms;
     std::vector<Sweep> sweeps;  ///< In order; one of the last writes the new step.
-    /// The register of an estimate of the step's error, which is proportional to step^order_of; 0
-    /// for none.
+    /// The register of an estimate of the step's error, of the order order_of() in the length of
+    /// the step; 0: the scheme has none.
     std::uint32_t error_register = 0;
     /// The register that holds a solution of lower order once the step is complete; 0 for none.
     std::uint32_t lower_order_register = 0;

@@ -178,7 +178,7 @@ says err "no/such"
 run 3 $model -o big.png --scale 64
 says err "at scale 64 has more than"
 run 64 $model -o m.stl
-says err "'m.stl' does not end in .png"
+says err "'m.stl' has no ending of a file that can be written"
 run 64 $model --bump 2
 says err "'2' is not a number from -1 to 1"
 run 64 $model --bump nan

@@ -19,8 +19,7 @@ struct BenchRequest {
     SimulationOptions simulation;
     std::string stage;   ///< Name, or number from 1, of the only stage to measure; empty for all.
     double seconds = 1;  ///< Time to measure each stage for; above 0.
-    bool has_limits =
-        true;  ///< Measure the machine as well; there are no limits without native code.
+    bool has_limits = true;  ///< Measure the machine's peaks, too; not of interpreted steps.
 };
 
 /// The result of one stage.

@@ -54,6 +54,16 @@ TEST(Settings, AreSuggestedWhereTheyAreMisspelt) {
     });
 }
 
+TEST(Settings, OfTheDomainRefuseNonsense) {
+    for_each_setting([](Setting setting) {
+        if (info(setting).block != SettingBlock::domain) return;
+        const std::string script =
+            fmt::format("domain {{ {}: nowhere }}\nsystem s {{ u: 1; u' = 0 }}\nstage a: s {{ }}\n",
+                        info(setting).word);
+        EXPECT_TRUE(check_text(script)->diagnostics.has_errors()) << script;
+    });
+}
+
 TEST(Settings, AreSuggestedInSystemsToo) {
     EXPECT_THAT(hints_about("system s { iteratons: 5; u: 1; u' = 0 }\nstage a: s { }\n"),
                 Contains("did you mean 'iterations'?"));
