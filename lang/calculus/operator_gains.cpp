@@ -1,6 +1,5 @@
-// The factors by which operators multiply waves, on the plane and on a surface, and the values of
-// vectors.
-#include "lang/calculus/slopes.h"
+// Gains by Gershgorin's circles and by the symbols of differences.
+#include "lang/calculus/operator_gains.h"
 
 #include "core/check.h"
 
@@ -8,87 +7,100 @@
 
 namespace cascade {
 
-bool SlopeRules::has_axis(std::size_t axis) const {
+OperatorGains::OperatorGains(Algebra& algebra, const Program& program, const ModelFacts* model)
+    : algebra_(algebra),
+      grid_(model ? model->grid : program.domain.grid),
+      has_metric_(program.domain.surface && program.domain.surface->has_metric),
+      links_(model ? std::optional(model->largest_weight) : std::nullopt),
+      zero_(algebra.number(0)) {}
+
+bool OperatorGains::has_axis(std::size_t axis) const {
     if (links_) return true;  // Gradients on a model have three components.
     const Stencil stencil = grid_.stencil();
     return axis == 0 ? stencil.x : axis == 1 ? stencil.y : stencil.z;
 }
 
-NodeId SlopeRules::metric(MetricPlane plane) {
+NodeId OperatorGains::metric(MetricPlane plane) {
     return algebra_.leaf(NodeKind::metric, static_cast<std::uint32_t>(plane));
 }
 
 /// 2 / h: a difference across a face counts both cells. On a surface it is multiplied by entries of
 /// Ṽ⁻¹; the second direction has parts along columns and along rows.
-NodeId SlopeRules::gradient_gain(std::size_t axis) {
+NodeId OperatorGains::of_gradient(std::size_t axis) {
     // A gradient and a divergence make a Laplacian, which has parts along three axes.
-    if (links_) return number(std::sqrt(2 * *links_ / 3));
-    const NodeId plane = number(2 / grid_.spacing);
+    if (links_) return algebra_.number(std::sqrt(2 * *links_ / 3));
+    const NodeId plane = algebra_.number(2 / grid_.spacing);
     if (!has_metric_) return plane;
-    const auto size = [&](MetricPlane entry) { return magnitude(metric(entry)); };
-    if (axis == 0) return product(plane, size(MetricPlane::inverse_11));
-    return product(plane, sum(size(MetricPlane::inverse_12), size(MetricPlane::inverse_22)));
+    const auto size = [&](MetricPlane entry) { return algebra_.magnitude(metric(entry)); };
+    if (axis == 0) return algebra_.product(plane, size(MetricPlane::inverse_11));
+    return algebra_.product(plane, algebra_.sum(size(MetricPlane::inverse_12),
+                                                size(MetricPlane::inverse_22)));
 }
 
-/// The largest factor of an operator that makes all waves decay. For lap, each neighbour counts 1
-/// and the cell as much as all of them; for a tensor, its trace counts (see times_tensor).
-std::optional<NodeId> SlopeRules::diffusion_gain(const Node& node) {
+/// For lap, each neighbour counts 1 and the cell as much as all of them; for a tensor, its trace
+/// counts (see SlopeRules::times_tensor).
+std::optional<NodeId> OperatorGains::of_diffusion(const Node& node) {
     const double along_axis = 4 / (grid_.spacing * grid_.spacing);
     switch (node.function) {
         case Function::lap: {
             // Gershgorin: the cell counts as much as its neighbours together.
-            if (links_) return number(2 * *links_);
-            if (!has_metric_) return number(along_axis * grid_.stencil().axes());
-            const NodeId trace = sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
-            return product(number(4), algebra_.quotient(trace, metric(MetricPlane::area)));
+            if (links_) return algebra_.number(2 * *links_);
+            if (!has_metric_) return algebra_.number(along_axis * grid_.stencil().axes());
+            const NodeId trace =
+                algebra_.sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
+            return algebra_.product(algebra_.number(4),
+                                    algebra_.quotient(trace, metric(MetricPlane::area)));
         }
         case Function::diffuse: break;
         default: {
             const Derivative derivative = derivative_of(node.function);
             const bool decays = derivative.order == 2 && !derivative.is_mixed();
-            return decays ? std::optional(number(along_axis)) : std::nullopt;
+            return decays ? std::optional(algebra_.number(along_axis)) : std::nullopt;
         }
     }
     const NodeId a1 = node.operands[1], a2 = node.operands[2];
     if (!has_metric_) {
-        return product(number(along_axis), sum(product(a1, a1), product(a2, a2)));
+        return algebra_.product(algebra_.number(along_axis),
+                                algebra_.sum(algebra_.product(a1, a1), algebra_.product(a2, a2)));
     }
     // The trace of Ṽ⁻¹ A Ṽ⁻ᵀ.
     const auto [a11, a12, a22] = tensor_entries(algebra_, a1, a2, node.operands[3]);
     const NodeId p = metric(MetricPlane::inverse_11), q = metric(MetricPlane::inverse_12);
     const NodeId r = metric(MetricPlane::inverse_22);
-    const NodeId in_columns =
-        sum(product(product(p, p), a11),
-            sum(product(product(number(2), product(p, q)), a12), product(product(q, q), a22)));
-    return product(number(4), sum(in_columns, product(product(r, r), a22)));
+    const NodeId in_columns = algebra_.sum(
+        algebra_.product(algebra_.product(p, p), a11),
+        algebra_.sum(algebra_.product(algebra_.product(algebra_.number(2), algebra_.product(p, q)),
+                                      a12),
+                     algebra_.product(algebra_.product(q, q), a22)));
+    return algebra_.product(algebra_.number(4),
+                            algebra_.sum(in_columns,
+                                         algebra_.product(algebra_.product(r, r), a22)));
 }
 
-/// The gains of the other operators and of aggregates.
-std::optional<NodeId> SlopeRules::other_gain(const Node& node) {
+std::optional<NodeId> OperatorGains::of_other(const Node& node) {
     const double h = grid_.spacing;
     const Derivative derivative = derivative_of(node.function);
     if (derivative.order == 1) {
-        return product(number(0.5), gradient_gain(static_cast<std::size_t>(derivative.first)));
+        return algebra_.product(algebra_.number(0.5),
+                                of_gradient(static_cast<std::size_t>(derivative.first)));
     }
-    if (derivative.is_mixed()) return number(1 / (h * h));
+    if (derivative.is_mixed()) return algebra_.number(1 / (h * h));
     if (!info(node.function).is_aggregate) return std::nullopt;
     const bool adds = node.function == Function::domain_sum;
-    return number(adds ? static_cast<double>(grid_.cell_count()) : 1);
+    return algebra_.number(adds ? static_cast<double>(grid_.cell_count()) : 1);
 }
 
-NodeId SlopeRules::derivative(NodeId of, std::size_t axis) {
+NodeId OperatorGains::derivative(NodeId of, std::size_t axis) {
     if (algebra_.is_number(of) || !has_axis(axis)) return zero_;
     constexpr std::array functions{Function::dx, Function::dy, Function::dz};
     return algebra_.call(functions[axis], {of});
 }
 
-/// The components of a vector at the cell itself. Operands come before their readers, so they have
-/// been recorded.
-void SlopeRules::note_components(NodeId vector, const Node& node) {
+void OperatorGains::note_components(NodeId vector, const Node& node) {
     if (!components_.contains(vector)) components_.emplace(vector, components_of(node));
 }
 
-std::array<NodeId, 3> SlopeRules::components_of(const Node& node) {
+std::array<NodeId, 3> OperatorGains::components_of(const Node& node) {
     const NodeId a = node.operands[0], b = node.operands[1];
     const auto each = [&](const auto& make) {
         return std::array<NodeId, 3>{make(std::size_t{0}), make(std::size_t{1}),
@@ -103,7 +115,8 @@ std::array<NodeId, 3> SlopeRules::components_of(const Node& node) {
                 [&](auto axis) { return axis < node.operand_count ? node.operands[axis] : zero_; });
         case Function::negate:
             return each([&](auto axis) { return algebra_.negative(of(a, axis)); });
-        case Function::add: return each([&](auto axis) { return sum(of(a, axis), of(b, axis)); });
+        case Function::add:
+            return each([&](auto axis) { return algebra_.sum(of(a, axis), of(b, axis)); });
         case Function::subtract:
             return each([&](auto axis) { return algebra_.difference(of(a, axis), of(b, axis)); });
         case Function::divide:
@@ -114,14 +127,14 @@ std::array<NodeId, 3> SlopeRules::components_of(const Node& node) {
     if (!by_tensor) {
         const bool is_first = algebra_[a].type == ValueType::vector;
         return each([&](auto axis) {
-            return is_first ? product(of(a, axis), b) : product(a, of(b, axis));
+            return is_first ? algebra_.product(of(a, axis), b) : algebra_.product(a, of(b, axis));
         });
     }
     const Node tensor = algebra_[a];
     const auto [a11, a12, a22] =
         tensor_entries(algebra_, tensor.operands[0], tensor.operands[1], tensor.operands[2]);
-    return {sum(product(a11, of(b, 0)), product(a12, of(b, 1))),
-            sum(product(a12, of(b, 0)), product(a22, of(b, 1))), zero_};
+    return {algebra_.sum(algebra_.product(a11, of(b, 0)), algebra_.product(a12, of(b, 1))),
+            algebra_.sum(algebra_.product(a12, of(b, 0)), algebra_.product(a22, of(b, 1))), zero_};
 }
 
 }  // namespace cascade

@@ -8,39 +8,38 @@
 namespace cascade {
 
 SlopeRules::SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model)
-    : algebra_(algebra),
-      grid_(model ? model->grid : program.domain.grid),
-      has_metric_(program.domain.surface && program.domain.surface->has_metric),
-      links_(model ? std::optional(model->largest_weight) : std::nullopt),
-      zero_(algebra.number(0)) {}
+    : algebra_(algebra), gains_(algebra, program, model), zero_(algebra.number(0)) {}
 
 bool SlopeRules::is_zero(const Slope& slope) const {
     return slope.own == zero_ && slope.far == zero_ && !slope.jumps;
 }
 
-NodeId SlopeRules::all_of(const Slope& slope) { return sum(magnitude(slope.own), slope.far); }
+NodeId SlopeRules::all_of(const Slope& slope) {
+    return algebra_.sum(algebra_.magnitude(slope.own), slope.far);
+}
 
 void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
-    sum_so_far.own = sum(sum_so_far.own, slope.own);
-    sum_so_far.far = sum(sum_so_far.far, slope.far);
-    sum_so_far.other = sum(sum_so_far.other, slope.other);
+    sum_so_far.own = algebra_.sum(sum_so_far.own, slope.own);
+    sum_so_far.far = algebra_.sum(sum_so_far.far, slope.far);
+    sum_so_far.other = algebra_.sum(sum_so_far.other, slope.other);
     sum_so_far.jumps |= slope.jumps;
     if (sum_so_far.diffusion.size() < slope.diffusion.size()) {
         sum_so_far.diffusion.resize(slope.diffusion.size(), zero_);
     }
     for (std::size_t k = 0; k < slope.diffusion.size(); ++k) {
-        sum_so_far.diffusion[k] = sum(sum_so_far.diffusion[k], slope.diffusion[k]);
+        sum_so_far.diffusion[k] = algebra_.sum(sum_so_far.diffusion[k], slope.diffusion[k]);
     }
 }
 
 Slope SlopeRules::scaled(const Slope& slope, NodeId factor) {
-    const NodeId size = magnitude(factor);
-    Slope result{product(slope.own, factor),
-                 product(slope.far, size),
+    const NodeId size = algebra_.magnitude(factor);
+    Slope result{algebra_.product(slope.own, factor),
+                 algebra_.product(slope.far, size),
                  {},
-                 product(slope.other, size),
+                 algebra_.product(slope.other, size),
                  slope.jumps};
-    for (const NodeId each : slope.diffusion) result.diffusion.push_back(product(each, factor));
+    for (const NodeId each : slope.diffusion)
+        result.diffusion.push_back(algebra_.product(each, factor));
     return result;
 }
 
@@ -48,32 +47,33 @@ Slope SlopeRules::scaled(const Slope& slope, NodeId factor) {
 Slope SlopeRules::through_diffusion(const Slope& slope, NodeId gain) {
     Slope result = zero();
     result.jumps = slope.jumps;
-    result.far = product(gain, all_of(slope));
-    result.other = product(gain, slope.other);
-    result.diffusion.push_back(product(gain, slope.own));
-    for (const NodeId each : slope.diffusion) result.diffusion.push_back(product(gain, each));
+    result.far = algebra_.product(gain, all_of(slope));
+    result.other = algebra_.product(gain, slope.other);
+    result.diffusion.push_back(algebra_.product(gain, slope.own));
+    for (const NodeId each : slope.diffusion)
+        result.diffusion.push_back(algebra_.product(gain, each));
     return result;
 }
 
 Slope SlopeRules::through_other(const Slope& slope, NodeId gain) {
-    const NodeId far = product(gain, all_of(slope));
+    const NodeId far = algebra_.product(gain, all_of(slope));
     return {zero_, far, {}, far, slope.jumps};
 }
 
 /// The slope of a factor in a product that is averaged at faces, where diffusion cannot be told
 /// from the rest.
 Slope SlopeRules::as_other(const Slope& slope, NodeId factor) {
-    const NodeId far = product(slope.far, magnitude(factor));
-    return {product(slope.own, factor), far, {}, far, slope.jumps};
+    const NodeId far = algebra_.product(slope.far, algebra_.magnitude(factor));
+    return {algebra_.product(slope.own, factor), far, {}, far, slope.jumps};
 }
 
 std::optional<Slopes> SlopeRules::slopes_of(NodeId id, std::uint32_t species,
                                             const IdVector<NodeId, Slopes>& before) {
     const Node node = algebra_[id];
     Slopes slopes{zero(), zero(), zero()};
-    if (node.kind == NodeKind::own && node.index == species) slopes[0].own = number(1);
+    if (node.kind == NodeKind::own && node.index == species) slopes[0].own = algebra_.number(1);
     if (node.kind != NodeKind::call) return slopes;
-    if (node.type == ValueType::vector) note_components(id, node);
+    if (node.type == ValueType::vector) gains_.note_components(id, node);
     bool depends = false;
     for (const NodeId operand : node.reads()) {
         for (const Slope& slope : before[operand]) depends |= !is_zero(slope);
@@ -105,8 +105,8 @@ std::optional<Slope> SlopeRules::of_number(const Node& node,
             break;
         default: break;
     }
-    if (const auto gain = diffusion_gain(node)) return through_diffusion(first[0], *gain);
-    if (const auto gain = other_gain(node)) return through_other(first[0], *gain);
+    if (const auto gain = gains_.of_diffusion(node)) return through_diffusion(first[0], *gain);
+    if (const auto gain = gains_.of_other(node)) return through_other(first[0], *gain);
     return by_partials(node, before);
 }
 
@@ -128,10 +128,10 @@ std::optional<Slope> SlopeRules::by_partials(const Node& node,
 Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     Slope slope = zero();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!has_axis(axis)) continue;
+        if (!gains_.has_axis(axis)) continue;
         // A central difference spans two faces and has half the gain of one.
-        const NodeId along = magnitude(derivative(node.operands[0], axis));
-        add(slope, through_other(inner, product(along, gradient_gain(axis))));
+        const NodeId along = algebra_.magnitude(gains_.derivative(node.operands[0], axis));
+        add(slope, through_other(inner, algebra_.product(along, gains_.of_gradient(axis))));
     }
     return slope;
 }
@@ -149,16 +149,18 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
         const Slope& change = before[velocity][0];
         by_change.operands[axis] = change.own;
         velocity_changes |= change.own != zero_;
-        if (!has_axis(axis)) continue;
+        if (!gains_.has_axis(axis)) continue;
         add(slope, as_other({zero_, change.far, {}, change.other, change.jumps},
-                            derivative(carried, axis)));
-        speed = sum(speed, product(magnitude(velocity), gradient_gain(axis)));
+                            gains_.derivative(carried, axis)));
+        speed = algebra_.sum(speed, algebra_.product(algebra_.magnitude(velocity),
+                                                     gains_.of_gradient(axis)));
     }
     if (velocity_changes) slope.own = algebra_.add(by_change);
     const Slope& inner = before[carried][0];
     Slope carries = through_diffusion(inner, speed);
     for (NodeId& each : carries.diffusion) each = algebra_.negative(each);
-    carries.other = sum(carries.other, product(number(0.5), carries.far));
+    carries.other =
+        algebra_.sum(carries.other, algebra_.product(algebra_.number(0.5), carries.far));
     add(slope, carries);
     return slope;
 }
@@ -170,29 +172,33 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
     vector.kind = NodeKind::call;
     vector.function = Function::vector;
     vector.type = ValueType::vector;
-    vector.operand_count = static_cast<std::uint8_t>(has_axis(2) ? 3 : 2);
+    vector.operand_count = static_cast<std::uint8_t>(gains_.has_axis(2) ? 3 : 2);
     bool changes = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Slope& along = flux[axis];
         if (axis < vector.operand_count) vector.operands[axis] = along.own;
         changes |= along.own != zero_;
         slope.jumps |= along.jumps;
-        if (!has_axis(axis)) continue;
-        const NodeId gain = gradient_gain(axis);
-        slope.far = sum(slope.far, product(gain, all_of(along)));
-        slope.other =
-            sum(slope.other,
-                product(gain, sum(product(number(0.5), magnitude(along.own)), along.other)));
+        if (!gains_.has_axis(axis)) continue;
+        const NodeId gain = gains_.of_gradient(axis);
+        slope.far = algebra_.sum(slope.far, algebra_.product(gain, all_of(along)));
+        slope.other = algebra_.sum(
+            slope.other,
+            algebra_.product(gain, algebra_.sum(algebra_.product(algebra_.number(0.5),
+                                                                 algebra_.magnitude(along.own)),
+                                                along.other)));
         if (slope.diffusion.size() < along.diffusion.size()) {
             slope.diffusion.resize(along.diffusion.size(), zero_);
         }
         for (std::size_t k = 0; k < along.diffusion.size(); ++k) {
-            slope.diffusion[k] = sum(slope.diffusion[k], product(gain, along.diffusion[k]));
+            slope.diffusion[k] =
+                algebra_.sum(slope.diffusion[k], algebra_.product(gain, along.diffusion[k]));
         }
     }
     // On a model components make no flux, so the change of the cell's own value is bounded like
     // those of its neighbours.
-    if (changes && !links_) slope.own = algebra_.call(Function::div, {algebra_.add(vector)});
+    if (changes && !gains_.is_on_model())
+        slope.own = algebra_.call(Function::div, {algebra_.add(vector)});
     return slope;
 }
 
@@ -201,22 +207,24 @@ std::optional<Slopes> SlopeRules::of_vector(const Node& node,
     Slopes slopes{zero(), zero(), zero()};
     const auto operand = [&](std::size_t n) -> const Slopes& { return before[node.operands[n]]; };
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!has_axis(axis)) continue;
+        if (!gains_.has_axis(axis)) continue;
         switch (node.function) {
             case Function::grad:
-                slopes[axis] = through_diffusion(operand(0)[0], gradient_gain(axis));
+                slopes[axis] = through_diffusion(operand(0)[0], gains_.of_gradient(axis));
                 break;
             case Function::vector:
                 if (axis < node.operand_count) {
-                    slopes[axis] = as_other(operand(axis)[0], number(1));
+                    slopes[axis] = as_other(operand(axis)[0], algebra_.number(1));
                 }
                 break;
-            case Function::negate: slopes[axis] = scaled(operand(0)[axis], number(-1)); break;
+            case Function::negate:
+                slopes[axis] = scaled(operand(0)[axis], algebra_.number(-1));
+                break;
             case Function::add:
             case Function::subtract:
                 slopes[axis] = operand(0)[axis];
-                add(slopes[axis],
-                    scaled(operand(1)[axis], number(node.function == Function::add ? 1 : -1)));
+                add(slopes[axis], scaled(operand(1)[axis],
+                                         algebra_.number(node.function == Function::add ? 1 : -1)));
                 break;
             case Function::multiply:
             case Function::divide: return of_product(node, before);
@@ -234,13 +242,13 @@ std::optional<Slopes> SlopeRules::of_product(const Node& node,
     }
     if (algebra_[vector].type != ValueType::vector) std::swap(vector, factor);
     const bool divides = node.function == Function::divide;
-    const NodeId by = divides ? algebra_.quotient(number(1), factor) : factor;
+    const NodeId by = divides ? algebra_.quotient(algebra_.number(1), factor) : factor;
     Slopes slopes{zero(), zero(), zero()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!has_axis(axis)) continue;
+        if (!gains_.has_axis(axis)) continue;
         slopes[axis] = scaled(before[vector][axis], by);
-        NodeId value = components_.at(vector)[axis];
-        if (divides) value = algebra_.negative(product(value, product(by, by)));
+        NodeId value = gains_.components(vector)[axis];
+        if (divides) value = algebra_.negative(algebra_.product(value, algebra_.product(by, by)));
         add(slopes[axis], as_other(before[factor][0], value));
     }
     return slopes;
@@ -254,7 +262,7 @@ Slopes SlopeRules::times_tensor(NodeId tensor, const Slopes& flux) {
     const auto [a11, a12, a22] =
         tensor_entries(algebra_, node.operands[0], node.operands[1], node.operands[2]);
     Slopes slopes{scaled(flux[0], a11), scaled(flux[1], a22), zero()};
-    const bool is_gradient = !has_metric_ && flux[0].own == zero_ && flux[1].own == zero_ &&
+    const bool is_gradient = !gains_.has_metric() && flux[0].own == zero_ && flux[1].own == zero_ &&
                              flux[0].other == zero_ && flux[1].other == zero_;
     if (is_gradient) return slopes;
     for (const std::size_t axis : {0, 1}) {

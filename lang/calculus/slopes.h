@@ -8,13 +8,11 @@
 // growth stay separate.
 #pragma once
 
-#include "lang/calculus/algebra.h"
-#include "lang/program/models.h"
+#include "lang/calculus/operator_gains.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 namespace cascade {
@@ -66,26 +64,9 @@ private:
     std::optional<Slopes> of_product(const Node& node, const IdVector<NodeId, Slopes>& before);
     Slopes times_tensor(NodeId tensor, const Slopes& flux);
 
-    // Gains of operators, which depend on the surface, and values of vectors.
-    std::optional<NodeId> diffusion_gain(const Node& node);
-    std::optional<NodeId> other_gain(const Node& node);
-    NodeId gradient_gain(std::size_t axis);  ///< Of the derivative along a direction, with faces.
-    NodeId metric(MetricPlane plane);
-    void note_components(NodeId vector, const Node& node);
-    std::array<NodeId, 3> components_of(const Node& node);
-    NodeId derivative(NodeId of, std::size_t axis);
-    NodeId magnitude(NodeId of) { return algebra_.magnitude(of); }
-    NodeId number(double value) { return algebra_.number(value); }
-    NodeId sum(NodeId a, NodeId b) { return algebra_.sum(a, b); }
-    NodeId product(NodeId a, NodeId b) { return algebra_.product(a, b); }
-    bool has_axis(std::size_t axis) const;
-
     Algebra& algebra_;
-    const Grid& grid_;
-    bool has_metric_;
-    std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
+    OperatorGains gains_;
     NodeId zero_;
-    std::unordered_map<NodeId, std::array<NodeId, 3>> components_;  ///< Of vectors seen so far.
 };
 
 }  // namespace cascade

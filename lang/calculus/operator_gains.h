@@ -1,0 +1,50 @@
+// The factors by which operators multiply waves, on the plane, on a surface and on a model, and the
+// components of vectors (internal to derivative.cpp).
+#pragma once
+
+#include "lang/calculus/algebra.h"
+#include "lang/program/models.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+
+namespace cascade {
+
+class OperatorGains {
+public:
+    /// `model` may be null if only the cell's own value is needed.
+    OperatorGains(Algebra& algebra, const Program& program, const ModelFacts* model);
+
+    bool has_axis(std::size_t axis) const;
+    bool has_metric() const { return has_metric_; }
+    bool is_on_model() const { return links_.has_value(); }
+
+    /// The largest factor of an operator that makes all waves decay; none for other operators.
+    std::optional<NodeId> of_diffusion(const Node& node);
+    /// The gain of another operator or an aggregate; none for other functions.
+    std::optional<NodeId> of_other(const Node& node);
+    /// Of the derivative along a direction, with faces.
+    NodeId of_gradient(std::size_t axis);
+
+    /// Records the components of a vector at the cell itself. Operands come before their readers.
+    void note_components(NodeId vector, const Node& node);
+    /// Those of a vector that was noted.
+    const std::array<NodeId, 3>& components(NodeId vector) const { return components_.at(vector); }
+    /// The central difference of a number along an axis; 0 along one that the grid does not have.
+    NodeId derivative(NodeId of, std::size_t axis);
+
+private:
+    NodeId metric(MetricPlane plane);
+    std::array<NodeId, 3> components_of(const Node& node);
+
+    Algebra& algebra_;
+    const Grid& grid_;
+    bool has_metric_;
+    std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
+    NodeId zero_;
+    std::unordered_map<NodeId, std::array<NodeId, 3>> components_;
+};
+
+}  // namespace cascade
