@@ -1,5 +1,6 @@
 #include "bench/linked_cells.h"
 
+#include "bench/curve_order.h"
 #include "core/hash.h"
 #include "surface/cell_order.h"
 

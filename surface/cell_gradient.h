@@ -25,8 +25,4 @@ namespace cascade {
 std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                             Team& team, const std::atomic<bool>& cancel);
 
-/// The gradient in each cell of one value per cell.
-std::vector<Vector3d> cell_gradients(const SurfaceCells& cells, std::span<const Vector3d> weights,
-                                     std::span<const double> values);
-
 }  // namespace cascade

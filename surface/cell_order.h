@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/links.h"
-#include "core/vector3.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,11 +10,6 @@
 #include <vector>
 
 namespace cascade {
-
-/// The order along a Hilbert curve through the cube around all positions, with 2^21 boxes per side
-/// (by J. Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 707, 2004). Cells
-/// in one box keep their order, as do cells without a position (NaN), which come first. O(n log n).
-std::vector<std::uint32_t> order_along_curve(std::span<const Vector3d> positions);
 
 /// The order by distance from a peripheral cell, counted in links, so that neighbours are in
 /// adjacent levels (E. Cuthill and J. McKee, "Reducing the bandwidth of sparse symmetric matrices",

@@ -3,7 +3,7 @@
 #include "mesh/flat.h"
 #include "run/domain/model_cells.h"
 #include "started_script.h"
-#include "surface/cell_gradient.h"
+#include "unit/surface/cell_gradients.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

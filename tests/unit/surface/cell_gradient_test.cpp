@@ -1,6 +1,6 @@
 // Gradients of cells against functions whose gradients are known.
-#include "surface/cell_gradient.h"
 #include "surface/tangent_frame.h"
+#include "unit/surface/cell_gradients.h"
 #include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>

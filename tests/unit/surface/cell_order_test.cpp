@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 
@@ -36,12 +35,10 @@ struct Square {
         for (std::size_t k = numbers.size(); k > 1; --k) {
             std::swap(numbers[k - 1], numbers[random.below(k)]);
         }
-        positions.resize(numbers.size());
         std::vector<std::set<std::uint32_t>> neighbours(numbers.size());
         for (std::size_t j = 0; j < side; ++j) {
             for (std::size_t i = 0; i < side; ++i) {
                 const std::uint32_t cell = numbers[j * side + i];
-                positions[cell] = {static_cast<double>(i), static_cast<double>(j), 0};
                 for (const std::size_t other : {j * side + i + 1, (j + 1) * side + i}) {
                     const bool is_beside = other == j * side + i + 1;
                     if (other >= numbers.size() || (is_beside && i + 1 == side)) continue;
@@ -59,7 +56,6 @@ struct Square {
         }
     }
     std::vector<std::uint32_t> numbers;
-    std::vector<Vector3d> positions;
     LinkList links;
 };
 
@@ -110,52 +106,6 @@ TEST(CellOrder, StepsHaveBandsAndLittleToFillUp) {
     const LinkList by_levels = renumbered(square.links, order_by_levels(square.links));
     EXPECT_LT(entries(links), entries(by_levels));
     EXPECT_LT(entries(links), 1.02);
-}
-
-// A curve that fills space visits near places soon after each other: boxes of 4^k cells one after
-// the other, so that most links stay within the smallest of them.
-TEST(CellOrder, TheCurveKeepsNeighboursNear) {
-    constexpr std::size_t side = 64;
-    const Square square(side);
-    const Order order = order_along_curve(square.positions);
-    ASSERT_TRUE(has_each_once(order, side * side));
-    const LinkList links = renumbered(square.links, order);
-    std::size_t near = 0;
-    for (std::uint32_t cell = 0; cell < links.ends.size(); ++cell) {
-        for (std::size_t k = link_count(links, cell); k > 0; --k) {
-            near += distance(cell, links.neighbours[links.ends[cell] - k]) < 16;
-        }
-    }
-    EXPECT_GT(static_cast<double>(near), 0.8 * static_cast<double>(links.neighbours.size()));
-}
-
-/// Hilbert's curve goes on to a box that touches the one before, which no other of these orders
-/// does.
-TEST(CellOrder, TheCurveIsConnected) {
-    constexpr std::int64_t side = 16;
-    std::vector<Vector3d> positions;
-    for (std::int64_t k = 0; k < side * side * side; ++k) {
-        const auto number = [](std::int64_t part) { return static_cast<double>(part); };
-        positions.push_back({number(k % side), number(k / side % side), number(k / side / side)});
-    }
-    const Order order = order_along_curve(positions);
-    ASSERT_TRUE(has_each_once(order, positions.size()));
-    for (std::size_t k = 1; k < order.size(); ++k) {
-        ASSERT_EQ(length(positions[order[k]] - positions[order[k - 1]]), 1) << k;
-    }
-}
-
-TEST(CellOrder, PlacesThatAreNoneAreOrderedToo) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(order_along_curve({}), Order{});
-    const std::vector<Vector3d> same(5, {1, 2, 3});
-    EXPECT_EQ(order_along_curve(same), (Order{0, 1, 2, 3, 4}));
-    const std::vector<Vector3d> strange{{nan, nan, nan}, {1, 0, 0},          {0, infinity, 1},
-                                        {0, 0, 0},       {1e308, -1e308, 0}, {nan, 1, -infinity}};
-    EXPECT_TRUE(has_each_once(order_along_curve(strange), strange.size()));
-    const std::vector<Vector3d> one_is_none{{2, 0, 0}, {nan, nan, nan}, {1, 0, 0}};
-    EXPECT_EQ(order_along_curve(one_is_none), (Order{1, 2, 0}));
 }
 
 TEST(CellOrder, GroupsAreSortedByLinksWithinWindows) {
