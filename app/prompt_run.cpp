@@ -96,8 +96,8 @@ Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) co
         if (auto started = simulation.start_stage(k); !started) {
             return tl::unexpected(started.error());
         }
-        simulation.set_species(k, copies(state.species), state.steps,
-                               state.steps >= after.stages[k].iterations);
+        const bool is_done = state.steps >= after.stages[k].iterations;
+        simulation.restore(k, {copies(state.species), state.steps, is_done, false, {}});
     }
     return created;
 }

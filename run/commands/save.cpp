@@ -243,8 +243,11 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (auto started = simulation.start_stage(k); !started) return started;
             auto species = read_species(folder, *json, simulation, k);
             if (!species) return tl::unexpected(species.error());
-            simulation.set_species(k, std::move(*species), steps, done, condition_met);
-            if (!stages[k].contains("time")) continue;
+            StageMoment moment{std::move(*species), steps, done, condition_met, {}};
+            if (!stages[k].contains("time")) {
+                simulation.restore(k, std::move(moment));
+                continue;
+            }
             const auto time =
                 saved_time_from(stages[k].at("time"), script.program->stages[k].time.solver);
             if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
@@ -257,7 +260,8 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
                 }
                 watch.remember(std::move(*looked_at), *time->last_look, time->formations);
             }
-            simulation.set_time(k, time->t, time->state, std::move(watch));
+            moment.time = {time->t, time->state, std::move(watch)};
+            simulation.restore(k, std::move(moment));
         }
     } catch (const nlohmann::json::exception&) {
         return tl::unexpected(damaged(folder, "run.json is incomplete or malformed"));

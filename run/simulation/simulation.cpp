@@ -152,24 +152,18 @@ void Simulation::settle(RunControl& control) {
     self_->warn_of_refused(control);
 }
 
-void Simulation::set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps,
-                             bool done, bool condition_met) {
+void Simulation::restore(std::uint32_t stage, StageMoment moment) {
     self_->end_run();
     StageState& state = self_->states[stage];
-    CHECK(species.size() == state.species.size(), "every species of the stage is given");
-    state.species = std::move(species);
+    CHECK(moment.species.size() == state.species.size(), "every species of the stage is given");
+    state.species = std::move(moment.species);
     state.course = {};
-    state.go_to(steps, state.t);
-    state.done = done;
-    state.condition_met = condition_met;
-}
-
-void Simulation::set_time(std::uint32_t stage, double t, const TimeState& time, SteadyWatch watch) {
-    self_->end_run();
-    StageState& state = self_->states[stage];
-    state.go_to(state.steps, t);
-    state.time = time;
-    state.watch = std::move(watch);
+    state.go_to(moment.steps, moment.time ? moment.time->t : state.t);
+    state.done = moment.done;
+    state.condition_met = moment.condition_met;
+    if (!moment.time) return;
+    state.time = moment.time->state;
+    state.watch = std::move(moment.time->watch);
 }
 
 std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t stage) const {

@@ -64,6 +64,20 @@ Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& opt
 /// Why a stage ended.
 enum class StageEnd { finished, stopped, cancelled };
 
+/// A moment of a stage from which its run can go on.
+struct StageMoment {
+    struct Time {
+        double t = 0;
+        TimeState state;
+        SteadyWatch watch;
+    };
+    std::vector<Field> species;
+    std::int64_t steps = 0;  ///< That are complete.
+    bool done = false;
+    bool condition_met = false;  ///< Was it ended by `until`?
+    std::optional<Time> time;    ///< Without it, steps are taken as of the stage's speed.
+};
+
 /// Runs the stages of a checked program, one after the other. Owns all fields.
 class Simulation {
 public:
@@ -100,13 +114,8 @@ public:
     /// be compiled and were interpreted.
     void settle(RunControl& control);
 
-    /// Replaces the species of a started stage (resume, the prompt's :load).
-    void set_species(std::uint32_t stage, std::vector<Field> species, std::int64_t steps, bool done,
-                     bool condition_met = false);
-
-    /// Sets the time of a stage whose species were replaced; otherwise its steps count as steps of
-    /// the stage's speed.
-    void set_time(std::uint32_t stage, double t, const TimeState& time, SteadyWatch watch);
+    /// Makes a started stage go on from another moment (resume, the prompt's :load).
+    void restore(std::uint32_t stage, StageMoment moment);
 
     /// Evaluates a formula for pictures over the present state: one field, or three for a colour.
     /// Outside of the mask it is NaN, unless it is the same in all cells.

@@ -244,8 +244,9 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
     ASSERT_TRUE(second->start_stage(0));
     std::vector<Field> copies;
     for (const Field& field : first->state(0).species) copies.push_back(field.clone());
-    second->set_species(0, std::move(copies), 11, false);
-    second->set_time(0, first->state(0).t, first->state(0).time, {});
+    const StageState& state = first->state(0);
+    second->restore(0, {std::move(copies), 11, false, false,
+                        StageMoment::Time{state.t, state.time, {}}});
     ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
     EXPECT_EQ(same_bits(one.species(), second->state(0).species), "");
 }

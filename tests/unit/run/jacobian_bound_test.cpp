@@ -74,8 +74,7 @@ private:
         species[moved].row(row)[column] += by;
         std::vector<Field> before;
         for (const Field& field : species) before.push_back(field.clone());
-        simulation_->set_species(0, std::move(species), 0, false);
-        simulation_->set_time(0, 0, {}, {});
+        simulation_->restore(0, {std::move(species), 0, false, false, StageMoment::Time{}});
         RunControl control;
         EXPECT_TRUE(simulation_->advance_stage(0, 1, control, {}));
         Vector rates;
