@@ -1,5 +1,6 @@
 // The settings of a domain whose grid lies on a surface: surface, metric, unit.
 #include "lang/check/check_blocks.h"
+#include "lang/check/setting_words.h"
 
 #include <cmath>
 
@@ -9,9 +10,12 @@ namespace {
 
 void check_position(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() != 3) {
+        const bool is_file = statement.values.size() == 1 &&
+                             std::holds_alternative<ast::Text>(value_of(script, statement).node);
         work.diagnostics.error(statement.span,
                                "a surface is three expressions: x, y and z in space",
-                               "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
+                               is_file ? "a model in a file is mesh: \"model.obj\""
+                                       : "surface: sx, sy, 0.1 * sin(2 * pi * sx)");
         return;
     }
     Scope scope;
