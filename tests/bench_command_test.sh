@@ -24,6 +24,18 @@ if [ "$CASCADE_JIT" = 1 ] || [ "$CASCADE_JIT" = ON ]; then
 fi
 [ -z "$(ls | grep -v -e '\.cascade$' -e '^out$' -e '^err$')" ] || fail "a file was written"
 
+# A program that does not find its code generator interprets, and says so in every line.
+if [ "$CASCADE_JIT" = 1 ] || [ "$CASCADE_JIT" = ON ]; then
+    mkdir -p alone/bin
+    cp "$CASCADE" alone/bin/cascade
+    alone/bin/cascade bench spots.cascade --stage 1 --seconds 0.02 --no-kernel-cache >out 2>err ||
+        fail "it needs a code generator"
+    says err 'the code generator could not be loaded'
+    says out "euler, 48 × 32 cells, single, interpreted"
+    says out 'bound by          the interpreter'
+    rm -r alone
+fi
+
 # Rows: all columns, positive, and of one piece.
 consistent() {
     awk -F, -v rows="$1" 'NR == 1 { columns = NF; next }

@@ -233,6 +233,11 @@ private:
         bench.threads = account_.stage(k).threads;
         bench.stepping = account_.stage(k).stepping;
         bench.work = simulation_->step_work(k);
+        if (account_.stage(k).has_refused) {
+            // What cannot compile the steps cannot compile what measures the machine.
+            bench.is_native = false;
+            return bench;
+        }
         if (auto known = find_limits(bench); !known) return tl::unexpected(known.error());
         return bench;
     }

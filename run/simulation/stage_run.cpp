@@ -148,8 +148,8 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::functio
                        });
     state_.time = outcome.time;
     state_.go_to(outcome.steps, outcome.t);
-    account_for(state_.steps - steps_before, outcome);
     kernels_.warn_of_refused(*control_);
+    account_for(state_.steps - steps_before, outcome);
     const bool is_good = !outcome.not_finite && !outcome.too_short && !outcome.cancelled;
     const bool is_done = is_good && (outcome.ended || state_.steps >= view_.stage().iterations);
     can_go_on_ = is_good && !is_done && state_.steps > 0 && !control_->warn;
@@ -186,6 +186,7 @@ void StageRun::account_for(std::int64_t steps, const StageOutcome& outcome) cons
     entry.cells = here.grid.cell_count();
     entry.threads = outcome.threads;
     entry.stepping = loop_->stepping();
+    entry.has_refused = kernels_.has_refused();
 }
 
 }  // namespace cascade

@@ -38,6 +38,8 @@ public:
                            [](const KernelPointer& kernel) { return kernel->is_provisional(); });
     }
 
+    bool has_refused() const { return !said_.empty(); }
+
     /// Reports that a kernel is interpreted; each reason is given once.
     void warn(const Failure& refusal, RunControl& control);
 

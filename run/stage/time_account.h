@@ -38,8 +38,9 @@ public:
         std::array<double, spent_count> seconds{};  ///< By Spent.
         std::int64_t steps = 0;
         std::int64_t cells = 0;
-        int threads = 1;    ///< The number of threads of its last steps.
-        Stepping stepping;  ///< How these steps passed through memory.
+        int threads = 1;           ///< The number of threads of its last steps.
+        Stepping stepping;         ///< How these steps passed through memory.
+        bool has_refused = false;  ///< Was a kernel interpreted because it failed to compile?
     };
 
     /// Begins now, with `rest`.
