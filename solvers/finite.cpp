@@ -59,7 +59,8 @@ inline void add_row(const Number* row, std::int64_t width, Lanes<Number>& sums) 
     for (; i < width; ++i) sums.last[i % lanes] += row[i];
 }
 
-#if defined(__x86_64__) && defined(__GLIBC__)
+// The thread sanitizer instruments the choice between clones, which is made before it has started.
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__)
 #define WITH_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define WITH_WIDE_VECTORS
