@@ -91,18 +91,10 @@ ValueId Fluxes::at_face(NodeId id, Face where) const {
 /// Differences across such a side are 0 anyway; other vectors, and components that a tensor turns
 /// towards the side, are set to 0 there.
 void Fluxes::find_what_crosses_sides() {
-    const Stage& stage = graph_.program().stages[graph_.stage()];
     const System& system = graph_.program().system_of(graph_.stage());
-    const SideRules boundary(grid_.boundary);
-    std::vector<std::array<SideKind, side_count>> of_item(system.item_count());
-    std::size_t species = 0;
+    std::vector<SideKinds> of_item;
     for (std::uint32_t item = 0; item < system.item_count(); ++item) {
-        for (std::size_t side = 0; side < side_count; ++side) {
-            of_item[item][side] = system.is_species(item) && !stage.sides.empty()
-                                      ? stage.sides[species][side].kind
-                                      : boundary.at[side].kind;
-        }
-        if (system.is_species(item)) ++species;
+        of_item.push_back(side_kinds(graph_.program(), graph_.stage(), item));
     }
     crossings_.assign(graph_.size(), {});
     for (const NodeId id : graph_.ids()) {

@@ -31,15 +31,10 @@ Beyond beyond_of(SideKind first, SideKind second) {
 
 /// For an item of a stage, if it varies.
 Axes3 beyond_of_item(const Program& program, std::uint32_t stage, std::uint32_t item) {
-    const System& system = program.system_of(stage);
-    const auto& sides = program.stages[stage].sides;
-    if (sides.empty() || !system.is_species(item)) return beyond_of(program.domain.grid.boundary);
-    std::size_t species = 0;
-    for (std::uint32_t before = 0; before < item; ++before)
-        species += system.is_species(before) ? 1 : 0;
+    const SideKinds sides = side_kinds(program, stage, item);
     Axes3 beyond{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        beyond[axis] = beyond_of(sides[species][2 * axis].kind, sides[species][2 * axis + 1].kind);
+        beyond[axis] = beyond_of(sides[2 * axis], sides[2 * axis + 1]);
     }
     return beyond;
 }
@@ -51,6 +46,21 @@ Beyond together(Beyond a, Beyond b) {
 }
 
 }  // namespace
+
+SideKinds side_kinds(const Program& program, std::uint32_t stage, std::uint32_t item) {
+    const System& system = program.system_of(stage);
+    const auto& sides = program.stages[stage].sides;
+    const bool has_own = !sides.empty() && system.is_species(item);
+    const auto species = static_cast<std::size_t>(
+        std::count_if(system.quantities.begin(), system.quantities.begin() + (has_own ? item : 0),
+                      [](const Quantity& quantity) { return quantity.is_species; }));
+    const SideRules boundary(program.domain.grid.boundary);
+    SideKinds kinds{};
+    for (std::size_t side = 0; side < side_count; ++side) {
+        kinds[side] = has_own ? sides[species][side].kind : boundary.at[side].kind;
+    }
+    return kinds;
+}
 
 PlanGraph::PlanGraph(Expressions expressions, const PassContext& context,
                      Invariance step_invariants)

@@ -20,6 +20,12 @@ enum class Beyond : std::uint8_t {
     itself,    ///< For a species, as its sides say; for a function, computed from such operands.
 };
 
+using SideKinds = std::array<SideKind, side_count>;
+
+/// The kinds of the sides of an item. A species may have sides of its own; all other items have
+/// those of the domain.
+SideKinds side_kinds(const Program& program, std::uint32_t stage, std::uint32_t item);
+
 /// What counts as step-invariant: values that no step changes, or values that do not depend on t
 /// and step.
 enum class Invariance : std::uint8_t { parameters, state };
