@@ -56,10 +56,7 @@ public:
         may_check_later_ =
             control.checks_later && last_step < steps_of_stage_ && stepper_.planes().keeps();
         stepper_.planes().take_back(species_);
-        if (is_checked_) {
-            stepper_.planes().keep();
-            clock_.go_on();
-        }
+        clock_.go_on();
         tuner_.go_on();
         report(control, false);
         outcome_.ended = clock_.is_over();
@@ -90,8 +87,7 @@ private:
         const bool is_kept = schedule_.keep_is_due && schedule_.keep_is_due();
         const bool at_stop = clock_.step + count == stop;
         const bool look = is_kept || (at_stop && (stop == next || !may_check_later_));
-        const bool good =
-            clock_.judges_next() ? lengths_.take_judged_step(outcome_) : take_steps(count, look);
+        const bool good = clock_.judges_next() ? take_judged_step() : take_steps(count, look);
         const BatchTuner::Clock::time_point now = BatchTuner::Clock::now();
         tuner_.end_batch(count, now);
         if (!good) return false;
@@ -101,6 +97,13 @@ private:
             const SpeciesLoan loan(stepper_.planes(), species_);
             schedule_.keep(clock_.step, clock_.now(), lengths_.time());
         }
+        return true;
+    }
+
+    /// The error of a step is not finite if one of its values is not.
+    bool take_judged_step() {
+        if (!lengths_.take_judged_step(outcome_)) return false;
+        found_finite();
         return true;
     }
 

@@ -24,10 +24,7 @@ LoopClock::LoopClock(const Schedule& schedule)
       time(schedule.time),
       schedule_(schedule) {}
 
-void LoopClock::go_on() {
-    last_look = step;
-    tenths_seen_ = tenths_reached(now(), schedule_.end_time);
-}
+void LoopClock::go_on() { tenths_seen_ = tenths_reached(now(), schedule_.end_time); }
 
 bool LoopClock::is_over() const {
     return schedule_.end_time - now() <= rounding_of_time * time.clock.step;

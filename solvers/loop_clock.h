@@ -18,7 +18,7 @@ public:
 
     double now() const { return time.clock.at(step); }
     void set_step(double length) { time.clock.set_step(step, length); }
-    /// A loop goes on from this step, which has been checked.
+    /// A call goes on from this step: tenths of the duration before it have been observed.
     void go_on();
 
     bool has_end_time() const { return std::isfinite(schedule_.end_time); }

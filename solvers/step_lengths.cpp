@@ -65,8 +65,6 @@ bool StepLengths::take_judged_step(StageOutcome& outcome) {
     ++clock_.step;
     clock_.time.clock.begin_at(clock_.step);
     stepper_.accept();
-    stepper_.planes().keep();
-    clock_.last_look = clock_.step;
     clock_.time.control = control_.state();
     if (!clock_.is_over()) choose();
     return true;
