@@ -53,6 +53,12 @@ double largest_value(const Field& field, const DomainMask* mask) {
     return extreme(field, mask, [](double value, double most) { return value > most; });
 }
 
+std::vector<double> first_values(std::span<const Field> fields) {
+    std::vector<double> values;
+    for (const Field& field : fields) values.push_back(field.number_at(0, 0));
+    return values;
+}
+
 bool is_same_everywhere(const Field& field) {
     return field.visit([](const auto& plane) {
         const auto* first = plane.row(0);

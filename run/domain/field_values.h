@@ -4,6 +4,9 @@
 #include "core/plane.h"
 #include "run/domain/domain_mask.h"
 
+#include <span>
+#include <vector>
+
 namespace cascade {
 
 /// 1 where the value is not 0 (NaN counts as not 0, as everywhere in the language).
@@ -13,6 +16,9 @@ Mask to_mask(const Field& field);
 double smallest(const Field& field, const DomainMask* mask);
 /// The largest.
 double largest_value(const Field& field, const DomainMask* mask);
+
+/// The first value of each field: that of all cells where they are the same.
+std::vector<double> first_values(std::span<const Field> fields);
 
 /// Do all cells hold the same word?
 bool is_same_everywhere(const Field& field);

@@ -3,6 +3,7 @@
 
 #include "ir/interpreter.h"
 #include "lang/program/nodes_of_rates.h"
+#include "run/domain/field_values.h"
 #include "run/simulation/environment.h"
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_run.h"
@@ -212,11 +213,7 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
 std::vector<double> evaluate_numbers(const Simulation& simulation,
                                      std::span<const Formula* const> formulas,
                                      std::uint32_t stage) {
-    std::vector<double> numbers;
-    for (const Field& field : simulation.evaluate(formulas, stage)) {
-        numbers.push_back(field.number_at(0, 0));
-    }
-    return numbers;
+    return first_values(simulation.evaluate(formulas, stage));
 }
 
 double time_of(const Simulation& simulation, std::uint32_t stage) {

@@ -17,11 +17,7 @@ NumberSource numbers_of(const StageView& view, std::span<const Formula* const> f
         std::make_shared<PlanRunner>(plan_view(view.program(), formulas, view.number()),
                                      view.environment().kernels->often());
     return [view, runner] {
-        std::vector<double> numbers;
-        for (const Field& field : runner->run(view.context(), *view.environment().team)) {
-            numbers.push_back(field.number_at(0, 0));
-        }
-        return numbers;
+        return first_values(runner->run(view.context(), *view.environment().team));
     };
 }
 
