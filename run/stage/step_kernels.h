@@ -38,7 +38,8 @@ public:
                            [](const KernelPointer& kernel) { return kernel->is_provisional(); });
     }
 
-    bool has_refused() const { return !said_.empty(); }
+    /// Is one interpreted because it could not be compiled?
+    bool has_refused() const { return has_refused_; }
 
     /// Reports that a kernel is interpreted; each reason is given once.
     void warn(const Failure& refusal, RunControl& control);
@@ -47,6 +48,7 @@ private:
     std::string stage_;
     std::vector<KernelPointer> kernels_;
     std::set<std::string> said_;
+    bool has_refused_ = false;
     std::uint64_t identity_ = 0;
 };
 
