@@ -68,8 +68,8 @@ public:
 
     Plane clone() const { return Plane(*this); }
 
-    /// The halo is no part of a plane's value but a cache of what its sides say: whoever reads
-    /// neighbours fills it, also of a const plane. One thread at a time.
+    /// The halo is not part of a plane's value but caches what the rules of the sides give. Code
+    /// that reads neighbours fills it first, even in a const plane. One thread at a time.
     void fill_halo(const SideRules& sides) const {
         cascade::fill_halo(data_.get() + layout_.offset(0, 0), layout_, sides);
     }

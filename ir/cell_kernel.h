@@ -55,7 +55,7 @@ constexpr int info_arity(Op op) {
 
 /// The index of the instruction that computes a value.
 using ValueId = Id<struct ValueTag>;
-// Indices into the lists of what a kernel reads.
+// Indices into a kernel's lists of fields, masks and uniforms.
 using FieldSlot = Id<struct FieldSlotTag>;
 using MaskSlot = Id<struct MaskSlotTag>;
 using UniformSlot = Id<struct UniformSlotTag>;

@@ -207,7 +207,7 @@ struct Settings {
     std::optional<std::int64_t> interval;
     std::optional<Formula> frozen;
     std::optional<Formula> speed;
-    std::optional<Formula> show;  ///< The default of what pictures of a stage show.
+    std::optional<Formula> show;  ///< The default formula for pictures of a stage.
     TimeSettings time;
 };
 

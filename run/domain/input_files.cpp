@@ -95,7 +95,7 @@ void read_of_model(Script& script, const Node& node, Function function, const Mo
 
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
     InputFiles files;
-    // Each text is looked up, and its fault reported, once.
+    // Each text is looked up once, and its error is reported once.
     std::set<NamedPlane> known;
     const auto read_of = [&](const Formula& formula) {
         for (const Node& node : formula.nodes) {
