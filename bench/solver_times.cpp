@@ -1,6 +1,7 @@
 // cascade_solver_times: how long each solver takes to an equally good pattern, and how good it is.
 //
-// usage: cascade_solver_times [--threads=N] [--solver=NAME…] [--pattern=NAME…] [SIDE…]
+// usage: cascade_solver_times [--threads=N] [--solver=NAME…] [--pattern=NAME…] [--tolerance=E]
+//                             [SIDE…]
 //        all solvers, large and small spots, 256 and 1024 without them
 //
 // Every solver of the language grows the same spots from the same noise for the same time, as
@@ -52,6 +53,14 @@ constexpr Pattern known_patterns[] = {
     {"largest", "stage s: turing_spots { iterations: 112000; ka: 0.05/64 }\n"},
 };
 
+struct Choice {
+    std::vector<std::string> solvers = solver_names();
+    std::vector<std::string> patterns = {"large", "small"};
+    std::vector<std::int64_t> sides = {256, 1024};
+    int threads = 1;
+    std::string tolerance;  ///< A setting of all stages but Euler's; empty: its default.
+};
+
 struct Outcome {
     double seconds = 0;
     std::int64_t steps = 0;
@@ -64,16 +73,25 @@ std::string text_of(const Pattern& pattern, std::int64_t side) {
     return fmt::format("domain {{ grid: {}, {} }}\n{}", side, side, pattern.text);
 }
 
+/// The text with one more setting for the stage.
+std::string with_setting(std::string text, const std::string& setting) {
+    if (!setting.empty()) text.insert(text.rfind('}'), "; " + setting + " ");
+    return text;
+}
+
 double seconds_since(std::chrono::steady_clock::time_point before) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
 /// Empty, with a line on stderr, where the solver does not take this pattern.
 std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, std::int64_t side,
-                            int threads) {
+                            const Choice& choice) {
     Overrides changes;
     changes.solver = solver;
-    Script script = load_script(pattern.name, text_of(pattern, side), ".", std::move(changes));
+    Script script = load_script(pattern.name,
+                                with_setting(text_of(pattern, side),
+                                             solver == "euler" ? std::string() : choice.tolerance),
+                                ".", std::move(changes));
     const auto refused = [&](const std::string& why) {
         std::fprintf(stderr, "%s does not grow %s: %s\n", solver.c_str(), pattern.name,
                      why.c_str());
@@ -81,7 +99,7 @@ std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, s
     };
     if (!script.program) return refused(script.messages(false));
     SimulationOptions options;
-    options.threads = threads;
+    options.threads = choice.threads;
     auto simulation = Simulation::create(script, options);
     if (!simulation) return refused(simulation.error().message);
     if (auto started = (*simulation)->start_stage(0); !started) {
@@ -149,13 +167,6 @@ private:
     double least_ = 0;
 };
 
-struct Choice {
-    std::vector<std::string> solvers = solver_names();
-    std::vector<std::string> patterns = {"large", "small"};
-    std::vector<std::int64_t> sides = {256, 1024};
-    int threads = 1;
-};
-
 void compare(const Pattern& pattern, std::int64_t side, const Choice& choice, Backend& backend) {
     fmt::print("\n{} spots, {} × {}\n{:<14}{:>8}{:>9}{:>10}{:>9}{:>8}{:>13}{:>12}{:>8}\n",
                pattern.name, side, side, "solver", "steps", "t", "seconds", "Euler's", "C++'s",
@@ -164,7 +175,7 @@ void compare(const Pattern& pattern, std::int64_t side, const Choice& choice, Ba
     straight.look();
     std::vector<std::pair<std::string, Outcome>> all;
     const auto add = [&](const std::string& solver) {
-        std::optional<Outcome> found = grow(pattern, solver, side, choice.threads);
+        std::optional<Outcome> found = grow(pattern, solver, side, choice);
         if (found) all.emplace_back(solver, std::move(*found));
         straight.look();
     };
@@ -205,6 +216,8 @@ std::optional<Choice> read_choice(int argc, char** argv) {
                                                   return pattern.name == patterns.back();
                                               });
             if (!is_known) return std::nullopt;
+        } else if (word.starts_with("--tolerance=")) {
+            choice.tolerance = fmt::format("tolerance: {}", word.substr(12));
         } else {
             const bool is_threads = word.starts_with("--threads=");
             const long number = number_in(is_threads ? word.substr(10) : word);
@@ -229,7 +242,8 @@ int main(int argc, char** argv) {
     if (!choice) {
         std::fprintf(stderr,
                      "usage: cascade_solver_times [--threads=N] [--solver=NAME...] "
-                     "[--pattern=small|large|larger|largest...] [SIDE...]\n");
+                     "[--pattern=small|large|larger|largest...] "
+                     "[--tolerance=E] [SIDE...]\n");
         return 64;
     }
     const auto backend = cascade::make_jit();

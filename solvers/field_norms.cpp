@@ -1,6 +1,8 @@
 // Norms and moments of fields.
 #include "solvers/field_norms.h"
 
+#include "core/wide_vectors.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,7 @@ namespace {
 /// Sums value(i) for i of [0, count): sixteen partial sums, which a compiler can keep in vectors,
 /// then those one by one.
 template <typename Value>
-double sum(std::int64_t count, Value value) {
+inline double sum(std::int64_t count, Value value) {
     constexpr std::int64_t lanes = 16;
     std::array<double, lanes> sums{};
     std::int64_t i = 0;
@@ -63,6 +65,13 @@ FieldMoments moments_of(const PlaneLayout& layout, const Mask* inside, ValueOfRo
     return result;
 }
 
+WITH_WIDE_VECTORS double sum_of_squares(const float* cells, std::int64_t count) {
+    return sum(count, [cells](std::int64_t i) { return double{cells[i]} * cells[i]; });
+}
+WITH_WIDE_VECTORS double sum_of_squares(const double* cells, std::int64_t count) {
+    return sum(count, [cells](std::int64_t i) { return cells[i] * cells[i]; });
+}
+
 }  // namespace
 
 FieldMoments moments(const Field& field, const Mask* inside) {
@@ -96,12 +105,11 @@ double root_mean_square(const Field& field, const Mask* inside) {
 double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells) {
     return field.visit([&](const auto& plane) {
         const std::int64_t width = plane.layout().width;
-        const auto square = [values = plane.row(row)](std::int64_t i) {
-            return double{values[i]} * values[i];
-        };
-        if (cells >= width) return sum(width, square);
+        const auto* const values = plane.row(row);
+        if (cells >= width) return sum_of_squares(values, width);
         // In the same order as in a whole row.
-        return sum(width, [&](std::int64_t i) { return i < cells ? square(i) : 0.0; });
+        return sum(width,
+                   [&](std::int64_t i) { return i < cells ? double{values[i]} * values[i] : 0.0; });
     });
 }
 

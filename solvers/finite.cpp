@@ -1,6 +1,8 @@
 // Looking for infinities and NaNs in fields.
 #include "solvers/finite.h"
 
+#include "core/wide_vectors.h"
+
 #include <cstring>
 #include <iterator>
 
@@ -58,13 +60,6 @@ inline void add_row(const Number* row, std::int64_t width, Lanes<Number>& sums) 
     sums.odd = odd;
     for (; i < width; ++i) sums.last[i % lanes] += row[i];
 }
-
-// The thread sanitizer instruments the choice between clones, which is made before it has started.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__)
-#define WITH_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define WITH_WIDE_VECTORS
-#endif
 
 WITH_WIDE_VECTORS void add_rows(const Plane<float>& plane, RowRange rows, Lanes<float>& sums) {
     for (std::int64_t row = rows.begin; row < rows.end; ++row)

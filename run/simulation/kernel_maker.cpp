@@ -25,10 +25,9 @@ Compile KernelMaker::interpreted_on(const Grid& grid) const {
 }
 
 Compile KernelMaker::often() const {
-    if (is_small()) return interpreted();
     return [this, interpret = interpreted()](const CellKernel& kernel) {
         const TimeAccount::Scope spent(account_, Spent::compiling);
-        if (runs_meanwhile()) {
+        if (grid_.cell_count() < cells_worth_compiling) {
             return stepper_->begin(kernel, grid_.stencil(), TieredBackend::When::when_used);
         }
         auto made = stepper_->compile(kernel, grid_.stencil());

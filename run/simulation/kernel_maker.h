@@ -26,7 +26,7 @@ public:
 
     Compile interpreted() const { return interpreted_on(grid_); }
     Compile interpreted_on(const Grid& grid) const;
-    /// For kernels that run every few steps: compiled if there are many cells.
+    /// For kernels that run every few steps: interpreted until that has taken as long as compiling.
     Compile often() const;
     /// For kernels that run once: interpreted, unless that would take longer than compiling.
     Compile once() const;

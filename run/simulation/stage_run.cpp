@@ -37,9 +37,9 @@ StageRun::StageRun(const Environment& environment, std::span<StageState> states,
           };
           StageTools tools =
               stage_tools(view_, environment.kernels->steps(when, kernels_, refused));
-          tools.is_true = [this, is_true = std::move(tools.is_true)](const Formula& formula) {
+          tools.condition_holds = [this, holds = std::move(tools.condition_holds)] {
               if (control_ != nullptr) undefined_.look_at_until(view_, *control_);
-              return is_true(formula);
+              return holds();
           };
           return tools;
       }()) {

@@ -5,7 +5,6 @@
 #include "run/stage/bound_diffusion.h"
 #include "run/stage/plan_runner.h"
 
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -47,15 +46,8 @@ StepProblem bind_steps(const StageView& view, const Scheme& scheme, const Compil
 std::vector<double> values_over_time(const StageView& view, const Formula& formula,
                                      double duration) {
     const Grid one{1, 1, Boundary::periodic};
-    // Compiled once for all moments.
-    std::map<const CellKernel*, KernelPointer> made;
-    const Compile compile = [&made, interpret = view.environment().kernels->interpreted_on(one)](
-                                const CellKernel& kernel) {
-        KernelPointer& known = made[&kernel];
-        if (!known) known = interpret(kernel);
-        return known;
-    };
-    PlanRunner runner(plan_view(view.program(), formula, view.number()), compile);
+    PlanRunner runner(plan_view(view.program(), formula, view.number()),
+                      view.environment().kernels->interpreted_on(one));
     Team alone(1);
     BindingContext context = view.context();
     context.grid = one;
@@ -81,8 +73,12 @@ StageTools stage_tools(const StageView& view, Compile steps) {
     tools.over_time = [view](const Formula& formula, double duration) {
         return values_over_time(view, formula, duration);
     };
-    tools.is_true = [view](const Formula& formula) {
-        return view.evaluate(formula)[0].number_at(0, 0) != 0;
+    tools.condition_holds = [view, condition = NumberSource()]() mutable {
+        if (!condition) {
+            const Formula* const until[] = {&*view.stage().time.until};
+            condition = numbers_of(view, until);
+        }
+        return condition()[0] != 0;
     };
     tools.estimate = [view, compile = here.kernels->often()] {
         const auto limit = view.stability(view.state().species, compile).largest_speed;

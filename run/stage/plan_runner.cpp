@@ -11,8 +11,13 @@ PlanRunner::PlanRunner(StepPlan plan, Compile compile)
     : plan_(std::move(plan)), compile_(std::move(compile)) {}
 
 std::vector<Field>& PlanRunner::run(const BindingContext& context, Team& team) {
+    const Compile make_once = [this](const CellKernel& kernel) {
+        KernelPointer& known = made_[&kernel];
+        if (!known) known = compile_(kernel);
+        return known;
+    };
     // Values may have moved since the last run.
-    problem_ = bind_plan(plan_, compile_, context);
+    problem_ = bind_plan(plan_, make_once, context);
     if (!runner_) {
         runner_.emplace(problem_);
         for (std::uint32_t k = 0; k < plan_.result_count; ++k) {

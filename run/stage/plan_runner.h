@@ -6,13 +6,14 @@
 #include "run/stage/bound_kernel.h"
 #include "solvers/pass_runner.h"
 
+#include <map>
 #include <optional>
 #include <vector>
 
 namespace cascade {
 
-/// Runs a plan repeatedly. Its planes are allocated by the first run and reused, because fresh
-/// memory would cost more than the computation.
+/// Runs a plan repeatedly. Its kernels are made and its planes allocated by the first run and
+/// reused, because making them would cost more than the computation.
 class PlanRunner {
 public:
     PlanRunner(StepPlan plan, Compile compile);
@@ -26,6 +27,7 @@ public:
 private:
     StepPlan plan_;
     Compile compile_;
+    std::map<const CellKernel*, KernelPointer> made_;  ///< By the kernels of the plan.
     StepProblem problem_;
     std::optional<PassRunner> runner_;
     std::vector<Field> results_;

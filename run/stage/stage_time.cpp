@@ -225,7 +225,7 @@ std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState
 
 bool StageTimer::has_ended(std::int64_t step, double t) {
     state_.go_to(step, t);
-    if (stage_.time.until) return tools_.is_true(*stage_.time.until);
+    if (stage_.time.until) return tools_.condition_holds();
     // If steps differ from cell to cell, steps are counted instead of time.
     const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
     return state_.watch.settled(state_.species, age, *stage_.time.steady, tools_.inside);

@@ -31,7 +31,8 @@ struct StageTools {
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
     /// The values of a formula of constants and `t` alone, at n / Forcing::intervals of a duration.
     std::function<std::vector<double>(const Formula&, double duration)> over_time;
-    std::function<bool(const Formula&)> is_true;
+    /// Does the condition of the stage's `until` hold?
+    std::function<bool()> condition_holds;
     /// Bounds the eigenvalues by a power iteration, if there is no bound by rule.
     std::function<double()> estimate;
     const Mask* inside = nullptr;       ///< The cells that count, with a mask or on a model.

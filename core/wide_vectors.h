@@ -1,0 +1,11 @@
+// Functions that use the widest vectors of the processor they run on.
+#pragma once
+
+/// Compiles a function several times and chooses by the processor when the program starts. Only for
+/// functions whose results do not depend on the width of vectors.
+// The thread sanitizer instruments the choice, which is made before it has started.
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__)
+#define WITH_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define WITH_WIDE_VECTORS
+#endif
