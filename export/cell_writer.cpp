@@ -2,9 +2,9 @@
 #include "export/cell_writer.h"
 
 #include "core/check.h"
+#include "core/write_encoded.h"
 #include "export/model_writer.h"
 #include "export/vtp.h"
-#include "export/write_encoded.h"
 #include "export/zip.h"
 #include "mesh/normals.h"
 #include "picture/float_bytes.h"

@@ -2,8 +2,8 @@
 #include "export/model_writer.h"
 
 #include "core/check.h"
+#include "core/write_encoded.h"
 #include "export/glb.h"
-#include "export/write_encoded.h"
 
 #include <fmt/format.h>
 

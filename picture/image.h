@@ -98,7 +98,7 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
 /// transparent pixels give an alpha channel; they are white with alpha 0. Colours are rounded to
 /// 256 or 65536 levels; long texts are compressed. Fails as encode_png and write_file do.
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
-                       const PngTexts& texts, PngEffort effort = PngEffort::small);
+                       const PngTexts& texts);
 
 /// The text chunks (tEXt, zTXt, iTXt) of a PNG file in memory. Latin-1 becomes UTF-8; of texts with
 /// the same keyword the first is kept. Does not decode the picture. Fails if the data is no PNG,

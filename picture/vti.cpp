@@ -2,14 +2,13 @@
 #include "picture/vti.h"
 
 #include "core/check.h"
-#include "core/file.h"
+#include "core/write_encoded.h"
 #include "picture/float_bytes.h"
 #include "picture/xml_text.h"
 
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <new>
 
 namespace cascade {
 
@@ -77,11 +76,7 @@ std::string encode_vti(std::span<const VolumeArray> arrays, double spacing, cons
 
 Result<void> write_vti(const std::filesystem::path& path, std::span<const VolumeArray> arrays,
                        double spacing, const Mask* inside) {
-    try {
-        return write_file(path, encode_vti(arrays, spacing, inside));
-    } catch (const std::bad_alloc&) {
-        return failure(fmt::format("cannot write '{}': there is not enough memory", path.string()));
-    }
+    return write_encoded(path, [&] { return encode_vti(arrays, spacing, inside); });
 }
 
 }  // namespace cascade

@@ -1,11 +1,9 @@
 // Writes fields as .npy files.
-#include "core/file.h"
+#include "core/write_encoded.h"
 #include "picture/float_bytes.h"
 #include "picture/npy.h"
 
 #include <fmt/format.h>
-
-#include <new>
 
 namespace cascade {
 namespace {
@@ -40,11 +38,7 @@ std::string encode_npy(const Field& field) {
 }
 
 Result<void> write_npy(const std::filesystem::path& path, const Field& field) {
-    try {
-        return write_file(path, encode_npy(field));
-    } catch (const std::bad_alloc&) {
-        return failure(fmt::format("cannot write '{}': there is not enough memory", path.string()));
-    }
+    return write_encoded(path, [&] { return encode_npy(field); });
 }
 
 }  // namespace cascade

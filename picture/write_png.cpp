@@ -3,7 +3,7 @@
 // libpng reports errors by longjmp to Encoder::run. This is safe because the skipped frames own
 // nothing: all objects with a destructor are in encode_png, outside the jump.
 #include "core/check.h"
-#include "core/file.h"
+#include "core/write_encoded.h"
 #include "picture/image.h"
 #include "picture/srgb.h"
 
@@ -207,13 +207,8 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
 }
 
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
-                       const PngTexts& texts, PngEffort effort) {
-    const Result<std::string> bytes = encode_png(image, depth, texts, PngMeaning::colours, effort);
-    if (!bytes) {
-        return failure(fmt::format("cannot write '{}': {}", path.string(), bytes.error().message),
-                       bytes.error().hint);
-    }
-    return write_file(path, *bytes);
+                       const PngTexts& texts) {
+    return write_encoded(path, [&] { return encode_png(image, depth, texts); });
 }
 
 }  // namespace cascade

@@ -39,10 +39,12 @@ stage large: turing_spots { iterations: 60 }
 stage small: gray_scott { iterations: 60 }
 END_OF_SCRIPT
 export CASCADE_KERNEL_CACHE=
-run 0 run two.cascade -q -o free.png
-denied run two.cascade -q -o denied.png
-denied run two.cascade -q -o denied8.png --threads 8 --limit-time 1h
+frames=(--set large.interval=20 --set small.interval=20 --frames)
+run 0 run two.cascade -q -o free.png "${frames[@]}" free_film
+denied run two.cascade -q -o denied.png "${frames[@]}" denied_film
+denied run two.cascade -q -o denied8.png --threads 8 "${frames[@]}" denied_film --limit-time 1h
 cmp free.png denied.png && cmp free.png denied8.png || fail "another picture"
+diff -r free_film denied_film || fail "other frames"
 
 # The surface of a model, its picture, its baked maps.
 cat >model.cascade <<'END_OF_SCRIPT'

@@ -113,8 +113,12 @@ Result<void> RunResults::write_outputs() {
 
 Result<void> RunResults::write_frames() {
     if (auto failed = frames->failure()) return tl::unexpected(*failed);
-    auto written =
-        frames->write(painter, request.picture.png_depth(), embed_script(script, request.picture));
+    const SimulationOptions& options = request.simulation;
+    // The limit of memory counts one picture.
+    const int threads = options.memory_limit > 0 ? 1
+                        : options.threads > 0    ? options.threads
+                                                 : hardware_threads();
+    auto written = frames->write(painter, embed_script(script, request.picture), threads);
     if (!written) return tl::unexpected(written.error());
     report.written.insert(report.written.end(), written->begin(), written->end());
     if (const std::size_t stale = remove_stale_frames(earlier_frames, *written);

@@ -1,10 +1,16 @@
-// Planes are written to an unnamed temporary file and painted after the run.
+// Planes are written to an unnamed temporary file and painted after the run, when their range is
+// known.
 #include "run/pictures/frames.h"
 
+#include "core/parallel.h"
+#include "core/write_encoded.h"
 #include "run/pictures/frame_folder.h"
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
+#include <new>
 
 namespace cascade {
 
@@ -17,6 +23,16 @@ std::size_t plane_size(const PlaneLayout& layout) {
 /// The whole plane including halo and padding, which is contiguous.
 const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
+
+/// The result of an action that may throw std::bad_alloc.
+template <typename Action>
+auto enough_memory_for(const Action& action) -> decltype(action()) {
+    try {
+        return action();
+    } catch (const std::bad_alloc&) {
+        return failure("there is not enough memory");
+    }
+}
 
 }  // namespace
 
@@ -79,22 +95,51 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     return canvas;
 }
 
-Result<std::vector<std::filesystem::path>> FrameRecorder::write(Painter& painter, PngDepth depth,
-                                                                const PngTexts& texts) {
+/// Each thread holds a picture and what it is encoded from, 20 to 40 bytes a pixel.
+int FrameRecorder::threads_for(const Painter& painter, int threads) const {
+    constexpr std::int64_t most_pixels = std::int64_t{1} << 23;
+    const std::int64_t scale = painter.request().scale;
+    const std::int64_t pixels = layout_.width * layout_.height * scale * scale;
+    if (!painter.is_flat()) return 1;  // Pictures of surfaces are drawn by all threads together.
+    return static_cast<int>(std::clamp<std::int64_t>(most_pixels / pixels, 1, threads));
+}
+
+Result<std::vector<std::filesystem::path>> FrameRecorder::write(Painter& painter,
+                                                                const PngTexts& texts,
+                                                                int threads) {
+    const ValueRange range = automatic_range(values_);
+    const auto draw = [&](const Canvas& canvas) {
+        return encode_png(painter.image(canvas, range), painter.request().png_depth(), texts,
+                          PngMeaning::colours, PngEffort::fast);
+    };
+    std::mutex mutex;  // Of the following, and of the file.
+    std::condition_variable is_written;
+    std::size_t begun = 0;
     std::vector<std::filesystem::path> written;
-    std::rewind(file_.get());
-    for (std::size_t number = 0; number < frames_.size(); ++number) {
-        const Frame& frame = frames_[number];
-        auto canvas = read_back(frame);
-        if (!canvas) return tl::unexpected(canvas.error());
-        const auto path = folder_ / frame_name(number, frame.stage, frame.step);
-        if (auto done = write_png(path, painter.image(*canvas, automatic_range(values_)), depth,
-                                  texts, PngEffort::fast);
-            !done) {
-            return tl::unexpected(done.error());
+    std::optional<Failure> failed;
+    const auto work = [&](int) {
+        std::unique_lock lock(mutex);
+        while (!failed && begun < frames_.size()) {
+            const std::size_t number = begun++;
+            const Frame& frame = frames_[number];
+            Result<Canvas> canvas = enough_memory_for([&] { return read_back(frame); });
+            lock.unlock();
+            Result<std::string> bytes = enough_memory_for([&] { return canvas.and_then(draw); });
+            lock.lock();
+            is_written.wait(lock, [&] { return failed || written.size() == number; });
+            if (failed) return;
+            lock.unlock();
+            const auto path = folder_ / frame_name(number, frame.stage, frame.step);
+            const auto done = write_encoded(path, [&] { return std::move(bytes); });
+            lock.lock();
+            if (done) written.push_back(path);
+            else failed = done.error();
+            is_written.notify_all();
         }
-        written.push_back(path);
-    }
+    };
+    std::rewind(file_.get());
+    Team(threads_for(painter, threads)).run(work);
+    if (failed) return tl::unexpected(*failed);
     return written;
 }
 

@@ -28,9 +28,11 @@ public:
     /// True if no frame is of a stage that has taken a step.
     bool holds_starts_alone() const;
 
-    /// Draws every frame as NUMBER-STAGE-STEP.png with one range for all.
-    Result<std::vector<std::filesystem::path>> write(Painter& painter, PngDepth depth,
-                                                     const PngTexts& texts);
+    /// Draws every frame as NUMBER-STAGE-STEP.png with one range for all, several at a time on at
+    /// most this number of threads. They are written in their order: on failure there are those
+    /// before the one that failed, and no others.
+    Result<std::vector<std::filesystem::path>> write(Painter& painter, const PngTexts& texts,
+                                                     int threads);
 
     /// The rows of a one-row grid, stacked vertically, the first frame at the top.
     Image space_time(Painter& painter) const;
@@ -46,6 +48,7 @@ private:
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
+    int threads_for(const Painter& painter, int threads) const;
     bool keep(const Field& field);
     Result<Canvas> read_back(const Frame& frame);
 

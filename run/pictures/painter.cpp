@@ -130,11 +130,15 @@ Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
     return drawer_->draw(look(canvas, range), options);
 }
 
+bool Painter::is_flat() const {
+    return !model_ && (!script_->program->domain.surface || request_.flat);
+}
+
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
     if (model_) return on_model(canvas, range);
     Image flat = texture(canvas, range);
+    if (is_flat()) return enlarge(std::move(flat), request_.scale);
     const DomainSettings& domain = script_->program->domain;
-    if (!domain.surface || request_.flat) return enlarge(std::move(flat), request_.scale);
     DrawOptions options;
     options.width *= request_.scale;
     options.height *= request_.scale;

@@ -40,6 +40,9 @@ public:
     /// The canvas as an image, enlarged, and transparent outside of the mask; drawn on the surface
     /// if the domain has one. `range` overrides the automatic range.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {});
+    /// True if each cell of the last canvas becomes a square of pixels. Then image() may be called
+    /// from several threads.
+    bool is_flat() const;
     const PictureRequest& request() const { return request_; }
     /// Sets the view of later pictures.
     void set_view(const View& view) { request_.view = view; }

@@ -1,6 +1,7 @@
 // A folder of frames holds the frames of one run.
 #include "run_fixture.h"
 
+#include "picture/grey_picture.h"
 #include "run/pictures/frame_folder.h"
 
 #include <gmock/gmock.h>
@@ -58,6 +59,45 @@ TEST_F(FrameFolder, OfAnotherScriptIsLeftAlone) {
     ASSERT_TRUE(write_file(path("mine/0000-holiday-0000001.png"), "sun"));
     EXPECT_THAT(run_badly(script, frames_in("mine")), HasSubstr("as 0000-holiday-0000001.png"));
     EXPECT_EQ(bytes("mine/0000-holiday-0000001.png"), "sun");
+}
+
+TEST_F(FrameFolder, HoldsThePixelsOfPictures) {
+    Script script =
+        load("domain { grid: 40, 30 }\nstage s: turing_spots { iterations: 60; interval: 10 }\n");
+    RunRequest wanted = frames_in("film");
+    wanted.picture.scale = 2;
+    wanted.picture.range = ValueRange{3, 5};
+    for (const int threads : {1, 3}) {
+        wanted.simulation.threads = threads;
+        for (const std::int64_t step : {0, 30, 60}) {
+            wanted.stop_at = StopAt{"s", step};
+            wanted.outputs = {path("stopped.png")};
+            run_well(script, wanted);
+            const auto frame = read_grey_picture(
+                path("film/" + frame_name(static_cast<std::size_t>(step / 10), "s", step)));
+            const auto picture = read_grey_picture(path("stopped.png"));
+            ASSERT_TRUE(frame && picture);
+            EXPECT_EQ(frame->width, 80);
+            EXPECT_EQ(frame->values, picture->values);
+        }
+    }
+}
+
+/// As many threads as there are frames, so that later ones are ready when an earlier one fails.
+TEST_F(FrameFolder, HoldsTheFramesBeforeOneThatCannotBeWritten) {
+    Script script =
+        load("domain { grid: 16, 16 }\nstage s: turing_spots { iterations: 50; interval: 10 }\n");
+    RunRequest wanted = frames_in("film");
+    wanted.simulation.threads = 6;
+    RunControl control;
+    control.report = [&](const Progress&) {
+        std::filesystem::create_directories(path("film/0002-s-0000020.png"));
+    };
+    const auto report = run(script, wanted, control);
+    ASSERT_FALSE(report);
+    EXPECT_THAT(report.error().message, HasSubstr("0002-s-0000020.png': Is a directory"));
+    EXPECT_THAT(names("film"),
+                ElementsAre("0000-s-0000000.png", "0001-s-0000010.png", "0002-s-0000020.png"));
 }
 
 TEST_F(FrameFolder, KeepsWhatItHasWhereARunFails) {
