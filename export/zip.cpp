@@ -1,9 +1,9 @@
-// Checksums by zlib's crc32_z(); dates are constant, so that the same cells give the same bytes.
+// Dates are constant, so that the same cells give the same bytes.
 #include "export/zip.h"
 
 #include "picture/float_bytes.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <cstdint>
 #include <limits>
@@ -25,8 +25,7 @@ void append32(std::string& bytes, std::size_t number) {
 
 /// The description of an entry, both before it and in the directory at the end.
 std::string description_of(const ZipEntry& entry) {
-    const std::size_t checksum =
-        crc32_z(0, reinterpret_cast<const Bytef*>(entry.bytes.data()), entry.bytes.size());
+    const std::size_t checksum = libdeflate_crc32(0, entry.bytes.data(), entry.bytes.size());
     std::string bytes;
     append16(bytes, version_needed);
     append16(bytes, names_are_utf8);

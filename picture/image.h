@@ -85,7 +85,7 @@ inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 /// map, which readers must not colour-correct.
 enum class PngMeaning { colours, numbers };
 
-/// The fast way takes a small part of the time and makes files of patterns a quarter larger.
+/// The fast way takes a third of the time and makes files of patterns a tenth larger.
 enum class PngEffort { small, fast };
 
 /// A PNG file in memory, as write_png writes it. Fails if a side is 0 or above 2^31 − 1, if texts

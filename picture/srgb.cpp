@@ -1,7 +1,6 @@
 // Powers are computed in binary64 and rounded once to binary32.
 #include "picture/srgb.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace cascade {
@@ -19,12 +18,6 @@ float stored_of(float light) {
     if (!(light > 0)) return 0;
     if (light >= 1) return 1;
     return light <= 0.0031308F ? light * 12.92F : 1.055F * steady_power(light, 1 / 2.4) - 0.055F;
-}
-
-unsigned level_of(float value, unsigned highest) {
-    if (!(value > 0)) return 0;
-    const double clamped = std::min(static_cast<double>(value), 1.0);
-    return static_cast<unsigned>(std::floor(clamped * highest + 0.5));
 }
 
 }  // namespace cascade

@@ -3,6 +3,8 @@
 
 #include "core/palette.h"
 
+#include <algorithm>
+
 namespace cascade {
 
 /// The linear light of an sRGB channel: maps 0 to 0 and 1 to 1; negative numbers and NaN become 0.
@@ -20,7 +22,10 @@ inline Colour stored_of(const Colour& light) {
 }
 
 /// The nearest of the levels 0 … `highest` of a file to a value, clamped to 0 … 1; NaN becomes 0.
-unsigned level_of(float value, unsigned highest);
+inline unsigned level_of(float value, unsigned highest) {
+    const double amount = value > 0 ? std::min(static_cast<double>(value), 1.0) : 0.0;
+    return static_cast<unsigned>(amount * highest + 0.5);
+}
 
 /// base ^ exponent, computed in binary64: the library's binary32 functions differ in the last bit
 /// between processors; rounded binary64 results do not.

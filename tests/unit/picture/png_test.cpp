@@ -102,28 +102,74 @@ TEST(EncodePng, ValuesBeyondTheRangeAreClamped) {
                 ElementsAre(0, 255, 0, 255, 0, 255));
 }
 
-TEST(EncodePng, LargerPicturesKeepEveryPixel) {
-    // Smooth and rough parts, so that every row filter is likely to be chosen.
-    Image image(97, 61);
-    std::vector<unsigned> expected;
+/// A picture with smooth and rough parts, so that every row filter is likely to be chosen.
+struct Sample {
+    Image image;
+    std::vector<unsigned> levels;  ///< As a file has them.
+};
+Sample sample(std::int64_t width, std::int64_t height, unsigned highest, bool is_grey,
+              bool has_alpha) {
+    Sample made{Image(width, height), {}};
     std::uint32_t state = 1;
-    for (std::int64_t y = 0; y < image.height; ++y) {
-        for (std::int64_t x = 0; x < image.width; ++x) {
+    for (std::int64_t y = 0; y < height; ++y) {
+        for (std::int64_t x = 0; x < width; ++x) {
+            const bool is_seen = !has_alpha || (x + y) % 3 > 0;
+            Colour& pixel = made.image.at(x, y);
+            unsigned level = 0;
             for (std::size_t c = 0; c < 3; ++c) {
                 state = state * 1664525U + 1013904223U;
                 const auto smooth = static_cast<unsigned>(x * 2 + y + 20 * static_cast<int>(c));
-                const unsigned level = y < 30 ? smooth & 0xffU : state >> 24;
-                image.at(x, y)[c] = static_cast<float>(level) / 255.0F;
-                expected.push_back(level);
+                if (c == 0 || !is_grey) level = (y < height / 2 ? smooth : state >> 15) & highest;
+                pixel[c] = static_cast<float>(level) / static_cast<float>(highest);
+                if (c == 0 || !is_grey) made.levels.push_back(is_seen ? level : highest);
+            }
+            if (has_alpha) made.levels.push_back(is_seen ? highest : 0);
+            if (!is_seen) pixel = transparent;
+        }
+    }
+    return made;
+}
+
+TEST(EncodePng, LargerPicturesKeepEveryPixelInEveryFormat) {
+    for (const PngDepth depth : {PngDepth::eight, PngDepth::sixteen}) {
+        for (const bool is_grey : {false, true}) {
+            for (const bool has_alpha : {false, true}) {
+                const unsigned highest = depth == PngDepth::eight ? 255 : 65535;
+                const auto [image, levels] = sample(97, 61, highest, is_grey, has_alpha);
+                for (const PngEffort effort : {PngEffort::small, PngEffort::fast}) {
+                    const auto file = encode_png(image, depth, {}, PngMeaning::colours, effort);
+                    ASSERT_TRUE(file);
+                    const DecodedPng png = test::decode(*file);
+                    EXPECT_EQ(png.colour_type, (is_grey ? 0 : 2) + (has_alpha ? 4 : 0));
+                    EXPECT_EQ(png.samples, levels);
+                }
             }
         }
     }
-    const std::string small = encoded(image, PngDepth::eight);
-    const auto fast = encode_png(image, PngDepth::eight, {}, PngMeaning::colours, PngEffort::fast);
-    ASSERT_TRUE(fast);
-    EXPECT_EQ(test::decode(small).samples, expected);
-    EXPECT_EQ(test::decode(*fast).samples, expected);
-    EXPECT_LT(small.size(), fast->size());
+}
+
+TEST(EncodePng, MuchDataIsInSeveralChunks) {
+    const auto [image, levels] = sample(1000, 900, 255, false, false);
+    const std::string file = encoded(image, PngDepth::eight);
+    int count = 0;
+    for (const Chunk& chunk : test::take_apart(file)) {
+        if (chunk.name == "IDAT") ++count;
+        EXPECT_LE(chunk.data.size(), std::size_t{1} << 20);
+    }
+    EXPECT_EQ(count, 2);
+    EXPECT_EQ(test::decode(file).samples, levels);
+}
+
+TEST(EncodePng, EffortMakesSmallerFiles) {
+    Image rings(300, 200);
+    for (std::int64_t y = 0; y < rings.height; ++y) {
+        for (std::int64_t x = 0; x < rings.width; ++x) {
+            const bool is_dark = (x * x + y * y) / 500 % 2 == 0;
+            rings.at(x, y) = is_dark ? Colour{0.2F, 0.1F, 0} : Colour{1, 0.9F, 0.7F};
+        }
+    }
+    const auto fast = encode_png(rings, PngDepth::eight, {}, PngMeaning::colours, PngEffort::fast);
+    EXPECT_LT(encoded(rings, PngDepth::eight).size(), fast->size());
 }
 
 TEST(EncodePng, SaysThatColoursAreSrgb) {
