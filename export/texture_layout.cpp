@@ -63,6 +63,10 @@ TextureLayout::TextureLayout(const SurfaceMesh& mesh, std::int64_t width, std::i
         drawn.sign = twice > 0 ? 1 : -1;
         drawn.first = first_from(std::min({a.y, b.y, c.y}));
         drawn.last = last_to(std::max({a.y, b.y, c.y}));
+        drawn.top = divided_down(drawn.first, height_);
+        drawn.bottom = divided_down(drawn.last, height_);
+        drawn.left = divided_down(first_from(std::min({a.x, b.x, c.x})), width_);
+        drawn.right = divided_down(last_to(std::max({a.x, b.x, c.x})), width_);
         area += std::abs(twice) / 2;
     }
     covered_area_ = area / (static_cast<double>(width) * static_cast<double>(height));
@@ -107,8 +111,7 @@ std::int64_t TextureLayout::find_owners(std::int64_t first, std::int64_t last,
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
         const Drawn& triangle = triangles_[t];
         if (triangle.sign == 0) continue;
-        for (std::int64_t turn = divided_down(triangle.first, height_) * height_;
-             turn <= triangle.last; turn += height_) {
+        for (std::int64_t turn = triangle.top * height_; turn <= triangle.last; turn += height_) {
             const std::int64_t begin = std::max(triangle.first, turn + first);
             const std::int64_t end = std::min(triangle.last + 1, turn + last);
             for (std::int64_t row = begin; row < end; ++row) {
@@ -128,15 +131,10 @@ std::int64_t TextureLayout::find_owners(std::int64_t first, std::int64_t last,
 SurfacePlace TextureLayout::place_at(std::uint32_t triangle, std::int64_t column,
                                      std::int64_t row) const {
     const Drawn& drawn = triangles_[triangle];
-    const auto& [a, b, c] = drawn.corners;
-    const std::int64_t left = divided_down(first_from(std::min({a.x, b.x, c.x})), width_);
-    const std::int64_t right = divided_down(last_to(std::max({a.x, b.x, c.x})), width_);
-    const std::int64_t top = divided_down(drawn.first, height_);
-    const std::int64_t bottom = divided_down(drawn.last, height_);
     SurfacePlace place{triangle, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
     std::array<double, 3> inside{};
-    for (std::int64_t turn = top; turn <= bottom; ++turn) {
-        for (std::int64_t across = left; across <= right; ++across) {
+    for (std::int64_t turn = drawn.top; turn <= drawn.bottom; ++turn) {
+        for (std::int64_t across = drawn.left; across <= drawn.right; ++across) {
             const Vector2d point = middle_of(column + across * width_, row + turn * height_);
             if (!holds(drawn, point, inside)) continue;
             const double sum = inside[0] + inside[1] + inside[2];

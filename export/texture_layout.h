@@ -45,6 +45,8 @@ private:
         FlatTriangle corners;
         double sign = 0;                   ///< Of its area; 0 if it is not drawn.
         std::int64_t first = 0, last = 0;  ///< Its rows, without wrapping.
+        /// The repetitions of the texture that it touches.
+        std::int64_t top = 0, bottom = 0, left = 0, right = 0;
     };
     /// Whether a point is in the triangle, and its distances from the edges. Of two triangles with
     /// a common edge exactly one contains the points on it.

@@ -15,10 +15,14 @@ float light_of(float stored);
 float stored_of(float light);
 
 inline Colour light_of(const Colour& stored) {
-    return {light_of(stored[0]), light_of(stored[1]), light_of(stored[2])};
+    const float red = light_of(stored[0]);
+    if (stored[1] == stored[0] && stored[2] == stored[0]) return {red, red, red};
+    return {red, light_of(stored[1]), light_of(stored[2])};
 }
 inline Colour stored_of(const Colour& light) {
-    return {stored_of(light[0]), stored_of(light[1]), stored_of(light[2])};
+    const float red = stored_of(light[0]);
+    if (light[1] == light[0] && light[2] == light[0]) return {red, red, red};
+    return {red, stored_of(light[1]), stored_of(light[2])};
 }
 
 /// The nearest of the levels 0 … `highest` of a file to a value, clamped to 0 … 1; NaN becomes 0.

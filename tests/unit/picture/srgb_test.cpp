@@ -2,6 +2,9 @@
 #include "picture/srgb.h"
 
 #include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 namespace cascade {
@@ -17,6 +20,20 @@ TEST(Srgb, LevelsComeBack) {
     EXPECT_EQ(stored_of(1.0F), 1);
     EXPECT_NEAR(light_of(0.5F), 0.214041F, 1e-6F);  // The standard's formula.
     EXPECT_NEAR(light_of(0.04F), 0.04F / 12.92F, 1e-9F);
+}
+
+/// The standard's formulas with std::pow, in steps that reach all parts of the tables.
+TEST(Srgb, PowersAreThoseOfTheLibrary) {
+    for (std::uint32_t bits = std::bit_cast<std::uint32_t>(0.04046F);
+         bits <= std::bit_cast<std::uint32_t>(1.5F); bits += 97) {
+        const auto stored = std::bit_cast<float>(bits);
+        EXPECT_EQ(light_of(stored), steady_power((stored + 0.055F) / 1.055F, 2.4)) << stored;
+    }
+    for (std::uint32_t bits = std::bit_cast<std::uint32_t>(0.0031309F);
+         bits < std::bit_cast<std::uint32_t>(1.0F); bits += 97) {
+        const auto light = std::bit_cast<float>(bits);
+        EXPECT_EQ(stored_of(light), 1.055F * steady_power(light, 1 / 2.4) - 0.055F) << light;
+    }
 }
 
 TEST(Srgb, WhatIsNoAmountIsClamped) {
