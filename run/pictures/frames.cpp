@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "core/write_encoded.h"
+#include "run/domain/free_memory.h"
 #include "run/pictures/frame_folder.h"
 
 #include <algorithm>
@@ -95,13 +96,17 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     return canvas;
 }
 
-/// Each thread holds a picture and what it is encoded from, 20 to 40 bytes a pixel.
+/// As many as have room for a picture and what it is encoded from, in half of the free memory.
 int FrameRecorder::threads_for(const Painter& painter, int threads) const {
-    constexpr std::int64_t most_pixels = std::int64_t{1} << 23;
-    const std::int64_t scale = painter.request().scale;
-    const std::int64_t pixels = layout_.width * layout_.height * scale * scale;
-    if (!painter.is_flat()) return 1;  // Pictures of surfaces are drawn by all threads together.
-    return static_cast<int>(std::clamp<std::int64_t>(most_pixels / pixels, 1, threads));
+    // Pictures of surfaces are drawn by all threads together.
+    if (frames_.empty() || !painter.is_flat()) return 1;
+    constexpr std::uint64_t bytes_of_pixel = 40;
+    const auto scale = static_cast<std::uint64_t>(painter.request().scale);
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(layout_.width * layout_.height) * scale * scale;
+    const std::uint64_t fitting = available_memory() / 2 / (pixels * bytes_of_pixel);
+    return static_cast<int>(
+        std::clamp<std::uint64_t>(fitting, 1, static_cast<std::uint64_t>(threads)));
 }
 
 Result<std::vector<std::filesystem::path>> FrameRecorder::write(Painter& painter,

@@ -124,6 +124,19 @@ TEST_F(FrameFolder, IsNotThatOfARunThatGoesOn) {
     run_well(*saved, on);
 }
 
+TEST_F(FrameFolder, MayStayEmpty) {
+    Script script = load(spots);
+    RunRequest wanted = request();
+    wanted.save = path("saved");
+    run_well(script, wanted);
+    auto saved = load_saved_script(path("saved"), {});
+    ASSERT_TRUE(saved);
+    RunRequest on = frames_in("film");  // The saved run is complete, so there is nothing to draw.
+    on.resume = path("saved");
+    run_well(*saved, on);
+    EXPECT_THAT(names("film"), testing::IsEmpty());
+}
+
 TEST_F(FrameFolder, IsNotCalledLikeAMovie) {
     EXPECT_TRUE(is_called_like_a_movie("a/film.MP4"));
     EXPECT_TRUE(is_called_like_a_movie("film.gif"));
