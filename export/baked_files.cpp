@@ -1,10 +1,14 @@
 // Writes baked maps to files.
 #include "core/file.h"
+#include "core/parallel.h"
 #include "export/bake.h"
 #include "export/glb.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <new>
 
 namespace cascade {
@@ -16,6 +20,7 @@ struct Maps {
     std::string normals_of_model;         ///< In 8 bits, which all viewers of GLB files support.
 };
 
+/// Encodes the maps side by side, those of most bytes first.
 Result<Maps> encode_maps(const Bake& bake, const PngTexts& texts) {
     Maps maps;
     struct Map {
@@ -23,20 +28,29 @@ Result<Maps> encode_maps(const Bake& bake, const PngTexts& texts) {
         PngDepth depth;
         PngMeaning meaning;
         std::string& bytes;
+        Result<void> done = {};
     };
     PngTexts all = texts;
     if (!bake.relief.pixels.empty()) {
         all["Cascade heights"] = fmt::format("{:.9g} {:.9g}", bake.heights.low, bake.heights.high);
     }
-    for (const auto& [image, depth, meaning, bytes] :
-         {Map{bake.colour, PngDepth::eight, PngMeaning::colours, maps.colour},
-          Map{bake.relief, PngDepth::sixteen, PngMeaning::numbers, maps.relief},
-          Map{bake.normals, PngDepth::sixteen, PngMeaning::numbers, maps.normals},
-          Map{bake.normals, PngDepth::eight, PngMeaning::numbers, maps.normals_of_model}}) {
-        if (image.pixels.empty()) continue;
-        Result<std::string> encoded = encode_png(image, depth, all, meaning);
-        if (!encoded) return tl::unexpected(encoded.error());
-        bytes = std::move(*encoded);
+    std::array<Map, 4> list = {
+        {{bake.normals, PngDepth::sixteen, PngMeaning::numbers, maps.normals},
+         {bake.normals, PngDepth::eight, PngMeaning::numbers, maps.normals_of_model},
+         {bake.colour, PngDepth::eight, PngMeaning::colours, maps.colour},
+         {bake.relief, PngDepth::sixteen, PngMeaning::numbers, maps.relief}}};
+    std::atomic<std::size_t> next = 0;
+    Team(std::min<int>(hardware_threads(), list.size())).run([&](int) {
+        for (std::size_t k = next++; k < list.size(); k = next++) {
+            Map& map = list[k];
+            if (map.image.pixels.empty()) continue;
+            Result<std::string> encoded = encode_png(map.image, map.depth, all, map.meaning);
+            if (encoded) map.bytes = std::move(*encoded);
+            else map.done = tl::unexpected(encoded.error());
+        }
+    });
+    for (const Map& map : list) {
+        if (!map.done) return tl::unexpected(map.done.error());
     }
     return maps;
 }
