@@ -1,6 +1,6 @@
 // Writes baked maps to files.
-#include "core/file.h"
 #include "core/parallel.h"
+#include "core/write_encoded.h"
 #include "export/bake.h"
 #include "export/glb.h"
 
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <new>
+#include <utility>
 
 namespace cascade {
 
@@ -74,27 +74,22 @@ std::vector<std::filesystem::path> baked_paths(const std::filesystem::path& glb,
 
 Result<void> write_baked(const std::filesystem::path& glb, const SurfaceMesh& mesh,
                          const Bake& bake, const PngTexts& texts) {
-    const auto in_file = [&](const Failure& why) {
-        return failure(fmt::format("cannot write '{}': {}", glb.string(), why.message), why.hint);
-    };
-    try {
-        const Result<Maps> maps = encode_maps(bake, texts);
-        if (!maps) return in_file(maps.error());
+    Maps maps;
+    Result<void> done = write_encoded(glb, [&]() -> Result<std::string> {
+        Result<Maps> encoded = encode_maps(bake, texts);
+        if (!encoded) return tl::unexpected(encoded.error());
+        maps = *std::move(encoded);
         GlbLook look;
-        look.colour_map = maps->colour;
-        look.normal_map = maps->normals_of_model;
-        const Result<std::string> model = encode_glb(mesh, look);
-        if (!model) return in_file(model.error());
-        const auto paths = baked_paths(glb, !maps->relief.empty());
-        const std::array<const std::string*, 4> files = {&*model, &maps->colour, &maps->relief,
-                                                         &maps->normals};
-        for (std::size_t k = 0; k < paths.size(); ++k) {
-            if (Result<void> written = write_file(paths[k], *files[k]); !written) return written;
-        }
-        return {};
-    } catch (const std::bad_alloc&) {
-        return failure(fmt::format("cannot write '{}': there is not enough memory", glb.string()));
+        look.colour_map = maps.colour;
+        look.normal_map = maps.normals_of_model;
+        return encode_glb(mesh, look);
+    });
+    const auto paths = baked_paths(glb, !maps.relief.empty());
+    const std::array<const std::string*, 3> files = {&maps.colour, &maps.relief, &maps.normals};
+    for (std::size_t k = 1; k < paths.size() && done; ++k) {
+        done = write_file(paths[k], *files[k - 1]);
     }
+    return done;
 }
 
 }  // namespace cascade
