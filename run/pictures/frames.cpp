@@ -105,8 +105,9 @@ int FrameRecorder::threads_for(const Painter& painter, int threads) const {
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(layout_.width * layout_.height) * scale * scale;
     const std::uint64_t fitting = available_memory() / 2 / (pixels * bytes_of_pixel);
-    return static_cast<int>(
-        std::clamp<std::uint64_t>(fitting, 1, static_cast<std::uint64_t>(threads)));
+    const std::uint64_t most =
+        std::min<std::uint64_t>(static_cast<unsigned>(threads), frames_.size());
+    return static_cast<int>(std::clamp<std::uint64_t>(fitting, 1, most));
 }
 
 Result<std::vector<std::filesystem::path>> FrameRecorder::write(Painter& painter,
