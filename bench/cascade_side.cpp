@@ -149,7 +149,7 @@ void CascadeSide::advance(std::int64_t count) {
 
 const Field& CascadeSide::parameter(const std::string& name) const {
     const System& system = script_.program->system_of(0);
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+    for (const ItemId item : system.quantities.ids()) {
         if (system.quantities[item].name == name) return start().field(item);
     }
     give_up("no parameter '" + name + "'");

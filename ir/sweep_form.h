@@ -6,11 +6,15 @@
 // by time integrators (solvers/scheme.h) and read by the lowering (lang/lower/lower.h).
 #pragma once
 
+#include "core/id.h"
+
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace cascade {
+
+using SpeciesId = Id<struct SpeciesTag>;  ///< Of a system, counted from its first species.
 
 /// A term of an output, for each species in turn.
 struct SweepTerm {
@@ -56,8 +60,7 @@ struct SweepForm {
     std::uint32_t base_input = 0;
     std::uint32_t coefficients = 0;    ///< The number of coefficients used by the terms.
     std::vector<SweepOutput> outputs;  ///< Result o·S + s is output o of the s-th species written.
-    /// The indices of the species that are written, counted from the system's first; empty for all.
-    std::vector<std::uint32_t> species;
+    std::vector<SpeciesId> species;    ///< Those that are written; empty for all.
     /// A value that is at a bound in input 0, and whose rate there would carry it beyond, stays at
     /// the bound whatever the terms are. For terms that were mixed with those of other cells.
     bool holds = false;

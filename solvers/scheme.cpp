@@ -41,7 +41,7 @@ Scheme symplectic(std::uint32_t species, bool by_item) {
     Scheme scheme;
     for (std::uint32_t number = 0; number < species; ++number) {
         scheme.forms.push_back(whole.forms[0]);
-        scheme.forms.back().species = {number};
+        scheme.forms.back().species = {SpeciesId(number)};
         scheme.sweeps.push_back(whole.sweeps[0]);
         scheme.sweeps.back().form = number;
         scheme.sweeps.back().renewed = number;

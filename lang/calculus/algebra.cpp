@@ -60,7 +60,7 @@ NodeId Algebra::call(Function function, std::initializer_list<NodeId> operands, 
     if (const auto known = simpler(function, all)) return *known;
     std::size_t numbers = 0;
     for (const NodeId operand : operands) {
-        if (is_number(operand)) values[numbers++] = (*this)[operand].number;
+        if (const auto* value = (*this)[operand].as<double>()) values[numbers++] = *value;
     }
     const auto value = numbers == operands.size() ? fold(function, values) : std::nullopt;
     if (value && std::isfinite(*value)) return number(*value);

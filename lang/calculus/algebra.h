@@ -40,7 +40,7 @@ struct FlatRates {
         count = algebra.size();
     }
     FlatRates(const FlatRates&) = delete;
-    NodeId rate(std::uint32_t item) const { return flattening.rate(item); }
+    NodeId rate(ItemId species) const { return flattening.rate(species); }
 };
 
 }  // namespace cascade

@@ -18,7 +18,7 @@ namespace {
 /// The slopes by a species of all parts of the rates. Empty if there is no rule for a part that a
 /// rate needs, or if there are too many slopes.
 std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
-                                                  std::uint32_t species) {
+                                                  ItemId species) {
     IdVector<NodeId, Slopes> slopes;
     slopes.reserve(rates.count);
     for (const NodeId id : ids_below<NodeId>(rates.count)) {
@@ -120,7 +120,7 @@ public:
           rows_(species, LineBound(algebra)),
           columns_(species, LineBound(algebra)) {}
 
-    void add(const Slope& slope, std::size_t of, std::size_t by) {
+    void add(const Slope& slope, SpeciesId of, SpeciesId by) {
         rows_[of].add(slope, of == by);
         columns_[by].add(slope, of == by);
         jumps_ |= slope.jumps;
@@ -146,21 +146,21 @@ public:
     }
 
 private:
-    NodeId growth_in(std::vector<LineBound>& lines) {
+    NodeId growth_in(IdVector<SpeciesId, LineBound>& lines) {
         std::vector<NodeId> parts;
         for (LineBound& line : lines) parts.push_back(line.reaction());
         return largest(algebra_, parts);
     }
 
     Algebra& algebra_;
-    std::vector<LineBound> rows_, columns_;
+    IdVector<SpeciesId, LineBound> rows_, columns_;
     bool jumps_ = false;
 };
 
 }  // namespace
 
-std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage,
-                                       std::uint32_t of, std::uint32_t by) {
+std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage, ItemId of,
+                                       ItemId by) {
     FlatRates rates(program.system_of(stage));
     SlopeRules rules(rates.algebra, program, nullptr);
     const auto slopes = slopes_of(rates, rules, by);
@@ -175,15 +175,12 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
     FlatRates rates(system);
     Algebra& algebra = rates.algebra;
     SlopeRules rules(algebra, program, model);
-    std::vector<std::uint32_t> species;
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (system.is_species(item)) species.push_back(item);
-    }
+    const auto species = system.species();
     SlopeMatrix matrix(algebra, species.size());
-    for (std::size_t by = 0; by < species.size(); ++by) {
+    for (const SpeciesId by : species.ids()) {
         const auto slopes = slopes_of(rates, rules, species[by]);
         if (!slopes) return std::nullopt;
-        for (std::size_t of = 0; of < species.size(); ++of) {
+        for (const SpeciesId of : species.ids()) {
             matrix.add((*slopes)[rates.rate(species[of])][0], of, by);
         }
     }

@@ -9,11 +9,11 @@
 
 namespace cascade {
 
-/// ∂(rate of species item `of`) / ∂(value of species item `by` in the same cell). Values that
+/// ∂(rate of species `of`) / ∂(value of species `by` in the same cell). Values that
 /// operators read at neighbours, and aggregates, are held constant. Definitions and other rates are
 /// expanded. Empty if a function without a rule depends on the species.
-std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage,
-                                       std::uint32_t of, std::uint32_t by);
+std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage, ItemId of,
+                                       ItemId by);
 
 /// Bounds of the Jacobian J of the rates in a state. Each is one number, the largest over all cells
 /// (an aggregate over the domain). Coefficients of operators are taken at the cell itself; see

@@ -23,7 +23,7 @@ struct Operators {
 
 class Linearisation {
 public:
-    Linearisation(FlatRates& rates, std::uint32_t species)
+    Linearisation(FlatRates& rates, ItemId species)
         : rates_(rates), algebra_(rates.algebra), species_(species), zero_(algebra_.number(0)) {}
 
     /// The operators of all parts; fewer if there are too many nodes.
@@ -51,8 +51,8 @@ private:
     Operators operators_of(NodeId id) {
         const Node node = algebra_[id];
         Operators result = nothing();
-        if (node.kind == NodeKind::own && node.index == species_) result.own = algebra_.number(1);
-        if (node.kind != NodeKind::call) return result;
+        if (node.is(species_)) result.own = algebra_.number(1);
+        if (!node.is<Call>()) return result;
         const Derivative derivative = derivative_of(node.function);
         if (derivative.order == 2 && !derivative.is_mixed()) {
             return along_axis(found_[node.operands[0]], derivative.first);
@@ -117,18 +117,17 @@ private:
 
     FlatRates& rates_;
     Algebra& algebra_;
-    std::uint32_t species_;
+    ItemId species_;
     NodeId zero_;
     IdVector<NodeId, Operators> found_;
 };
 
 }  // namespace
 
-std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage) {
+IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
-    std::vector<SpeciesDiffusion> result;
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item)) continue;
+    IdVector<SpeciesId, SpeciesDiffusion> result;
+    for (const ItemId item : system.species()) {
         SpeciesDiffusion& of_species = result.emplace_back();
         FlatRates rates(system);
         const IdVector<NodeId, Operators> found = Linearisation(rates, item).run();
@@ -149,10 +148,8 @@ std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t
 bool changes_in_time(const Program& program, std::uint32_t stage, const Formula& formula) {
     const System& system = program.system_of(stage);
     return holds_in(formula, [&](const Node& node) {
-        if (node.kind == NodeKind::own) return system.is_species(node.index);
-        if (node.kind != NodeKind::builtin) return false;
-        const auto builtin = static_cast<Builtin>(node.index);
-        return builtin == Builtin::t || builtin == Builtin::step;
+        if (const auto* own = node.as<ItemId>()) return system.is_species(*own);
+        return node.is(Builtin::t) || node.is(Builtin::step);
     });
 }
 

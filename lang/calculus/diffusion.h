@@ -19,7 +19,7 @@ using SpeciesDiffusion = DiffusionTerms<Formula>;
 /// dzz are collected. div(k * grad(e)) counts as k lap(e). The part of diffuse across the axes is
 /// added to both diagonal entries, so that they damp at least as much as the whole. Everything else
 /// (advection, tensors in fluxes, random numbers, other species) is left out.
-std::vector<SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage);
+IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage);
 
 /// Can the formula's value change while a stage runs?
 bool changes_in_time(const Program& program, std::uint32_t stage, const Formula& formula);

@@ -11,16 +11,14 @@
 namespace cascade {
 /// Can it produce a NaN from finite numbers?
 bool LostNumbers::makes_nan(const Node& node) const {
-    const auto second = [&]() -> const Node& { return flat_.algebra[node.operands[1]]; };
+    const auto* const second = flat_.algebra[node.operands[1]].as<double>();
     switch (info(node.function).behaviour) {
         case Behaviour::plain:
         case Behaviour::jumps:
         case Behaviour::chooses: return false;
         case Behaviour::partial: return true;
-        case Behaviour::divides: return second().kind != NodeKind::number;
-        case Behaviour::raises:
-            return second().kind != NodeKind::number ||
-                   second().number != std::floor(second().number);
+        case Behaviour::divides: return second == nullptr;
+        case Behaviour::raises: return second == nullptr || *second != std::floor(*second);
     }
     return false;
 }
@@ -29,7 +27,7 @@ void LostNumbers::know_all_parts() {
     while (may_be_nan_.size() < flat_.algebra.size()) {
         const Node& node = flat_.algebra[may_be_nan_.next()];
         bool may = false, is_of_file = false;
-        if (node.kind == NodeKind::call) {
+        if (node.is<Call>()) {
             may = makes_nan(node);
             is_of_file = reads_file(node.function);
             for (const NodeId operand : node.reads()) {
@@ -96,7 +94,7 @@ private:
 
     void visit(NodeId id, std::size_t guard) {
         const Node node = algebra_[id];
-        if (node.kind != NodeKind::call) return;
+        if (!node.is<Call>()) return;
         const NodeId first = node.operands[0], second = node.operands[1];
         switch (node.function) {
             case Function::if_:
@@ -153,8 +151,8 @@ std::vector<LostNumber> LostNumbers::in_comparisons(const Formula& formula) {
                                  : in_comparisons(flat_.flattening.add(formula));
 }
 
-std::vector<LostNumber> LostNumbers::in_rate(std::uint32_t item) {
-    return in_comparisons(flat_.rate(item));
+std::vector<LostNumber> LostNumbers::in_rate(ItemId species) {
+    return in_comparisons(flat_.rate(species));
 }
 
 std::vector<LostNumber> LostNumbers::as_whole(const Formula& formula) {

@@ -25,7 +25,7 @@ public:
     /// 0)` or `u > 0 and sqrt(u) < 1`. Formulas that draw random numbers are left out, because a
     /// check would draw others, and so are parts that read files, in which NaN may be meant.
     std::vector<LostNumber> in_comparisons(const Formula& formula);
-    std::vector<LostNumber> in_rate(std::uint32_t item);
+    std::vector<LostNumber> in_rate(ItemId species);
 
     /// The whole formula of a bound or a condition, if it may be NaN in the same way: a bound that
     /// is NaN holds nothing.

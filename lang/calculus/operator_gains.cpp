@@ -20,9 +20,7 @@ bool OperatorGains::has_axis(std::size_t axis) const {
     return axis == 0 ? stencil.x : axis == 1 ? stencil.y : stencil.z;
 }
 
-NodeId OperatorGains::metric(MetricPlane plane) {
-    return algebra_.leaf(NodeKind::metric, static_cast<std::uint32_t>(plane));
-}
+NodeId OperatorGains::metric(MetricPlane plane) { return algebra_.leaf(plane); }
 
 /// 2 / h: a difference across a face counts both cells. On a surface it is multiplied by entries of
 /// Ṽ⁻¹; the second direction has parts along columns and along rows.

@@ -67,12 +67,12 @@ Slope SlopeRules::as_other(const Slope& slope, NodeId factor) {
     return {algebra_.product(slope.own, factor), far, {}, far, slope.jumps};
 }
 
-std::optional<Slopes> SlopeRules::slopes_of(NodeId id, std::uint32_t species,
+std::optional<Slopes> SlopeRules::slopes_of(NodeId id, ItemId species,
                                             const IdVector<NodeId, Slopes>& before) {
     const Node node = algebra_[id];
     Slopes slopes{zero(), zero(), zero()};
-    if (node.kind == NodeKind::own && node.index == species) slopes[0].own = algebra_.number(1);
-    if (node.kind != NodeKind::call) return slopes;
+    if (node.is(species)) slopes[0].own = algebra_.number(1);
+    if (!node.is<Call>()) return slopes;
     if (node.type == ValueType::vector) gains_.note_components(id, node);
     bool depends = false;
     for (const NodeId operand : node.reads()) {
@@ -169,7 +169,7 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
 Slope SlopeRules::of_divergence(const Slopes& flux) {
     Slope slope = zero();
     Node vector;
-    vector.kind = NodeKind::call;
+    vector.kind = Call();
     vector.function = Function::vector;
     vector.type = ValueType::vector;
     vector.operand_count = static_cast<std::uint8_t>(gains_.has_axis(2) ? 3 : 2);

@@ -40,9 +40,9 @@ public:
     /// `model` may be null if only the cell's own value is needed.
     SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model);
 
-    /// The slopes of part `id` by species item `species`, given those of all earlier parts. Empty
+    /// The slopes of part `id` by `species`, given those of all earlier parts. Empty
     /// if the part depends on the species and has no rule.
-    std::optional<Slopes> slopes_of(NodeId id, std::uint32_t species,
+    std::optional<Slopes> slopes_of(NodeId id, ItemId species,
                                     const IdVector<NodeId, Slopes>& before);
 
 private:

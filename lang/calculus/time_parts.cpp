@@ -17,11 +17,9 @@ struct Kind {
 
 Kind kind_of(const Node& node, const IdVector<NodeId, Kind>& before, const Program& program,
              std::uint32_t stage) {
-    const bool is_time =
-        node.kind == NodeKind::builtin && static_cast<Builtin>(node.index) == Builtin::t;
-    if (node.kind != NodeKind::call) {
-        const bool is_constant = (node.kind == NodeKind::number || node.kind == NodeKind::own ||
-                                  node.kind == NodeKind::earlier) &&
+    const bool is_time = node.is(Builtin::t);
+    if (!node.is<Call>()) {
+        const bool is_constant = (node.is<double>() || node.is<ItemId>() || node.is<StageItem>()) &&
                                  node.type == ValueType::number;
         const bool is_same = !differs_by_cell(node, false, program, stage);
         return {is_same && (is_time || is_constant), is_time};
@@ -52,12 +50,10 @@ std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage) 
     for (const NodeId id : ids_below<NodeId>(rates.count)) {
         const Node& node = rates.algebra[id];
         kinds.push_back(kind_of(node, kinds, program, stage));
-        if (node.kind != NodeKind::call || kinds[id].is_of_time) continue;
+        if (!node.is<Call>() || kinds[id].is_of_time) continue;
         for (const NodeId operand : node.reads()) note(operand);
     }
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (system.is_species(item)) note(rates.rate(item));
-    }
+    for (const ItemId item : system.species()) note(rates.rate(item));
     std::vector<Formula> parts;
     for (const NodeId id : found) parts.push_back(rates.algebra.formula(id));
     return parts;

@@ -75,9 +75,7 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
         const ast::ExprId last = script_.arguments[call.first_argument + call.argument_count - 1];
         return error(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
     }
-    Node& node = formula_.nodes.back();
-    node.kind = NodeKind::surface_value;
-    node.index = work_.program.literals->number_of(value);
+    formula_.nodes.back().kind = work_.program.literals->id_of(value);
 }
 
 /// mean(e over domain). Aggregates over an index have been expanded before.
@@ -184,7 +182,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
 
 void ExpressionChecker::apply(Function function, const Operands& operands, std::size_t count) {
     Node& node = formula_.nodes.back();
-    node.kind = NodeKind::call;
+    node.kind = Call();
     node.function = function;
     node.operands = operands;
     node.operand_count = static_cast<std::uint8_t>(count);
@@ -246,7 +244,7 @@ void ExpressionChecker::check_palette(const Node& node) {
     need(node.operands[3], ValueType::text);
     if (parts_.back().has_error) return;
     const Node& text = formula_.nodes[node.operands[3]];
-    const std::string& name = work_.program.literals->texts()[text.index];
+    const std::string& name = work_.program.literals->text(*text.as<TextId>());
     if (find_palette(name) == nullptr) {
         std::vector<std::string> names;
         for (const Palette& palette : palettes()) names.emplace_back(palette.name);
@@ -295,7 +293,7 @@ void ExpressionChecker::check_lattice(Node& node) {
                                  node.function == Function::noise ? "scale of noise" : "spacing"));
     }
     if (node.function != Function::noise) return;
-    node.number = 1;
+    node.kind = Call{1};
     if (node.operand_count < 2) return;
     const Part& octaves = parts_[node.operands[1]];
     const bool is_count = octaves.constant && octaves.value == std::floor(octaves.value) &&
@@ -305,7 +303,7 @@ void ExpressionChecker::check_lattice(Node& node) {
                      fmt::format("octaves are a whole number from 1 to {}", most_octaves),
                      "it must be known before the run");
     }
-    node.number = octaves.value;
+    node.kind = Call{static_cast<std::uint8_t>(octaves.value)};
 }
 
 void ExpressionChecker::fold_constants(const Node& node) {

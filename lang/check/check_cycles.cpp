@@ -31,46 +31,46 @@ void report_cycle(Workspace& work, Span span, const char* what,
                                              describe_cycle(names)));
 }
 
-/// The place where a formula reads a node of this kind and index.
-Span place_of(const Formula& formula, NodeKind kind, std::uint32_t index) {
+/// The place where a formula reads this.
+Span place_of(const Formula& formula, const NodeKind& kind) {
     for (const Node& node : formula.nodes) {
-        if (node.kind == kind && node.index == index) return node.span;
+        if (node.is(kind)) return node.span;
     }
     return formula.nodes.empty() ? Span{} : formula.nodes.back().span;
 }
 
 void report_step_cycle(Workspace& work, const System& system,
                        const std::vector<std::uint32_t>& cycle) {
-    const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
+    const auto count = static_cast<std::uint32_t>(system.definitions.size());
     std::vector<std::string> names;
     for (const std::uint32_t value : cycle) {
-        names.push_back(value < definition_count
-                            ? system.definitions[value].name
-                            : system.quantities[value - definition_count].name + "'");
+        names.push_back(value < count ? system.definitions[DefinitionId(value)].name
+                                      : system.quantities[ItemId(value - count)].name + "'");
     }
-    const auto& formula = cycle[0] < definition_count ? system.definitions[cycle[0]].formula
-                                                      : system.rates[cycle[0] - definition_count];
+    const auto& formula = cycle[0] < count ? system.definitions[DefinitionId(cycle[0])].formula
+                                           : system.rates[ItemId(cycle[0] - count)];
     const std::uint32_t next = cycle[1 % cycle.size()];
-    const Span span = next < definition_count
-                          ? place_of(formula, NodeKind::definition, next)
-                          : place_of(formula, NodeKind::rate, next - definition_count);
-    report_cycle(work, span, "definitions and rates", names);
+    const NodeKind read = next < count ? NodeKind(DefinitionId(next)) : Rate{ItemId(next - count)};
+    report_cycle(work, place_of(formula, read), "definitions and rates", names);
 }
 
 /// The nesting depth of operators through definitions and rates.
 void check_depths(Workspace& work, const System& target) {
-    std::vector<std::uint32_t> definitions(target.definitions.size());
-    std::vector<std::uint32_t> rates(target.quantities.size());
+    IdVector<DefinitionId, std::uint32_t> definitions(target.definitions.size());
+    IdVector<ItemId, std::uint32_t> rates(target.quantities.size());
     const auto of_leaf = [&](const Node& node) {
-        if (node.kind == NodeKind::definition) return definitions[node.index];
-        return node.kind == NodeKind::rate ? rates[node.index] : 0;
+        if (const auto* definition = node.as<DefinitionId>()) return definitions[*definition];
+        const auto* rate = node.as<Rate>();
+        return rate != nullptr ? rates[rate->species] : 0;
     };
     const auto count = static_cast<std::uint32_t>(definitions.size());
     for (const std::uint32_t value : topological_order(step_dependencies(target)).order) {
         if (value < count) {
-            definitions[value] = check_nesting(work, target.definitions[value].formula, of_leaf);
+            const DefinitionId id(value);
+            definitions[id] = check_nesting(work, target.definitions[id].formula, of_leaf);
         } else {
-            rates[value - count] = check_nesting(work, target.rates[value - count], of_leaf);
+            const ItemId species(value - count);
+            rates[species] = check_nesting(work, target.rates[species], of_leaf);
         }
     }
 }
@@ -86,10 +86,10 @@ void report_item_cycle(Workspace& work, const System& system,
     if (from_system[cycle[first]]) first = 0;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < cycle.size(); ++i) {
-        names.emplace_back(system.item_name(cycle[(first + i) % cycle.size()]));
+        names.emplace_back(system.item_name(ItemId(cycle[(first + i) % cycle.size()])));
     }
-    const std::uint32_t next = cycle[(first + 1) % cycle.size()];
-    report_cycle(work, place_of(*items[cycle[first]], NodeKind::own, next), "values", names);
+    const ItemId next(cycle[(first + 1) % cycle.size()]);
+    report_cycle(work, place_of(*items[cycle[first]], next), "values", names);
 }
 
 void report_cycles_of_defaults(Workspace& work, std::uint32_t index) {
@@ -111,29 +111,30 @@ void order_steps(Workspace& work, std::uint32_t index) {
     const Order order = topological_order(step_dependencies(target));
     for (const auto& cycle : order.cycles) report_step_cycle(work, target, cycle);
     const auto count = static_cast<std::uint32_t>(target.definitions.size());
-    std::vector<std::uint32_t> position(count);
-    std::vector<Definition> definitions;
-    std::vector<bool> read;
+    IdVector<DefinitionId, DefinitionId> position(count);
+    IdVector<DefinitionId, Definition> definitions;
+    IdVector<DefinitionId, bool> read;
     for (const std::uint32_t value : order.order) {
         if (value < count) {
-            position[value] = static_cast<std::uint32_t>(definitions.size());
-            definitions.push_back(std::move(target.definitions[value]));
-            read.push_back(work.definitions_read[index][value]);
-        } else if (target.quantities[value - count].is_species) {
-            target.rate_order.push_back(value - count);
+            const DefinitionId id(value);
+            position[id] = definitions.next();
+            definitions.push_back(std::move(target.definitions[id]));
+            read.push_back(work.definitions_read[index][id]);
+        } else if (const ItemId item(value - count); target.is_species(item)) {
+            target.rate_order.push_back(item);
         }
     }
     target.definitions = std::move(definitions);
     work.definitions_read[index] = std::move(read);
     const auto renumber = [&](Formula& formula) {
         for (Node& node : formula.nodes) {
-            if (node.kind == NodeKind::definition) node.index = position[node.index];
+            if (const auto* id = node.as<DefinitionId>()) node.kind = position[*id];
         }
     };
     for (Definition& definition : target.definitions) renumber(definition.formula);
     for (Formula& rate : target.rates) renumber(rate);
     for (auto& [name, meaning] : work.names[index]) {
-        if (meaning.is_definition) meaning.index = position[meaning.index];
+        if (auto* id = std::get_if<DefinitionId>(&meaning.id)) *id = position[*id];
     }
     if (order.cycles.empty()) check_depths(work, target);
 }

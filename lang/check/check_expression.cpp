@@ -12,9 +12,7 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     find_text_places();
     bool has_error = false;
     for (const NodeId part : ids_below<NodeId>(count)) {
-        Node node;
-        node.span = expr(part).span;
-        formula_.nodes.push_back(node);
+        formula_.nodes.push_back({0.0, expr(part).span});
         parts_.emplace_back();
         if (expanded_ != nullptr) work_.call = expanded_->calls[part.index()];
         std::visit([this](const auto& kind) { visit(kind); }, expr(part).node);
@@ -51,19 +49,18 @@ void ExpressionChecker::find_text_places() {
 }
 
 void ExpressionChecker::visit(const ast::Number& number) {
-    formula_.nodes.back().number = number.value;
+    formula_.nodes.back().kind = number.value;
     parts_.back() = {false, true, number.value};
 }
 
 void ExpressionChecker::visit(const ast::Text& text) {
     Node& node = formula_.nodes.back();
-    node.kind = NodeKind::text;
     node.type = ValueType::text;
     if (!wants_text_[NodeId(parts_.size() - 1)]) {
         return error(node.span, "a text can only name a palette or a file",
                      "palette(v, low, high, \"grey\"), field(\"a.npy\")");
     }
-    node.index = work_.program.literals->number_of(text.value);
+    node.kind = work_.program.literals->id_of(text.value);
 }
 
 void ExpressionChecker::visit(const ast::Name& name) {
@@ -91,7 +88,7 @@ void ExpressionChecker::take(std::optional<Node> node) {
         parts_.back().has_error = true;
         return;
     }
-    if (node->kind == NodeKind::number) parts_.back() = {false, true, node->number};
+    if (const auto* number = node->as<double>()) parts_.back() = {false, true, *number};
     formula_.nodes.back() = *node;
 }
 

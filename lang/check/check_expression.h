@@ -59,7 +59,7 @@ std::uint32_t check_nesting(Workspace& work, const Formula& formula, const Depth
     depth.reserve(formula.nodes.size());
     for (const Node& node : formula.nodes) {
         std::uint32_t deepest = 0;
-        if (node.kind == NodeKind::call) {
+        if (node.is<Call>()) {
             for (const NodeId operand : node.reads()) {
                 deepest = std::max(deepest, depth[operand]);
             }

@@ -15,15 +15,6 @@ const System& system_at(const Workspace& work, std::uint32_t index) {
     return work.program.systems[index];
 }
 
-Node make_node(NodeKind kind, Span span, std::uint32_t index, std::uint32_t stage = 0) {
-    Node node;
-    node.kind = kind;
-    node.span = span;
-    node.index = index;
-    node.stage = stage;
-    return node;
-}
-
 void report(Workspace& work, Span span, std::string message, std::string hint,
             std::string note = "") {
     Diagnostic diagnostic;
@@ -71,11 +62,7 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
 
 std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::string_view name,
                                     Span span) {
-    if (name == "pi") {
-        Node node = make_node(NodeKind::number, span, 0);
-        node.number = std::numbers::pi;
-        return node;
-    }
+    if (name == "pi") return Node{std::numbers::pi, span};
     if (scope.context == Context::constant) {
         report_constant(work, scope, name, span);
         return std::nullopt;
@@ -103,8 +90,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
                "it can be read in rates, definitions and pictures");
         return std::nullopt;
     }
-    const auto index = static_cast<std::uint32_t>(*builtin_named(name));
-    return make_node(NodeKind::builtin, span, index);
+    return Node{*builtin_named(name), span};
 }
 
 /// Reports words of the language that are not values of a stage.
@@ -173,21 +159,21 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
         return std::nullopt;
     }
     if (meaning->has_error) return std::nullopt;
-    if (meaning->is_definition) {
+    if (meaning->is_definition()) {
         if (scope.context == Context::rate) {
-            return make_node(NodeKind::definition, span, meaning->index);
+            return Node{std::get<DefinitionId>(meaning->id), span};
         }
         report(work, span, fmt::format("'{}' is a definition and cannot be read here", name),
                "definitions can be read in rates and other definitions");
         return std::nullopt;
     }
     if (scope.context == Context::bound &&
-        system_at(work, scope.system).is_species(meaning->index)) {
+        system_at(work, scope.system).is_species(meaning->item())) {
         report(work, span, "a bound is made of numbers and parameters only",
                fmt::format("'{}' is a species", name));
         return std::nullopt;
     }
-    return make_node(NodeKind::own, span, meaning->index);
+    return Node{meaning->item(), span};
 }
 
 void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span) {
@@ -231,14 +217,14 @@ std::optional<Node> resolve_other(Workspace& work, std::uint32_t stage, std::str
     const System& system = system_at(work, work.program.stages[stage].system);
     const Meaning* meaning = find(work.names[work.program.stages[stage].system], name);
     if (meaning == nullptr || meaning->has_error) return std::nullopt;
-    if (meaning->is_definition) {
+    if (meaning->is_definition()) {
         report(work, span,
                fmt::format("'{}' is a definition of {}, not a value of its stages", name,
                            system.name),
                "");
         return std::nullopt;
     }
-    return make_node(NodeKind::earlier, span, meaning->index, stage);
+    return Node{StageItem{stage, meaning->item()}, span};
 }
 
 std::optional<Node> resolve_previous(Workspace& work, const Scope& scope, std::string_view name,
@@ -382,11 +368,10 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
                "rates can be read in rates and definitions");
         return std::nullopt;
     }
-    const System& system = system_at(work, scope.system);
     const Meaning* meaning = find(work.names[scope.system], name.text);
     if (meaning != nullptr && meaning->has_error) return std::nullopt;
-    if (meaning != nullptr && !meaning->is_definition && system.is_species(meaning->index)) {
-        return make_node(NodeKind::rate, span, meaning->index);
+    if (const auto species = find_species(work, scope.system, name.text)) {
+        return Node{Rate{*species}, span};
     }
     report_not_species(work, scope.system, name.text, name.span);
     return std::nullopt;

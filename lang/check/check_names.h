@@ -16,15 +16,18 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 namespace cascade::checking {
 
 /// What a name of a system refers to.
 struct Meaning {
-    bool is_definition = false;
-    std::uint32_t index = 0;  ///< The item or the definition.
-    bool has_error = false;   ///< Its declaration had an error, which has been reported.
+    std::variant<ItemId, DefinitionId> id;
+    bool has_error = false;  ///< Its declaration had an error, which has been reported.
+
+    bool is_definition() const { return std::holds_alternative<DefinitionId>(id); }
+    ItemId item() const { return std::get<ItemId>(id); }
 };
 
 /// The names of one system, `frozen` and `speed` included.
@@ -39,12 +42,12 @@ class FunctionTable;
 struct Workspace {
     const Program& program;
     Diagnostics& diagnostics;
-    std::vector<NameTable> names;                            ///< By system.
-    std::unordered_map<std::string, std::uint32_t> systems;  ///< By name.
-    std::unordered_map<std::string, std::uint32_t> stages;   ///< By name.
-    std::vector<std::vector<bool>> items_read;               ///< By system and item.
-    std::vector<std::vector<bool>> definitions_read;         ///< By system and definition.
-    std::size_t names_compared = 0;                          ///< For suggestions, so far.
+    std::vector<NameTable> names;                                ///< By system.
+    std::unordered_map<std::string, std::uint32_t> systems;      ///< By name.
+    std::unordered_map<std::string, std::uint32_t> stages;       ///< By name.
+    std::vector<IdVector<ItemId, bool>> items_read;              ///< By system.
+    std::vector<IdVector<DefinitionId, bool>> definitions_read;  ///< By system.
+    std::size_t names_compared = 0;                              ///< For suggestions, so far.
     /// Operators measure on a surface, where some of them have no meaning.
     bool on_surface = false;
     /// The functions of each script whose expressions have been checked; see user_functions.h.
@@ -95,6 +98,9 @@ Reserved reserved(std::string_view name);
 /// The table of a system's names.
 NameTable names_of(const System& system);
 const Meaning* find(const NameTable& table, std::string_view name);
+/// The species of a name; nothing if it is none.
+std::optional<ItemId> find_species(const Workspace& work, std::uint32_t system,
+                                   std::string_view name);
 
 // Each returns the node that a name refers to. If there is none, reports an error (unless that has
 // happened already) and returns nothing.

@@ -16,7 +16,7 @@ namespace {
 
 bool is_there(const Formula& factor) { return !factor.nodes.empty(); }
 
-bool has_diffusion(const std::vector<SpeciesDiffusion>& diffusion) {
+bool has_diffusion(const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
     return std::any_of(diffusion.begin(), diffusion.end(), [](const SpeciesDiffusion& species) {
         return std::any_of(species.begin(), species.end(), is_there);
     });
@@ -24,9 +24,9 @@ bool has_diffusion(const std::vector<SpeciesDiffusion>& diffusion) {
 
 /// A species that is held at a side and whose rate applies lap to its own lap, if there is one. The
 /// inner lap is stored in a plane, which is mirrored at sides, so its waves are not the species'.
-std::optional<std::size_t> held_and_nested(const Stage& stage,
-                                           const std::vector<SpeciesDiffusion>& diffusion) {
-    for (std::size_t s = 0; s < stage.sides.size(); ++s) {
+std::optional<SpeciesId> held_and_nested(const Stage& stage,
+                                         const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
+    for (const SpeciesId s : stage.sides.ids()) {
         const bool is_held =
             std::any_of(stage.sides[s].begin(), stage.sides[s].end(),
                         [](const SideSetting& side) { return side.kind == SideKind::fixed; });
@@ -36,17 +36,12 @@ std::optional<std::size_t> held_and_nested(const Stage& stage,
     return std::nullopt;
 }
 
-std::string_view species_name(const System& system, std::size_t number) {
-    for (std::uint32_t item = 0;; ++item) {
-        if (system.is_species(item) && number-- == 0) return system.item_name(item);
-    }
-}
-
 }  // namespace
 
 void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
                          Diagnostics& diagnostics) {
     const Stage& checked = program.stages[stage];
+    const System& system = program.system_of(stage);
     const Solver solver = checked.time.solver;
     if (!is_semi_implicit(solver)) return;
     if (program.domain.model) {
@@ -74,7 +69,7 @@ void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
             "rkl1 takes long steps there");
         return;
     }
-    if (!checked.uniform[program.system_of(stage).frozen_item()]) {
+    if (!checked.uniform[system.frozen_item()]) {
         diagnostics.error(span,
                           fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
                                       "through all of them",
@@ -82,13 +77,13 @@ void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
                           "rkl1 takes long steps around frozen cells");
         return;
     }
-    const std::vector<SpeciesDiffusion> diffusion = diffusion_of(program, stage);
+    const auto diffusion = diffusion_of(program, stage);
     if (const auto held = held_and_nested(checked, diffusion)) {
         diagnostics.error(span,
                           fmt::format("stage '{}': {} cannot hold {} at a side, for its rate "
                                       "applies lap to lap of it",
                                       checked.name, name_of(solver),
-                                      species_name(program.system_of(stage), *held)),
+                                      system.item_name(system.species()[*held])),
                           "rkl1 can");
     } else if (!has_diffusion(diffusion)) {
         diagnostics.error(span,

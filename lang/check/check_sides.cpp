@@ -78,14 +78,14 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
         std::none_of(work.program.domain.sides.begin(), work.program.domain.sides.end(),
                      [](const auto& side) { return side.has_value(); });
     if (is_plain) return;
-    std::vector<std::size_t> number(system.quantities.size());  // Of the species, by item.
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        number[item] = stage.sides.size();
-        if (system.is_species(item)) stage.sides.push_back(base);
+    IdVector<ItemId, SpeciesId> species(system.quantities.size());
+    for (const ItemId item : system.species()) {
+        species[item] = stage.sides.next();
+        stage.sides.push_back(base);
     }
     for (const auto* rules : {&system.sides, &own}) {
         for (const SpeciesSide& rule : *rules) {
-            stage.sides[number[rule.species]][static_cast<std::size_t>(rule.side)] = rule.setting;
+            stage.sides[species[rule.species]][static_cast<std::size_t>(rule.side)] = rule.setting;
         }
     }
     if (work.program.domain.model) {
@@ -118,13 +118,14 @@ void check_system_sides(Workspace& work, const ast::Script& script, const ast::B
         const System& from = work.program.systems[*base];
         // Species keep their names in a derived system, but not always their numbers.
         for (SpeciesSide side : from.sides) {
-            const Meaning* meaning = find(work.names[index], from.item_name(side.species));
-            if (meaning == nullptr || !system.is_species(meaning->index)) continue;
-            side.species = meaning->index;
+            const auto species = find_species(work, index, from.item_name(side.species));
+            if (!species) continue;
+            side.species = *species;
             for (Node& node : side.setting.value.nodes) {
-                if (node.kind != NodeKind::own) continue;
-                const Meaning* own = find(work.names[index], from.item_name(node.index));
-                if (own != nullptr) node.index = own->index;
+                const auto* item = node.as<ItemId>();
+                if (item == nullptr) continue;
+                const Meaning* own = find(work.names[index], from.item_name(*item));
+                if (own != nullptr && !own->is_definition()) node.kind = own->item();
             }
             mark_reads(work, side.setting.value, index);
             system.sides.push_back(std::move(side));
@@ -143,10 +144,8 @@ void check_domain_side(Workspace& work, const ast::Script& script,
     if (written->value) {
         const auto value =
             check_constant(work, script, *written->value, "the value of a side of all species");
-        Node node;
-        node.number = value.value_or(0);  // An error has been reported; the kind still applies.
-        node.span = statement.span;
-        setting.value = {{node}};
+        // After an error, which has been reported, the kind still applies.
+        setting.value = {{Node{value.value_or(0), statement.span}}};
     }
     const bool is_for_all = statement.name.text == "sides";
     for (const Side side : sides_of_word(statement.name.text)) {

@@ -19,13 +19,6 @@ constexpr std::size_t most_stages = 1000;
 /// The most nodes of defaults, which are copied into every stage; it bounds the memory of a check.
 constexpr std::size_t most_copied_nodes = 8u << 20;
 
-Formula number_formula(double value, Span span) {
-    Node node;
-    node.number = value;
-    node.span = span;
-    return {{node}};
-}
-
 class StageChecker {
 public:
     StageChecker(Workspace& work, const ast::Script& script, std::uint32_t index,
@@ -55,7 +48,7 @@ private:
     void set(const Declaration& declaration);
     void report_unknown(const Declaration& declaration);
     void fill_defaults();
-    void take_default(std::uint32_t item, const Formula* formula, double otherwise);
+    void take_default(ItemId item, const Formula* formula, double otherwise);
     void order_items();
     void find_uniform();
 
@@ -64,7 +57,7 @@ private:
     std::uint32_t index_;
     std::size_t& copied_;
     Settings settings_;
-    std::vector<bool> from_system_;
+    IdVector<ItemId, bool> from_system_;
 };
 
 /// If the system is unknown, so are its families.
@@ -161,7 +154,7 @@ void StageChecker::set(const Declaration& declaration) {
     const Meaning* meaning = find(work_.names[stage().system], name);
     if (meaning == nullptr) return report_unknown(declaration);
     if (meaning->has_error) return;
-    if (meaning->is_definition) {
+    if (meaning->is_definition()) {
         work_.diagnostics.error(statement.name.span,
                                 fmt::format("'{}' is a definition of {} and cannot be set", name,
                                             system().name));
@@ -172,11 +165,12 @@ void StageChecker::set(const Declaration& declaration) {
     own.index = declaration.index;
     auto checked = check_number(work_, script_, statement.values[0], own);
     if (!checked) return;
-    if (meaning->index < system().quantities.size()) {
-        warn_outside(work_, system().quantities[meaning->index], checked->constant,
+    const ItemId item = meaning->item();
+    if (item < system().frozen_item()) {
+        warn_outside(work_, system().quantities[item], checked->constant,
                      script_.expressions[statement.values[0].root].span);
     }
-    stage().items[meaning->index] = std::move(checked->formula);
+    stage().items[item] = std::move(checked->formula);
 }
 
 void StageChecker::report_unknown(const Declaration& declaration) {
@@ -206,18 +200,18 @@ void StageChecker::report_unknown(const Declaration& declaration) {
     work_.diagnostics.add(std::move(diagnostic));
 }
 
-void StageChecker::take_default(std::uint32_t item, const Formula* formula, double otherwise) {
+void StageChecker::take_default(ItemId item, const Formula* formula, double otherwise) {
     Formula& target = stage().items[item];
     if (!target.nodes.empty()) return;
     from_system_[item] = true;
     if (formula == nullptr || formula->nodes.empty()) {
-        target = number_formula(otherwise, stage().span);
+        target = {{Node{otherwise, stage().span}}};
         return;
     }
     copied_ += formula->nodes.size();
     if (copied_ > most_copied_nodes) {
         work_.diagnostics.error(stage().span, "the stages of this script are too large together");
-        target = number_formula(otherwise, stage().span);
+        target = {{Node{otherwise, stage().span}}};
         return;
     }
     target = *formula;
@@ -233,7 +227,7 @@ void StageChecker::fill_defaults() {
     if (settings_.speed) stage().items[from.speed_item()] = std::move(*settings_.speed);
     mark_reads(work_, stage().items[from.frozen_item()], stage().system);
     mark_reads(work_, stage().items[from.speed_item()], stage().system);
-    for (std::uint32_t item = 0; item < from.quantities.size(); ++item) {
+    for (const ItemId item : from.quantities.ids()) {
         take_default(item, &from.quantities[item].start, 0);
     }
     take_default(from.frozen_item(), pick(defaults.frozen, std::nullopt), 0);
@@ -245,14 +239,8 @@ void StageChecker::fill_defaults() {
         target.show = *show;
         return;
     }
-    Node first_species;
-    first_species.kind = NodeKind::own;
-    first_species.span = target.span;
-    while (first_species.index + 1 < from.quantities.size() &&
-           !from.quantities[first_species.index].is_species) {
-        ++first_species.index;
-    }
-    target.show = {{first_species}};
+    const auto species = from.species();
+    target.show = {{Node{species.empty() ? ItemId() : species.front(), target.span}}};
 }
 
 void StageChecker::order_items() {
@@ -262,10 +250,10 @@ void StageChecker::order_items() {
     for (const auto& cycle : order.cycles) {
         // A cycle of defaults has been reported with the system.
         const bool is_default = std::all_of(cycle.begin(), cycle.end(),
-                                            [&](std::uint32_t item) { return from_system_[item]; });
+                                            [&](auto item) { return from_system_[ItemId(item)]; });
         if (!is_default) report_item_cycle(work_, system(), items, from_system_, cycle);
     }
-    stage().order = std::move(order.order);
+    for (const std::uint32_t item : order.order) stage().order.emplace_back(item);
 }
 
 /// An item is uniform if it reads nothing that varies. An aggregate over the domain is a single
@@ -273,9 +261,9 @@ void StageChecker::order_items() {
 void StageChecker::find_uniform() {
     Stage& target = stage();
     target.uniform.assign(target.items.size(), false);
-    std::vector<std::uint32_t> depths(target.items.size());
+    IdVector<ItemId, std::uint32_t> depths(target.items.size());
     IdVector<NodeId, bool> varies;
-    for (const std::uint32_t item : target.order) {
+    for (const ItemId item : target.order) {
         varies.clear();
         for (const Node& node : target.items[item].nodes) {
             bool operand_varies = false;
@@ -284,7 +272,8 @@ void StageChecker::find_uniform() {
         }
         target.uniform[item] = !system().is_species(item) && (varies.empty() || !varies.back());
         depths[item] = check_nesting(work_, target.items[item], [&](const Node& node) {
-            return node.kind == NodeKind::own ? depths[node.index] : 0;
+            const auto* own = node.as<ItemId>();
+            return own != nullptr ? depths[*own] : 0;
         });
     }
 }

@@ -44,11 +44,9 @@ void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
 }
 
 /// The first node of a formula that reads an item; null if there is none.
-const Node* find_reader(const Formula& formula, std::uint32_t item) {
-    const auto found =
-        std::find_if(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
-            return node.kind == NodeKind::own && node.index == item;
-        });
+const Node* find_reader(const Formula& formula, ItemId item) {
+    const auto found = std::find_if(formula.nodes.begin(), formula.nodes.end(),
+                                    [&](const Node& node) { return node.is(item); });
     return found == formula.nodes.end() ? nullptr : &*found;
 }
 
@@ -73,7 +71,7 @@ const Node* varying_part(const Program& program, std::uint32_t stage, const Form
     for (const NodeId part : cause.ids()) {
         const Node& node = formula.nodes[part];
         if (differs_by_cell(node, false, program, stage)) cause[part] = &node;
-        if (node.kind != NodeKind::call || info(node.function).is_aggregate) continue;
+        if (!node.is<Call>() || info(node.function).is_aggregate) continue;
         for (const NodeId operand : node.reads()) {
             if (cause[part] == nullptr) cause[part] = cause[operand];
         }

@@ -59,9 +59,11 @@ private:
     std::uint32_t index_;
     std::vector<Declaration> declarations_;
     std::unordered_map<std::string, Span> declared_;
-    std::vector<const Declaration*> values_, definitions_, invariants_, settings_;
+    IdVector<ItemId, const Declaration*> values_;
+    IdVector<DefinitionId, const Declaration*> definitions_;
+    std::vector<const Declaration*> invariants_, settings_;
     std::vector<const Declaration*> rate_statements_;
-    std::vector<RateStatements> rates_;
+    IdVector<ItemId, RateStatements> rates_;
 };
 
 void SystemChecker::run() {
@@ -215,7 +217,7 @@ void SystemChecker::report_rate_of_definition(const Declaration& rate) {
 /// reported.
 void SystemChecker::report_no_species(const Declaration& declaration, const Meaning* meaning) {
     const std::string& name = declaration.name;
-    if (meaning != nullptr && meaning->is_definition) {
+    if (meaning != nullptr && meaning->is_definition()) {
         report_rate_of_definition(declaration);
         return;
     }
@@ -234,17 +236,17 @@ void SystemChecker::report_no_species(const Declaration& declaration, const Mean
                                 fmt::format("species '{}' has no starting value", name),
                                 std::move(hint));
     }
-    work_.names[index_].emplace(name, Meaning{false, 0, true});
+    work_.names[index_].emplace(name, Meaning{ItemId(), true});
 }
 
 void SystemChecker::collect_rate(const Declaration& declaration) {
     const Meaning* meaning = find(work_.names[index_], declaration.name);
-    const bool is_quantity = meaning != nullptr && !meaning->is_definition &&
-                             meaning->index < system().quantities.size();
+    const bool is_quantity =
+        meaning != nullptr && !meaning->is_definition() && meaning->item() < system().frozen_item();
     if (meaning != nullptr && meaning->has_error) return;
     if (!is_quantity) return report_no_species(declaration, meaning);
-    system().quantities[meaning->index].is_species = true;
-    RateStatements& rate = rates_[meaning->index];
+    system().quantities[meaning->item()].is_species = true;
+    RateStatements& rate = rates_[meaning->item()];
     if (declaration.kind() == ast::StatementKind::rate_term) {
         rate.terms.push_back(&declaration);
     } else if (rate.assignment == nullptr) {
@@ -266,20 +268,20 @@ std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& d
 }
 
 void SystemChecker::check_values() {
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-        Quantity& quantity = system().quantities[i];
-        auto checked = check_value(*values_[i], Context::value);
+    for (const ItemId id : values_.ids()) {
+        Quantity& quantity = system().quantities[id];
+        auto checked = check_value(*values_[id], Context::value);
         if (checked) quantity.start = std::move(checked->formula);
-        if (values_[i]->range != nullptr) {
-            check_range(work_, *values_[i], quantity, checked ? checked->constant : std::nullopt);
+        if (values_[id]->range != nullptr) {
+            check_range(work_, *values_[id], quantity, checked ? checked->constant : std::nullopt);
         }
     }
 }
 
 void SystemChecker::check_definitions() {
-    for (std::size_t i = 0; i < definitions_.size(); ++i) {
-        auto checked = check_value(*definitions_[i], Context::rate);
-        if (checked) system().definitions[i].formula = std::move(checked->formula);
+    for (const DefinitionId id : definitions_.ids()) {
+        auto checked = check_value(*definitions_[id], Context::rate);
+        if (checked) system().definitions[id].formula = std::move(checked->formula);
     }
 }
 
@@ -297,7 +299,7 @@ void superpose(Formula& sum, Formula term) {
         sum.nodes.push_back(node);
     }
     Node addition;
-    addition.kind = NodeKind::call;
+    addition.kind = Call();
     addition.function = Function::add;
     addition.span = sum.nodes.back().span;
     addition.operands = {before, NodeId(sum.nodes.size() - 1)};
@@ -307,14 +309,14 @@ void superpose(Formula& sum, Formula term) {
 
 void SystemChecker::check_rates() {
     system().rates.resize(system().quantities.size());
-    for (std::size_t i = 0; i < rates_.size(); ++i) {
-        std::vector<const Declaration*> declarations = rates_[i].terms;
-        if (rates_[i].assignment != nullptr) {
-            declarations.insert(declarations.begin(), rates_[i].assignment);
+    for (const ItemId id : rates_.ids()) {
+        std::vector<const Declaration*> declarations = rates_[id].terms;
+        if (rates_[id].assignment != nullptr) {
+            declarations.insert(declarations.begin(), rates_[id].assignment);
         }
         for (const Declaration* declaration : declarations) {
             auto checked = check_value(*declaration, Context::rate);
-            if (checked) superpose(system().rates[i], std::move(checked->formula));
+            if (checked) superpose(system().rates[id], std::move(checked->formula));
         }
     }
 }
@@ -323,13 +325,14 @@ void SystemChecker::check_invariants() {
     for (const Declaration* declaration : invariants_) {
         const Meaning* meaning = find(work_.names[index_], declaration->name);
         if (meaning != nullptr && meaning->has_error) continue;
-        if (meaning == nullptr || meaning->is_definition || !system().is_species(meaning->index)) {
+        const auto species = find_species(work_, index_, declaration->name);
+        if (!species) {
             report_not_species(work_, index_, declaration->name, declaration->span());
             continue;
         }
         auto checked = check_value(*declaration, Context::bound);
         if (!checked) continue;
-        system().invariants.push_back({meaning->index,
+        system().invariants.push_back({*species,
                                        declaration->kind() == ast::StatementKind::at_least,
                                        std::move(checked->formula)});
     }

@@ -136,10 +136,7 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
     TimeSettings& time = settings.time;
     if (name == "speed") {
         time.automatic_speed = true;
-        Node one;
-        one.number = 1;
-        one.span = root_of(script, value).span;
-        settings.speed = Formula{{one}};
+        settings.speed = Formula{{Node{1.0, root_of(script, value).span}}};
     } else if (name == "solver") {
         check_solver(work, script, value, time);
     } else if (name == "tolerance") {

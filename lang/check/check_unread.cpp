@@ -24,7 +24,7 @@ std::vector<Unread> find_unread(const Workspace& work, std::uint32_t index) {
     const System& system = work.program.systems[index];
     std::unordered_set<std::string> read;
     std::vector<Unread> unread;
-    for (std::size_t item = 0; item < system.quantities.size(); ++item) {
+    for (const ItemId item : system.quantities.ids()) {
         const Quantity& quantity = system.quantities[item];
         if (quantity.is_species || work.items_read[index][item]) {
             read.insert(family_of(quantity.name));
@@ -32,9 +32,9 @@ std::vector<Unread> find_unread(const Workspace& work, std::uint32_t index) {
             unread.push_back({&quantity.name, quantity.span, "parameter"});
         }
     }
-    for (std::size_t i = 0; i < system.definitions.size(); ++i) {
-        const Definition& definition = system.definitions[i];
-        if (work.definitions_read[index][i]) {
+    for (const DefinitionId id : system.definitions.ids()) {
+        const Definition& definition = system.definitions[id];
+        if (work.definitions_read[index][id]) {
             read.insert(family_of(definition.name));
         } else {
             unread.push_back({&definition.name, definition.span, "definition"});

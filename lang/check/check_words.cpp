@@ -27,11 +27,11 @@ Reserved reserved(std::string_view name) {
 NameTable names_of(const System& system) {
     NameTable table;
     table.reserve(system.item_count() + system.definitions.size());
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
-        table.try_emplace(std::string(system.item_name(item)), Meaning{false, item});
+    for (const ItemId item : system.items()) {
+        table.try_emplace(std::string(system.item_name(item)), Meaning{item});
     }
-    for (std::uint32_t index = 0; index < system.definitions.size(); ++index) {
-        table.try_emplace(system.definitions[index].name, Meaning{true, index});
+    for (const DefinitionId id : system.definitions.ids()) {
+        table.try_emplace(system.definitions[id].name, Meaning{id});
     }
     return table;
 }
@@ -39,6 +39,14 @@ NameTable names_of(const System& system) {
 const Meaning* find(const NameTable& table, std::string_view name) {
     const auto found = table.find(std::string(name));
     return found == table.end() ? nullptr : &found->second;
+}
+
+std::optional<ItemId> find_species(const Workspace& work, std::uint32_t system,
+                                   std::string_view name) {
+    const Meaning* meaning = find(work.names[system], name);
+    const bool is_species = meaning != nullptr && !meaning->is_definition() &&
+                            work.program.systems[system].is_species(meaning->item());
+    return is_species ? std::optional(meaning->item()) : std::nullopt;
 }
 
 bool is_incomplete(const Workspace& work, std::uint32_t system) {
@@ -158,11 +166,11 @@ void report_twice(Workspace& work, Span second, Span first, std::string message)
 
 void mark_reads(Workspace& work, const Formula& formula, std::uint32_t system) {
     for (const Node& node : formula.nodes) {
-        if (node.kind == NodeKind::own) work.items_read[system][node.index] = true;
-        if (node.kind == NodeKind::definition) work.definitions_read[system][node.index] = true;
-        if (node.kind == NodeKind::earlier) {
-            const std::uint32_t other = work.program.stages[node.stage].system;
-            if (other != unknown_system) work.items_read[other][node.index] = true;
+        if (const auto* own = node.as<ItemId>()) work.items_read[system][*own] = true;
+        if (const auto* id = node.as<DefinitionId>()) work.definitions_read[system][*id] = true;
+        if (const auto* earlier = node.as<StageItem>()) {
+            const std::uint32_t other = work.program.stages[earlier->stage].system;
+            if (other != unknown_system) work.items_read[other][earlier->item] = true;
         }
     }
 }

@@ -94,10 +94,8 @@ Span head_of(const ast::Statement& statement) {
 bool is_known_along_side(Workspace& work, const Formula& value) {
     IdVector<NodeId, bool> changes;
     for (const Node& node : value.nodes) {
-        bool is_changing = node.kind == NodeKind::builtin &&
-                           (node.index == static_cast<std::uint32_t>(Builtin::t) ||
-                            node.index == static_cast<std::uint32_t>(Builtin::step));
-        if (node.kind == NodeKind::call) {
+        bool is_changing = node.is(Builtin::t) || node.is(Builtin::step);
+        if (node.is<Call>()) {
             for (const NodeId operand : node.reads()) is_changing |= changes[operand];
             const FunctionInfo& function = info(node.function);
             if (is_changing && (varies_by_cell(node.function) || function.is_aggregate)) {
@@ -133,10 +131,10 @@ bool reads_no_species(Workspace& work, const System& system, const SideSetting& 
                       std::string_view of) {
     const auto& nodes = setting.value.nodes;
     const auto read = std::find_if(nodes.begin(), nodes.end(), [&](const Node& node) {
-        return node.kind == NodeKind::own && system.is_species(node.index);
+        return node.is<ItemId>() && system.is_species(*node.as<ItemId>());
     });
     if (read == nodes.end()) return true;
-    const std::string_view name = system.item_name(read->index);
+    const std::string_view name = system.item_name(*read->as<ItemId>());
     work.diagnostics.error(
         read->span, fmt::format("a side cannot follow '{}', which every step changes", name),
         setting.kind == SideKind::flux
@@ -195,7 +193,8 @@ private:
         const ast::Statement& statement = *declaration.statement;
         const Meaning* meaning = find(work_.names[scope_.system], declaration.name);
         if (meaning != nullptr && meaning->has_error) return;
-        if (meaning == nullptr || meaning->is_definition || !system_.is_species(meaning->index)) {
+        const auto species = find_species(work_, scope_.system, declaration.name);
+        if (!species) {
             return report_not_species(work_, scope_.system, declaration.name, head_of(statement));
         }
         const auto written = read_side(work_, script_, statement);
@@ -212,7 +211,7 @@ private:
             if (!reads_no_species(work_, system_, setting, side, declaration.name)) return;
         }
         for (const Side side : sides_of_word(statement.side.text)) {
-            rules_.push_back({{meaning->index, side, setting},
+            rules_.push_back({{*species, side, setting},
                               declaration.index.has_value(),
                               statement.side.text == "sides"});
         }

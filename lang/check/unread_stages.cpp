@@ -13,7 +13,7 @@ namespace {
 
 void note_reads(const Formula& formula, std::vector<bool>& is_read) {
     for (const Node& node : formula.nodes) {
-        if (node.kind == NodeKind::earlier) is_read[node.stage] = true;
+        if (const auto* earlier = node.as<StageItem>()) is_read[earlier->stage] = true;
     }
 }
 

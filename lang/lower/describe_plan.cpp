@@ -31,7 +31,7 @@ std::string name_of(const PlanGraph& graph, NodeId id) {
     const std::string& name = graph.name(id);
     if (!name.empty()) return name;
     const Node& node = graph[id];
-    if (node.calls(Function::if_) && graph[node.operands[0]].kind == NodeKind::inside) {
+    if (node.calls(Function::if_) && graph[node.operands[0]].is<InsideMask>()) {
         return name_of(graph, node.operands[1]) + " inside the mask";
     }
     if (graph.origin(id) == nullptr) return describe_made(graph, node);

@@ -50,10 +50,8 @@ class Areas : public GraphPass {
     NodeId image_of(const Node& node) override {
         const bool is_mean = node.calls(Function::domain_mean);
         if (!is_mean && !node.calls(Function::domain_sum)) return keep(node);
-        const NodeId area =
-            context().has_model()
-                ? graph().leaf(NodeKind::model, static_cast<std::uint32_t>(ModelPlane::area))
-                : graph().leaf(NodeKind::metric, static_cast<std::uint32_t>(MetricPlane::area));
+        const NodeId area = context().has_model() ? graph().leaf(ModelPlane::area)
+                                                  : graph().leaf(MetricPlane::area);
         const auto sum = [&](NodeId of) { return call(Function::domain_sum, {of}); };
         const NodeId integral = sum(times(node.operands[0], area));
         return is_mean ? call(Function::divide, {integral, sum(area)}) : integral;
@@ -69,7 +67,7 @@ class MaskedAggregates : public GraphPass {
         const bool adds =
             node.function == Function::domain_sum || node.function == Function::domain_mean;
         const Node& of = graph()[node.operands[0]];
-        const bool is_item = of.kind == NodeKind::own || of.kind == NodeKind::earlier;
+        const bool is_item = of.is<ItemId>() || of.is<StageItem>();
         // Items that vary are 0 outside.
         if (adds && is_item && differs_by_cell(of, false, context().program, context().stage)) {
             return keep(node);
@@ -77,7 +75,7 @@ class MaskedAggregates : public GraphPass {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const bool is_least = node.function == Function::domain_min;
         Node masked = node;
-        masked.operands[0] = call(Function::if_, {graph().leaf(NodeKind::inside), node.operands[0],
+        masked.operands[0] = call(Function::if_, {graph().leaf(InsideMask()), node.operands[0],
                                                   graph().number(adds       ? 0
                                                                  : is_least ? infinity
                                                                             : -infinity)});

@@ -32,11 +32,11 @@ std::string KernelAssembly::name_of(const std::variant<Sources...>& source) cons
         },
         [&](NamedPlane each) {
             return fmt::format("{}(\"{}\")", info(each.function).spelling,
-                               program_.literals->texts()[each.text]);
+                               program_.literals->text(each.text));
         },
         [&](SurfaceValueId id) {
             // A long list of numbers would not fit into a name; this one is just as distinct.
-            const SurfaceValue& value = program_.literals->surface_values()[id.index()];
+            const SurfaceValue& value = program_.literals->surface_value(id);
             return numbered(info(value.function).spelling, id);
         },
         [&](MetricPlane plane) { return of(metric_names, plane); },
@@ -86,7 +86,7 @@ ValueId KernelAssembly::time_step(Offset at) {
 
 /// A time that is the same in all cells comes from the time loop.
 ValueId KernelAssembly::time(Offset at) {
-    const std::uint32_t speed = system().speed_item();
+    const ItemId speed = system().speed_item();
     if (stage().uniform[speed]) return uniform(TimeValue::time);
     return builder_.multiply(step(), time_step(at));
 }

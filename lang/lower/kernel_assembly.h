@@ -31,7 +31,7 @@ public:
 
     /// The value of an item of any stage, and of one of this stage.
     ValueId item(StageItem item, Offset at = {});
-    ValueId item(std::uint32_t item) { return this->item({stage_, item}); }
+    ValueId item(ItemId item) { return this->item({stage_, item}); }
     /// Complete steps when the step begins.
     ValueId step() { return uniform(TimeValue::step); }
     /// The number of that step as a word for draws.

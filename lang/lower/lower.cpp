@@ -27,14 +27,6 @@ StepGraph::StepGraph(const Program& program, std::uint32_t stage, const PlanOpti
     if (options.keeps_step_invariants) step_invariants = step_invariant_nodes(graph, roots);
 }
 
-std::vector<std::uint32_t> species_items(const System& system) {
-    std::vector<std::uint32_t> items;
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (system.quantities[item].is_species) items.push_back(item);
-    }
-    return items;
-}
-
 }  // namespace lowering
 
 namespace {
@@ -46,12 +38,13 @@ constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
 /// The uniform items that need an aggregate over the domain, directly or through others, and can
 /// only be computed when there are cells.
-std::vector<bool> items_of_aggregates(const Stage& stage) {
-    std::vector<bool> late(stage.items.size(), false);
-    for (const std::uint32_t item : stage.order) {
+IdVector<ItemId, bool> items_of_aggregates(const Stage& stage) {
+    IdVector<ItemId, bool> late(stage.items.size(), false);
+    for (const ItemId item : stage.order) {
         if (!stage.uniform[item]) continue;
         for (const Node& node : stage.items[item].nodes) {
-            const bool reads_one = node.kind == NodeKind::own && late[node.index];
+            const auto* own = node.as<ItemId>();
+            const bool reads_one = own != nullptr && late[*own];
             if (is_aggregate(node) || reads_one) late[item] = true;
         }
     }
@@ -63,9 +56,9 @@ std::vector<bool> items_of_aggregates(const Stage& stage) {
 StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptions& options,
                     bool before_cells) {
     const Stage& source = program.stages[stage];
-    const std::vector<bool> late = items_of_aggregates(source);
-    std::vector<std::uint32_t> items;
-    for (const std::uint32_t item : source.order) {
+    const IdVector<ItemId, bool> late = items_of_aggregates(source);
+    std::vector<ItemId> items;
+    for (const ItemId item : source.order) {
         if ((source.uniform[item] && !late[item]) == before_cells) items.push_back(item);
     }
     const PassContext context{program, stage};
@@ -95,11 +88,11 @@ StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptio
 StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptions& options) {
     const System& system = program.system_of(stage);
     const StepGraph step(program, stage, options);
-    const std::vector<std::uint32_t> species = species_items(system);
+    const auto species = system.species();
     std::vector<NodeId> wanted;
-    for (const std::uint32_t item : system.rate_order) wanted.push_back(step.rates[item]);
+    for (const ItemId item : system.rate_order) wanted.push_back(step.rates[item]);
     PlanBuilder builder({step.graph, wanted, options, true, species, step.step_invariants});
-    for (const std::uint32_t item : species) {
+    for (const ItemId item : species) {
         builder.result(system.quantities[item].name,
                        builder.last_pass().within_mask(builder.value(step.rates[item])[0], 0));
     }

@@ -19,10 +19,8 @@ bool has_mask(const PassContext& context) { return context.has_mask(); }
 bool is_tensor(const Node& node) {
     return node.calls(Function::tensor) || node.calls(Function::diffuse);
 }
-bool is_operator(const Node& node) {
-    return node.kind == NodeKind::call && differentiates(node.function);
-}
-bool is_of_cell(const Node& node) { return is_operator(node) || node.kind == NodeKind::builtin; }
+bool is_operator(const Node& node) { return node.is<Call>() && differentiates(node.function); }
+bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>(); }
 
 /// Before the first pass, definitions and rates have been replaced by their expressions
 /// (lang/program/flatten.h), and equal expressions are one node.
@@ -55,12 +53,11 @@ Expressions with_roots(Expressions expressions, const Flattening& flattening,
 
 }  // namespace
 
-Expressions flat_start(const Program& program, std::uint32_t stage,
-                       std::span<const std::uint32_t> items) {
+Expressions flat_start(const Program& program, std::uint32_t stage, std::span<const ItemId> items) {
     Expressions flat;
     Flattening flattening(flat.graph);
     std::vector<NodeId> roots;
-    for (const std::uint32_t item : items) {
+    for (const ItemId item : items) {
         const std::string name(program.system_of(stage).item_name(item));
         roots.push_back(flattening.add(program.stages[stage].items[item], {name, false}));
         flattening.set_item(item, roots.back());
@@ -74,7 +71,7 @@ Expressions flat_step(const Program& program, std::uint32_t stage) {
     Flattening flattening(flat.graph);
     std::vector<NodeId> roots;
     flattening.add_rates(system);
-    for (const std::uint32_t item : system.rate_order) roots.push_back(flattening.rate(item));
+    for (const ItemId item : system.rate_order) roots.push_back(flattening.rate(item));
     for (const Invariant& each : system.invariants) roots.push_back(flattening.add(each.bound));
     return with_roots(std::move(flat), flattening, std::move(roots));
 }

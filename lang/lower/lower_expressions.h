@@ -13,8 +13,7 @@
 namespace cascade::lowering {
 
 /// The starting values of items of a stage. Each may read those before it.
-Expressions flat_start(const Program& program, std::uint32_t stage,
-                       std::span<const std::uint32_t> items);
+Expressions flat_start(const Program& program, std::uint32_t stage, std::span<const ItemId> items);
 /// The rates of a stage's species, in the order of System::rate_order, then the bounds of its
 /// invariants. All plans of a step thus number their nodes alike.
 Expressions flat_step(const Program& program, std::uint32_t stage);

@@ -2,6 +2,7 @@
 #include "lang/lower/lower_node.h"
 
 #include "core/check.h"
+#include "core/overloaded.h"
 
 namespace cascade::lowering {
 
@@ -49,38 +50,40 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
 }  // namespace
 
 Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
-    const Node& node = in.node();
-    switch (node.kind) {
-        case NodeKind::number: return {assembly.builder().number(node.number)};
-        case NodeKind::text: return {};  // Its reader uses the node itself.
-        case NodeKind::own: return {assembly.item({in.graph.stage(), node.index}, in.at)};
-        case NodeKind::earlier: return {assembly.item({node.stage, node.index}, in.at)};
-        case NodeKind::builtin:
-            return {CellPlace(assembly, in.at).builtin(static_cast<Builtin>(node.index))};
-        case NodeKind::metric:
-        case NodeKind::model:
-        case NodeKind::surface_value: return {assembly.field(plane_source(in.graph, in.id), in.at)};
-        case NodeKind::inside: return {assembly.inside(in.at)};
-        case NodeKind::call: return lower_call(assembly, in);
-        case NodeKind::definition:
-        case NodeKind::rate: break;
-    }
-    CHECK(false, "lowering: a graph has no definitions and rates");
+    const Overloaded value{
+        [&](double number) -> Value { return {assembly.builder().number(number)}; },
+        [](TextId) -> Value { return {}; },  // Its reader uses the node itself.
+        [&](ItemId item) -> Value {
+            return {assembly.item({in.graph.stage(), item}, in.at)};
+        },
+        [&](StageItem item) -> Value { return {assembly.item(item, in.at)}; },
+        [&](Builtin builtin) -> Value { return {CellPlace(assembly, in.at).builtin(builtin)}; },
+        [&](InsideMask) -> Value { return {assembly.inside(in.at)}; },
+        [&](Call) { return lower_call(assembly, in); },
+        [&](SurfaceValueId id) -> Value { return {assembly.field(id, in.at)}; },
+        [&](MetricPlane plane) -> Value { return {assembly.field(plane, in.at)}; },
+        [&](ModelPlane plane) -> Value { return {assembly.field(plane, in.at)}; },
+        [](auto) -> Value { CHECK(false, "lowering: a graph has no definitions and rates"); },
+    };
+    return std::visit(value, in.node().kind);
 }
 
 PlaneSource plane_source(const PlanGraph& graph, NodeId id) {
     const Node& node = graph[id];
-    switch (node.kind) {
-        case NodeKind::own: return StageItem{graph.stage(), node.index};
-        case NodeKind::earlier: return StageItem{node.stage, node.index};
-        case NodeKind::metric: return static_cast<MetricPlane>(node.index);
-        case NodeKind::model: return static_cast<ModelPlane>(node.index);
-        case NodeKind::surface_value: return SurfaceValueId(node.index);
-        default: break;
-    }
-    CHECK(node.kind == NodeKind::call && reads_file(node.function),
-          "lowering: a plane is an item or a file");
-    return NamedPlane{node.function, graph[node.operands[0]].index};
+    const Overloaded source{
+        [&](ItemId item) -> PlaneSource {
+            return StageItem{graph.stage(), item};
+        },
+        [&](StageItem item) -> PlaneSource { return item; },
+        [](MetricPlane plane) -> PlaneSource { return plane; },
+        [](ModelPlane plane) -> PlaneSource { return plane; },
+        [](SurfaceValueId id_of_value) -> PlaneSource { return id_of_value; },
+        [&](Call) -> PlaneSource {
+            return NamedPlane{node.function, std::get<TextId>(graph[node.operands[0]].kind)};
+        },
+        [](auto) -> PlaneSource { CHECK(false, "lowering: a plane is an item or a file"); },
+    };
+    return std::visit(source, node.kind);
 }
 
 }  // namespace cascade::lowering

@@ -13,7 +13,7 @@ namespace cascade::lowering {
 Value lower_palette(KernelAssembly& assembly, const NodeInCell& in) {
     KernelBuilder& builder = assembly.builder();
     const Palette* palette =
-        find_palette(assembly.program().literals->texts()[in.operand(3).index]);
+        find_palette(assembly.program().literals->text(std::get<TextId>(in.operand(3).kind)));
     CHECK(palette != nullptr, "lowering: the checker has found every palette");
     const ValueId low = in.number(1);
     const ValueId range = builder.subtract(in.number(2), low);

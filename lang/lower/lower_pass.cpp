@@ -86,7 +86,7 @@ Value PassLowering::compute_at(NodeId id, Offset offset) {
         return {number ? assembly_.uniform(*number) : assembly_.field(pass_.plane(id), offset)};
     }
     if (node.calls(Function::div)) return {fluxes_.divergence(node)};
-    if (node.kind == NodeKind::call && is_stencil(node.function)) {
+    if (node.is<Call>() && is_stencil(node.function)) {
         return {lower_stencil(pass_, assembly_, values_, id)};
     }
     NodeInCell in{graph, id, offset, {}};

@@ -92,8 +92,8 @@ ValueId Fluxes::at_face(NodeId id, Face where) const {
 /// towards the side, are set to 0 there.
 void Fluxes::find_what_crosses_sides() {
     const System& system = graph_.program().system_of(graph_.stage());
-    std::vector<SideKinds> of_item;
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+    IdVector<ItemId, SideKinds> of_item;
+    for (const ItemId item : system.items()) {
         of_item.push_back(side_kinds(graph_.program(), graph_.stage(), item));
     }
     crossings_.assign(graph_.size(), {});
@@ -102,10 +102,10 @@ void Fluxes::find_what_crosses_sides() {
         Crossing& crossing = crossings_[id];
         const bool is_vector = node.type == ValueType::vector;
         crossing.goes_across = is_vector && node.calls(Function::vector);
-        if (node.kind == NodeKind::own && system.is_species(node.index)) {
+        if (const auto* item = node.as<ItemId>(); item != nullptr && system.is_species(*item)) {
             crossing.has_species = true;
             for (std::size_t side = 0; side < side_count; ++side) {
-                crossing.is_open[side] = of_item[node.index][side] != SideKind::no_flux;
+                crossing.is_open[side] = of_item[*item][side] != SideKind::no_flux;
             }
         }
         for (const NodeId read : node.reads()) {

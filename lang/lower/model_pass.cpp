@@ -75,10 +75,9 @@ class ModelOperators : public GraphPass {
     }
 
     NodeId image_of(const Node& node) override {
-        if (node.kind == NodeKind::builtin) {
-            const auto plane = model_plane_of(static_cast<Builtin>(node.index));
-            if (!plane) return keep(node);
-            return graph().leaf(NodeKind::model, static_cast<std::uint32_t>(*plane));
+        if (const auto* builtin = node.as<Builtin>()) {
+            const auto plane = model_plane_of(*builtin);
+            return plane ? graph().leaf(*plane) : keep(node);
         }
         if (node.type == ValueType::vector) {
             gradients_.emplace(at(), sum_of_gradients(node));

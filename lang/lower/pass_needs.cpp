@@ -41,7 +41,7 @@ private:
             }
             return;
         }
-        if (node.kind == NodeKind::call && is_stencil(node.function)) return need_of_stencil(node);
+        if (node.is<Call>() && is_stencil(node.function)) return need_of_stencil(node);
         for (const NodeId operand : node.reads()) need(operand, where);
     }
 

@@ -12,9 +12,7 @@ bool is_number(const Node& node) { return node.type == ValueType::number; }
 
 }  // namespace
 
-int operations_of(const Node& node) {
-    return node.kind == NodeKind::call ? info(node.function).cost : 4;
-}
+int operations_of(const Node& node) { return node.is<Call>() ? info(node.function).cost : 4; }
 
 Axes::Axes(const Grid& grid) {
     const Stencil stencil = grid.stencil();
@@ -123,11 +121,9 @@ bool PassPlanner::is_expensive(NodeId id, std::uint32_t places) const {
 void PassPlanner::decide(NodeId id) {
     const Node& node = graph_[id];
     const Function function = node.function;
-    if (node.kind != NodeKind::call) {
+    if (!node.is<Call>()) {
         const System& system = graph_.program().system_of(graph_.stage());
-        const bool is_frozen = node.kind == NodeKind::own && node.index == system.frozen_item() &&
-                               !graph_.is_uniform(id);
-        stays_[id] = is_frozen;
+        stays_[id] = node.is(system.frozen_item()) && !graph_.is_uniform(id);
         return;
     }
     const NodeId last = node.reads().back();

@@ -69,7 +69,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
         std::make_unique<KernelAssembly>(graph_.program(), graph_.stage(), request_.frozen_is_mask);
     std::vector<NodeId> wanted = written_[pass];
     if (is_last) {
-        for (const std::uint32_t item : request_.first_slots) {
+        for (const ItemId item : request_.first_slots) {
             last_->field_slot(StageItem{graph_.stage(), item});
         }
         wanted.insert(wanted.end(), request_.wanted.begin(), request_.wanted.end());

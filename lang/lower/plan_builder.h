@@ -17,7 +17,7 @@ struct PlanRequest {
     PlanOptions options;
     bool frozen_is_mask = false;
     /// The species in the first field slots of the last pass.
-    std::span<const std::uint32_t> first_slots = {};
+    std::span<const ItemId> first_slots = {};
     /// The nodes known before the first pass, in the order of their numbers.
     std::span<const NodeId> step_invariants = {};
     /// Compute with fewer roundings. Bits then do not depend on which values are computed once for

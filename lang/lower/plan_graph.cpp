@@ -30,7 +30,7 @@ Beyond beyond_of(SideKind first, SideKind second) {
 }
 
 /// For an item of a stage, if it varies.
-Axes3 beyond_of_item(const Program& program, std::uint32_t stage, std::uint32_t item) {
+Axes3 beyond_of_item(const Program& program, std::uint32_t stage, ItemId item) {
     const SideKinds sides = side_kinds(program, stage, item);
     Axes3 beyond{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -47,17 +47,13 @@ Beyond together(Beyond a, Beyond b) {
 
 }  // namespace
 
-SideKinds side_kinds(const Program& program, std::uint32_t stage, std::uint32_t item) {
-    const System& system = program.system_of(stage);
+SideKinds side_kinds(const Program& program, std::uint32_t stage, ItemId item) {
     const auto& sides = program.stages[stage].sides;
-    const bool has_own = !sides.empty() && system.is_species(item);
-    const auto species = static_cast<std::size_t>(
-        std::count_if(system.quantities.begin(), system.quantities.begin() + (has_own ? item : 0),
-                      [](const Quantity& quantity) { return quantity.is_species; }));
+    const auto species = sides.empty() ? std::nullopt : program.system_of(stage).species_of(item);
     const SideRules boundary(program.domain.grid.boundary);
     SideKinds kinds{};
     for (std::size_t side = 0; side < side_count; ++side) {
-        kinds[side] = has_own ? sides[species][side].kind : boundary.at[side].kind;
+        kinds[side] = species ? sides[*species][side].kind : boundary.at[side].kind;
     }
     return kinds;
 }
@@ -77,16 +73,10 @@ PlanGraph::PlanGraph(Expressions expressions, const PassContext& context,
 
 /// Parameters keep their starting values, and earlier stages are over.
 bool PlanGraph::is_step_invariant(const Node& node, Invariance what) const {
-    switch (node.kind) {
-        case NodeKind::own:
-            return what == Invariance::state ||
-                   !program().system_of(stage()).is_species(node.index);
-        case NodeKind::builtin: {
-            const auto builtin = static_cast<Builtin>(node.index);
-            return builtin != Builtin::t && builtin != Builtin::step;
-        }
-        default: break;
+    if (const auto* item = node.as<ItemId>()) {
+        return what == Invariance::state || !program().system_of(stage()).is_species(*item);
     }
+    if (node.is(Builtin::t) || node.is(Builtin::step)) return false;
     if (is_draw(node) && what != Invariance::state) return false;
     return std::ranges::all_of(node.reads(),
                                [&](NodeId operand) { return facts_[operand].is_step_invariant; });
@@ -96,11 +86,11 @@ std::array<Beyond, 3> PlanGraph::beyond(const Node& node, bool is_uniform) const
     const Grid& grid = program().domain.grid;
     Axes3 beyond{};
     if (is_uniform) return beyond;
-    if (node.kind == NodeKind::own) {
-        beyond = beyond_of_item(program(), stage(), node.index);
-    } else if (node.kind == NodeKind::earlier) {
-        beyond = beyond_of_item(program(), node.stage, node.index);
-    } else if (node.kind != NodeKind::call) {
+    if (const auto* item = node.as<ItemId>()) {
+        beyond = beyond_of_item(program(), stage(), *item);
+    } else if (const auto* earlier = node.as<StageItem>()) {
+        beyond = beyond_of_item(program(), earlier->stage, earlier->item);
+    } else if (!node.is<Call>()) {
         beyond = beyond_of(grid.boundary);
     } else {
         const Axes3 usual = beyond_of(grid.boundary);
@@ -140,15 +130,12 @@ Boundaries PlanGraph::boundary(NodeId id) const {
 bool PlanGraph::is_plane(NodeId id) const {
     const Node& node = (*this)[id];
     if (is_uniform(id)) return false;
-    switch (node.kind) {
-        case NodeKind::own: return node.index != program().system_of(stage()).frozen_item();
-        case NodeKind::earlier:
-        case NodeKind::metric:
-        case NodeKind::surface_value:
-        case NodeKind::model: return true;
-        case NodeKind::call: return reads_file(node.function);
-        default: return false;
+    if (const auto* item = node.as<ItemId>()) {
+        return *item != program().system_of(stage()).frozen_item();
     }
+    if (node.is<Call>()) return reads_file(node.function);
+    return node.is<StageItem>() || node.is<MetricPlane>() || node.is<ModelPlane>() ||
+           node.is<SurfaceValueId>();
 }
 
 const std::string& PlanGraph::name(NodeId id) const {

@@ -24,7 +24,7 @@ using SideKinds = std::array<SideKind, side_count>;
 
 /// The kinds of the sides of an item. A species may have sides of its own; all other items have
 /// those of the domain.
-SideKinds side_kinds(const Program& program, std::uint32_t stage, std::uint32_t item);
+SideKinds side_kinds(const Program& program, std::uint32_t stage, ItemId item);
 
 /// What counts as step-invariant: values that no step changes, or values that do not depend on t
 /// and step.

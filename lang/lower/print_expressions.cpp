@@ -43,9 +43,8 @@ std::string print(const Expressions& expressions, const PassContext& context) {
         }
         if (name != expressions.names.end()) remarks.push_back(name->second);
         text += fmt::format("%{} = {}{}{}\n", id.index(),
-                            node.kind == NodeKind::call
-                                ? print_call(node)
-                                : print_formula(context.program, system, {{node}}),
+                            node.is<Call>() ? print_call(node)
+                                            : print_formula(context.program, system, {{node}}),
                             remarks.empty() ? "" : "  # ", fmt::join(remarks, ", "));
     }
     for (const NodeId root : expressions.roots) text += fmt::format("result %{}\n", root.index());

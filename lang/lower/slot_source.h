@@ -16,26 +16,18 @@ using TemporaryId = Id<struct TemporaryTag>;          ///< A plane that passes w
 using AggregateId = Id<struct AggregateTag>;          ///< An aggregate of the plan.
 using StepInvariantId = Id<struct StepInvariantTag>;  ///< A result of plan_step_invariants.
 using CoefficientId = Id<struct CoefficientTag>;      ///< A coefficient of a sweep.
-using SurfaceValueId = Id<struct SurfaceValueTag>;    ///< Of Literals::surface_values().
-
-/// An item of a stage.
-struct StageItem {
-    std::uint32_t stage = 0;
-    std::uint32_t item = 0;
-    bool operator==(const StageItem&) const = default;
-};
 
 /// A species in an input of a sweep other than the first, which holds the items of the stage.
 struct SweepInput {
     std::uint32_t input = 0;
-    std::uint32_t item = 0;
+    ItemId item;
     bool operator==(const SweepInput&) const = default;
 };
 
-/// What a function such as `field` reads by the name Literals::texts()[text].
+/// What a function such as `field` reads by a name.
 struct NamedPlane {
     Function function = Function::field;
-    std::uint32_t text = 0;
+    TextId text;
     auto operator<=>(const NamedPlane&) const = default;
 };
 

@@ -11,14 +11,11 @@ namespace cascade::lowering {
 /// All formulas of a stage's step. Every plan of the step numbers their nodes alike.
 struct StepGraph {
     PlanGraph graph;
-    std::vector<NodeId> rates;            ///< By item.
+    IdVector<ItemId, NodeId> rates;
     std::vector<NodeId> bounds;           ///< By invariant.
     std::vector<NodeId> step_invariants;  ///< The values that are computed once.
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options);
 };
-
-/// The items that are species, in their order.
-std::vector<std::uint32_t> species_items(const System& system);
 
 }  // namespace cascade::lowering

@@ -74,7 +74,7 @@ private:
     /// A node that is computed in every step needs its operands in the cell itself, or around it.
     void need_operands(NodeId id) {
         const Node& node = graph_[id];
-        const bool is_operator = node.kind == NodeKind::call && !graph_.is_uniform(id);
+        const bool is_operator = node.is<Call>() && !graph_.is_uniform(id);
         const bool at_faces = is_operator && node.type == ValueType::vector;
         for (std::uint32_t k = 0; k < node.operand_count; ++k) {
             // A step-invariant is computed wherever its reader is.

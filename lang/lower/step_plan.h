@@ -22,7 +22,7 @@ struct BoundKernel {
     IdVector<FieldSlot, PlaneSource> fields;
     IdVector<MaskSlot, StageItem> masks;
     IdVector<UniformSlot, UniformSource> uniforms;
-    std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
+    std::vector<ItemId> results;  ///< Of the stage; empty for views.
 };
 
 /// The target of one result of a pass.
@@ -48,8 +48,8 @@ struct Pass {
 };
 
 struct StepPlan {
-    std::vector<Pass> passes;            ///< The last one writes all results. Never empty.
-    std::vector<std::uint32_t> results;  ///< Item numbers of the stage; empty for views.
+    std::vector<Pass> passes;     ///< The last one writes all results. Never empty.
+    std::vector<ItemId> results;  ///< Of the stage; empty for views.
     std::uint32_t result_count = 0;
     std::uint32_t temporaries = 0;  ///< Planes that passes write for later ones.
     std::uint32_t aggregates = 0;

@@ -13,9 +13,7 @@ namespace cascade::lowering {
 
 namespace {
 
-NodeId metric(ExpressionGraph& graph, MetricPlane plane) {
-    return graph.leaf(NodeKind::metric, static_cast<std::uint32_t>(plane));
-}
+NodeId metric(ExpressionGraph& graph, MetricPlane plane) { return graph.leaf(plane); }
 
 class SurfaceOperators : public GraphPass {
     using GraphPass::GraphPass;
@@ -122,7 +120,7 @@ class SurfaceOperators : public GraphPass {
     }
 
     NodeId image_of(const Node& node) override {
-        if (node.kind != NodeKind::call) return keep(node);
+        if (!node.is<Call>()) return keep(node);
         const NodeId first = node.operands[0], second = node.operands[1], area = s();
         const auto per_area = [&](NodeId flow) {
             return call(Function::divide, {call(Function::div, {flow}), area});

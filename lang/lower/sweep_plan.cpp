@@ -18,19 +18,16 @@ class SweepEmitter {
 public:
     SweepEmitter(const Program& program, std::uint32_t stage, const SweepForm& form)
         : program_(program), stage_(stage), form_(form), system_(program.system_of(stage)) {
-        const std::vector<std::uint32_t> all = species_items(system_);
-        species_ = all;
-        if (!form.species.empty()) {
-            species_.clear();
-            for (const std::uint32_t number : form.species) species_.push_back(all[number]);
-        }
+        const auto all = system_.species();
+        if (form.species.empty()) species_ = all;
+        for (const SpeciesId id : form.species) species_.push_back(all[id]);
     }
 
     StepPlan plan(const PlanOptions& options) {
         const StepGraph step(program_, stage_, options);
         rates_ = step.rates;
         std::vector<NodeId> wanted;
-        for (const std::uint32_t item : system_.rate_order) {
+        for (const ItemId item : system_.rate_order) {
             if (!is_written(item)) continue;
             if (form_.uses_rates() || (form_.holds && is_bounded(item)))
                 wanted.push_back(rates_[item]);
@@ -40,7 +37,7 @@ public:
             bounds_.push_back({&system_.invariants[k], step.bounds[k]});
             wanted.push_back(step.bounds[k]);
         }
-        const std::vector<std::uint32_t> slots = species_items(system_);
+        const auto slots = system_.species();
         PlanBuilder builder(
             {step.graph, wanted, options, true, slots, step.step_invariants, program_.domain.fast});
         for (const SweepOutput& output : form_.outputs) emit(builder, output);
@@ -52,27 +49,27 @@ public:
     }
 
 private:
-    bool is_bounded(std::uint32_t item) const {
+    bool is_bounded(ItemId item) const {
         return std::any_of(system_.invariants.begin(), system_.invariants.end(),
                            [&](const Invariant& invariant) { return invariant.species == item; });
     }
 
-    bool is_written(std::uint32_t item) const {
+    bool is_written(ItemId item) const {
         return std::find(species_.begin(), species_.end(), item) != species_.end();
     }
 
     /// A species in an input, in the cell itself. Formulas read input 0.
-    ValueId input(PlanBuilder& plan, std::uint32_t input, std::uint32_t item) const {
+    ValueId input(PlanBuilder& plan, std::uint32_t input, ItemId item) const {
         if (input == 0) return plan.last_pass().field(StageItem{stage_, item});
         return plan.last_pass().field(SweepInput{input, item});
     }
 
-    ValueId base(PlanBuilder& plan, std::uint32_t item) const {
+    ValueId base(PlanBuilder& plan, ItemId item) const {
         return input(plan, form_.base_input, item);
     }
 
     ValueId term(PlanBuilder& plan, const SweepTerm& term, SweepOutput::Kind kind,
-                 std::uint32_t item) const {
+                 ItemId item) const {
         KernelBuilder& builder = plan.last_pass().builder();
         ValueId value{};
         switch (term.source) {
@@ -103,8 +100,8 @@ private:
 
     void emit(PlanBuilder& plan, const SweepOutput& output) const {
         KernelBuilder& builder = plan.last_pass().builder();
-        std::vector<ValueId> next(system_.quantities.size());
-        for (const std::uint32_t item : species_) {
+        IdVector<ItemId, ValueId> next(system_.quantities.size());
+        for (const ItemId item : species_) {
             std::optional<ValueId> sum;
             for (const SweepTerm& each : output.terms) {
                 const ValueId value = term(plan, each, output.kind, item);
@@ -118,7 +115,7 @@ private:
             clamp(plan, next);
         }
         const bool freezes = !program_.stages[stage_].uniform[system_.frozen_item()];
-        for (const std::uint32_t item : species_) {
+        for (const ItemId item : species_) {
             if (freezes) {
                 const ValueId kept =
                     output.kind == SweepOutput::Kind::state ? base(plan, item) : builder.number(0);
@@ -129,8 +126,8 @@ private:
         }
     }
 
-    void hold(PlanBuilder& plan, std::vector<ValueId>& next) const {
-        for (const std::uint32_t item : species_) {
+    void hold(PlanBuilder& plan, IdVector<ItemId, ValueId>& next) const {
+        for (const ItemId item : species_) {
             if (const auto held = is_held(plan, item)) {
                 next[item] = plan.last_pass().builder().select(*held, base(plan, item), next[item]);
             }
@@ -138,7 +135,7 @@ private:
     }
 
     /// Invariants in order of writing.
-    void clamp(PlanBuilder& plan, std::vector<ValueId>& next) const {
+    void clamp(PlanBuilder& plan, IdVector<ItemId, ValueId>& next) const {
         KernelBuilder& builder = plan.last_pass().builder();
         for (const auto& [invariant, part] : bounds_) {
             const ValueId bound = plan.value(part)[0];
@@ -150,7 +147,7 @@ private:
 
     /// Is a value in input 0 at a bound that its rate would carry it across? Empty if there is no
     /// bound.
-    std::optional<ValueId> is_held(PlanBuilder& plan, std::uint32_t item) const {
+    std::optional<ValueId> is_held(PlanBuilder& plan, ItemId item) const {
         KernelBuilder& builder = plan.last_pass().builder();
         const ValueId zero = builder.number(0);
         std::optional<ValueId> held;
@@ -174,8 +171,8 @@ private:
     std::uint32_t stage_;
     const SweepForm& form_;
     const System& system_;
-    std::vector<std::uint32_t> species_;                       ///< Items that are written.
-    std::vector<NodeId> rates_;                                ///< By item.
+    std::vector<ItemId> species_;  ///< Items that are written.
+    IdVector<ItemId, NodeId> rates_;
     std::vector<std::pair<const Invariant*, NodeId>> bounds_;  ///< Of species that are written.
 };
 

@@ -1,6 +1,8 @@
 // Formulas as text, without recursion: a stack holds the nodes and strings still to be written.
 #include "lang/print/print_formula.h"
 
+#include "core/overloaded.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -48,7 +50,7 @@ private:
             return;
         }
         const Node& node = formula_.nodes[part.node];
-        if (node.kind != NodeKind::call) {
+        if (!node.is<Call>()) {
             text_ += leaf(node);
         } else if (info(node.function).is_operator) {
             write_operator(node, part.least);
@@ -98,27 +100,29 @@ private:
     }
 
     std::string leaf(const Node& node) const {
-        switch (node.kind) {
-            case NodeKind::number: return fmt::format("{}", node.number);
-            case NodeKind::text:
-                return fmt::format("\"{}\"", program_.literals->texts()[node.index]);
-            case NodeKind::own:
-                if (!stage_) return std::string(system_.item_name(node.index));
-                return fmt::format("[{}]", system_.item_name(node.index));
-            case NodeKind::earlier:
-                return fmt::format("{}.{}", program_.stages[node.stage].name,
-                                   program_.system_of(node.stage).item_name(node.index));
-            case NodeKind::builtin: return std::string(builtin_names[node.index]);
-            case NodeKind::surface_value:
-                return text_of(program_.literals->surface_values()[node.index]);
-            case NodeKind::definition: return system_.definitions[node.index].name;
-            case NodeKind::rate: return system_.quantities[node.index].name + "'";
-            case NodeKind::metric: return std::string(metric_names[node.index]);
-            case NodeKind::model: return std::string(model_names[node.index]);
-            case NodeKind::inside: return "(inside)";
-            case NodeKind::call: break;
-        }
-        return "";
+        const auto of = [](const auto& names, auto key) {
+            return std::string(names[static_cast<std::size_t>(key)]);
+        };
+        const Overloaded text{
+            [](double number) { return fmt::format("{}", number); },
+            [&](TextId id) { return fmt::format("\"{}\"", program_.literals->text(id)); },
+            [&](ItemId item) {
+                return fmt::format(fmt::runtime(stage_ ? "[{}]" : "{}"), system_.item_name(item));
+            },
+            [&](StageItem each) {
+                return fmt::format("{}.{}", program_.stages[each.stage].name,
+                                   program_.system_of(each.stage).item_name(each.item));
+            },
+            [&](SurfaceValueId id) { return text_of(program_.literals->surface_value(id)); },
+            [&](DefinitionId id) { return system_.definitions[id].name; },
+            [&](Rate rate) { return system_.quantities[rate.species].name + "'"; },
+            [&](Builtin builtin) { return of(builtin_names, builtin); },
+            [&](MetricPlane plane) { return of(metric_names, plane); },
+            [&](ModelPlane plane) { return of(model_names, plane); },
+            [](InsideMask) { return std::string("(inside)"); },
+            [](Call) { return std::string(); },
+        };
+        return std::visit(text, node.kind);
     }
 
     const Program& program_;

@@ -41,7 +41,7 @@ void print_system(const Program& program, const System& system, Output out) {
         fmt::format_to(out, "  {} = {}\n", definition.name,
                        print_formula(program, system, definition.formula));
     }
-    for (const std::uint32_t item : system.rate_order) {
+    for (const ItemId item : system.rate_order) {
         fmt::format_to(out, "  {}' = {}\n", system.quantities[item].name,
                        print_formula(program, system, system.rates[item]));
     }
@@ -53,7 +53,7 @@ void print_system(const Program& program, const System& system, Output out) {
     fmt::format_to(out, "}}\n\n");
 }
 
-const char* kind_of(const Program& program, std::uint32_t index, std::uint32_t item) {
+const char* kind_of(const Program& program, std::uint32_t index, ItemId item) {
     if (program.system_of(index).is_species(item)) return "species";
     return program.stages[index].uniform[item] ? "uniform" : "varies";
 }
@@ -80,7 +80,7 @@ void print_time(const Program& program, const System& system, const Stage& stage
     }
 }
 
-void print_sides(const Program& program, std::uint32_t index, std::uint32_t item,
+void print_sides(const Program& program, std::uint32_t index, ItemId item,
                  const std::array<SideSetting, side_count>& sides, Output out) {
     const System& system = program.system_of(index);
     for (std::size_t side = 0; side < side_count; ++side) {
@@ -101,14 +101,14 @@ void print_stage(const Program& program, std::uint32_t index, Output out) {
     fmt::format_to(out, "stage {}: {} {{  # in order of computing\n", stage.name, system.name);
     fmt::format_to(out, "  iterations: {}\n  interval: {}\n", stage.iterations, stage.interval);
     print_time(program, system, stage, index, out);
-    for (const std::uint32_t item : stage.order) {
+    for (const ItemId item : stage.order) {
         fmt::format_to(out, "  {}: {}  # {}\n", system.item_name(item),
                        print_formula(program, system, stage.items[item], index),
                        kind_of(program, index, item));
     }
-    std::size_t species = 0;
-    for (std::uint32_t item = 0; item < system.quantities.size() && !stage.sides.empty(); ++item) {
-        if (system.is_species(item)) print_sides(program, index, item, stage.sides[species++], out);
+    const auto species = system.species();
+    for (const SpeciesId id : stage.sides.ids()) {
+        print_sides(program, index, species[id], stage.sides[id], out);
     }
     fmt::format_to(out, "  show: {}\n}}\n\n", print_formula(program, system, stage.show, index));
 }

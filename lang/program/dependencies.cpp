@@ -5,24 +5,26 @@ namespace cascade {
 
 namespace {
 
-void add_reads(const System& system, const Formula& formula, std::vector<std::uint32_t>& reads) {
+std::vector<std::uint32_t> reads_of(const System& system, const Formula& formula) {
+    std::vector<std::uint32_t> reads;
     const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
     for (const Node& node : formula.nodes) {
-        if (node.kind == NodeKind::definition) reads.push_back(node.index);
-        if (node.kind == NodeKind::rate) reads.push_back(definition_count + node.index);
+        if (const auto* id = node.as<DefinitionId>()) reads.push_back(id->index());
+        if (const auto* rate = node.as<Rate>()) {
+            reads.push_back(definition_count + rate->species.index());
+        }
     }
+    return reads;
 }
 
 }  // namespace
 
 Dependencies step_dependencies(const System& system) {
-    Dependencies reads(system.definitions.size() + system.rates.size());
-    for (std::size_t i = 0; i < system.definitions.size(); ++i) {
-        add_reads(system, system.definitions[i].formula, reads[i]);
+    Dependencies reads;
+    for (const Definition& definition : system.definitions) {
+        reads.push_back(reads_of(system, definition.formula));
     }
-    for (std::size_t i = 0; i < system.rates.size(); ++i) {
-        add_reads(system, system.rates[i], reads[system.definitions.size() + i]);
-    }
+    for (const Formula& rate : system.rates) reads.push_back(reads_of(system, rate));
     return reads;
 }
 
@@ -31,7 +33,7 @@ Dependencies item_dependencies(const std::vector<const Formula*>& items) {
     for (std::size_t item = 0; item < items.size(); ++item) {
         if (items[item] == nullptr) continue;
         for (const Node& node : items[item]->nodes) {
-            if (node.kind == NodeKind::own) reads[item].push_back(node.index);
+            if (const auto* own = node.as<ItemId>()) reads[item].push_back(own->index());
         }
     }
     return reads;

@@ -1,6 +1,8 @@
 // Finds equal nodes by a hash of everything that distinguishes them.
 #include "lang/program/expression_graph.h"
 
+#include "core/overloaded.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -12,21 +14,31 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
     return (hash ^ word) * 0x100000001b3ULL ^ (hash >> 29);
 }
 
+/// What distinguishes nodes of the same kind. Equal numbers have equal bits: −0 is not 0.
+std::uint64_t word_of(const NodeKind& kind) {
+    const Overloaded word{
+        [](double number) { return std::bit_cast<std::uint64_t>(number); },
+        [](StageItem each) { return std::uint64_t{each.stage} << 32 | each.item.index(); },
+        [](Rate rate) { return std::uint64_t{rate.species.index()}; },
+        [](Call call) { return std::uint64_t{call.octaves}; },
+        [](InsideMask) { return std::uint64_t{0}; },
+        []<typename Tag>(Id<Tag> id) { return std::uint64_t{id.index()}; },
+        [](auto of_enumeration) { return static_cast<std::uint64_t>(of_enumeration); },
+    };
+    return std::visit(word, kind);
+}
+
 std::uint64_t hash_of(const Node& node) {
     std::uint64_t hash = 0xcbf29ce484222325ULL;
-    hash = mix(hash, static_cast<std::uint64_t>(node.kind) << 8 |
-                         static_cast<std::uint64_t>(node.function));
-    hash = mix(hash, std::bit_cast<std::uint64_t>(node.number));
-    hash = mix(hash, std::uint64_t{node.index} << 32 | node.stage);
+    hash = mix(hash, node.kind.index() << 8 | static_cast<std::uint64_t>(node.function));
+    hash = mix(hash, word_of(node.kind));
     for (const NodeId operand : node.reads()) hash = mix(hash, operand.index());
     return hash;
 }
 
 bool is_same(const Node& a, const Node& b) {
-    return a.kind == b.kind && a.function == b.function && a.type == b.type && a.index == b.index &&
-           a.stage == b.stage &&
-           std::bit_cast<std::uint64_t>(a.number) == std::bit_cast<std::uint64_t>(b.number) &&
-           std::ranges::equal(a.reads(), b.reads());
+    return a.kind.index() == b.kind.index() && word_of(a.kind) == word_of(b.kind) &&
+           a.function == b.function && a.type == b.type && std::ranges::equal(a.reads(), b.reads());
 }
 
 }  // namespace
@@ -53,23 +65,12 @@ NodeId ExpressionGraph::add(const Node& node, Written written) {
     return *known_[place];
 }
 
-NodeId ExpressionGraph::number(double value) {
-    Node node;
-    node.number = value;
-    return add(node);
-}
-
-NodeId ExpressionGraph::leaf(NodeKind kind, std::uint32_t index) {
-    Node node;
-    node.kind = kind;
-    node.index = index;
-    return add(node);
-}
+NodeId ExpressionGraph::leaf(const NodeKind& kind) { return add({kind}); }
 
 NodeId ExpressionGraph::call(Function function, std::initializer_list<NodeId> operands,
                              ValueType type) {
     Node node;
-    node.kind = NodeKind::call;
+    node.kind = Call();
     node.function = function;
     node.type = type;
     std::copy(operands.begin(), operands.end(), node.operands.begin());

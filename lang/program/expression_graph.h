@@ -36,9 +36,9 @@ public:
     /// The node that equals this one, or a new one. Its operands are nodes of this graph. Draws of
     /// random numbers are equal if they were written in the same place.
     NodeId add(const Node& node, Written written = {});
-    NodeId number(double value);
-    /// A node without operands: an item of the stage, or a plane of the metric or of a model.
-    NodeId leaf(NodeKind kind, std::uint32_t index = 0);
+    NodeId number(double value) { return leaf(value); }
+    /// A node without operands.
+    NodeId leaf(const NodeKind& kind);
     virtual NodeId call(Function function, std::initializer_list<NodeId> operands,
                         ValueType type = ValueType::number);
 
@@ -46,10 +46,8 @@ public:
     const Nodes& nodes() const { return nodes_; }
     std::size_t size() const { return nodes_.size(); }
     Written written(NodeId id) const { return written_[id]; }
-    bool is_number(NodeId id) const { return nodes_[id].kind == NodeKind::number; }
-    bool is_number(NodeId id, double value) const {
-        return is_number(id) && nodes_[id].number == value;
-    }
+    bool is_number(NodeId id) const { return nodes_[id].is<double>(); }
+    bool is_number(NodeId id, double value) const { return nodes_[id].is(value); }
 
 private:
     void make_room();

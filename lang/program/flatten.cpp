@@ -15,13 +15,13 @@ NodeId Flattening::add(const Formula& formula, Noise noise) {
     IdVector<NodeId, NodeId> places;
     places.reserve(formula.nodes.size());
     for (Node node : formula.nodes) {
-        const auto known = items_.find(node.index);
-        if (node.kind == NodeKind::definition) {
-            places.push_back(definitions_.at(node.index));
-        } else if (node.kind == NodeKind::rate) {
-            places.push_back(rates_.at(node.index));
-        } else if (node.kind == NodeKind::own && known != items_.end()) {
-            places.push_back(known->second);
+        const auto* own = node.as<ItemId>();
+        if (const auto* definition = node.as<DefinitionId>()) {
+            places.push_back(definitions_.at(*definition));
+        } else if (const auto* rate = node.as<Rate>()) {
+            places.push_back(rates_.at(rate->species));
+        } else if (own != nullptr && items_.contains(*own)) {
+            places.push_back(items_.at(*own));
         } else {
             for (NodeId& operand : node.reads()) operand = places[operand];
             places.push_back(graph_.add(node, {number, places.next()}));
@@ -34,10 +34,11 @@ void Flattening::add_rates(const System& system) {
     const auto definition_count = static_cast<std::uint32_t>(system.definitions.size());
     for (const std::uint32_t value : topological_order(step_dependencies(system)).order) {
         if (value < definition_count) {
-            const auto& [name, span, formula] = system.definitions[value];
-            definitions_[value] = add(formula, {name, true});
-            names_.emplace_back(definitions_[value], name);
-        } else if (const std::uint32_t item = value - definition_count; system.is_species(item)) {
+            const DefinitionId id(value);
+            const auto& [name, span, formula] = system.definitions[id];
+            definitions_[id] = add(formula, {name, true});
+            names_.emplace_back(definitions_[id], name);
+        } else if (const ItemId item(value - definition_count); system.is_species(item)) {
             const std::string name = system.quantities[item].name + "'";
             rates_[item] = add(system.rates[item], {name, true});
             names_.emplace_back(rates_[item], name);

@@ -33,9 +33,9 @@ public:
     NodeId add(const Formula& formula, Noise noise = {});
     /// Adds a system's definitions and rates, each after those that it reads.
     void add_rates(const System& system);
-    void set_item(std::uint32_t item, NodeId value) { items_[item] = value; }
+    void set_item(ItemId item, NodeId value) { items_[item] = value; }
 
-    NodeId rate(std::uint32_t item) const { return rates_.at(item); }
+    NodeId rate(ItemId species) const { return rates_.at(species); }
     const std::vector<Origin>& origins() const { return origins_; }
     /// The names of definitions and rates, by node.
     const std::vector<std::pair<NodeId, std::string>>& names() const { return names_; }
@@ -43,7 +43,8 @@ public:
 private:
     ExpressionGraph& graph_;
     std::vector<Origin> origins_;
-    std::unordered_map<std::uint32_t, NodeId> items_, definitions_, rates_;
+    std::unordered_map<ItemId, NodeId> items_, rates_;
+    std::unordered_map<DefinitionId, NodeId> definitions_;
     std::vector<std::pair<NodeId, std::string>> names_;
 };
 

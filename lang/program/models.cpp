@@ -36,16 +36,16 @@ std::string_view reason_against(Function function) {
 
 /// Describes a value that only a model has; nothing for all others.
 std::optional<Function> of_model_only(const Program& program, const Node& node) {
-    if (node.kind == NodeKind::surface_value)
-        return program.literals->surface_values()[node.index].function;
-    if (node.kind == NodeKind::call && needs_model(node.function)) return node.function;
+    if (const auto* id = node.as<SurfaceValueId>())
+        return program.literals->surface_value(*id).function;
+    if (node.is<Call>() && needs_model(node.function)) return node.function;
     return std::nullopt;
 }
 
 bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
     bool has_meaning = true;
     for (const Node& node : formula.nodes) {
-        if (node.kind != NodeKind::call) continue;
+        if (!node.is<Call>()) continue;
         const std::string_view reason = reason_against(node.function);
         if (reason.empty()) continue;
         has_meaning = false;

@@ -2,8 +2,10 @@
 #include "lang/program/program.h"
 
 #include "core/check.h"
+#include "core/overloaded.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace cascade {
 
@@ -25,62 +27,69 @@ Formula formula_of(const Nodes& nodes, NodeId root) {
     return formula;
 }
 
-std::uint32_t Literals::number_of(const std::string& text) {
+TextId Literals::id_of(const std::string& text) {
     // Only the last few are compared, so that large numbers of them cost no time.
     const std::size_t count = texts_.size();
     for (std::size_t i = count; i > 0 && count - i < 64; --i) {
-        if (texts_[i - 1] == text) return static_cast<std::uint32_t>(i - 1);
+        if (texts_[i - 1] == text) return TextId(i - 1);
     }
     texts_.push_back(text);
-    return static_cast<std::uint32_t>(count);
+    return TextId(count);
 }
 
-std::uint32_t Literals::number_of(const SurfaceValue& value) {
+SurfaceValueId Literals::id_of(const SurfaceValue& value) {
     const auto found = std::find(surface_values_.begin(), surface_values_.end(), value);
-    const auto number = static_cast<std::uint32_t>(found - surface_values_.begin());
+    const SurfaceValueId id(static_cast<std::size_t>(found - surface_values_.begin()));
     if (found == surface_values_.end()) surface_values_.push_back(value);
-    return number;
+    return id;
 }
 
 bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
                      std::uint32_t stage) {
-    const auto item_differs = [&](std::uint32_t of, std::uint32_t item) {
-        const std::vector<bool>& uniform = program.stages[of].uniform;
-        return uniform.empty() || !uniform[item];
+    const auto item_differs = [&](StageItem each) {
+        const auto& uniform = program.stages[each.stage].uniform;
+        return uniform.empty() || !uniform[each.item];
     };
-    switch (node.kind) {
-        case NodeKind::number:
-        case NodeKind::text: return false;
-        case NodeKind::own: return item_differs(stage, node.index);
-        case NodeKind::earlier: return item_differs(node.stage, node.index);
-        case NodeKind::builtin: {
-            const auto builtin = static_cast<Builtin>(node.index);
+    const Overloaded differs{
+        [](double) { return false; },
+        [](TextId) { return false; },
+        [&](ItemId item) {
+            return item_differs({stage, item});
+        },
+        item_differs,
+        [&](Builtin builtin) {
             if (builtin == Builtin::step) return false;
             return builtin != Builtin::t ||
-                   item_differs(stage, program.system_of(stage).speed_item());
-        }
-        case NodeKind::definition:
-        case NodeKind::rate:
-        case NodeKind::metric:
-        case NodeKind::model:
-        case NodeKind::surface_value:
-        case NodeKind::inside: return true;
-        case NodeKind::call: break;
-    }
-    // An aggregate over the domain is one number, whatever its operand.
-    if (info(node.function).is_aggregate) return false;
-    return operand_differs || (varies_by_cell(node.function) && !differentiates(node.function));
+                   item_differs({stage, program.system_of(stage).speed_item()});
+        },
+        [&](Call) {
+            // An aggregate over the domain is one number, whatever its operand.
+            if (info(node.function).is_aggregate) return false;
+            return operand_differs ||
+                   (varies_by_cell(node.function) && !differentiates(node.function));
+        },
+        [](auto) { return true; },
+    };
+    return std::visit(differs, node.kind);
 }
 
-std::uint32_t System::species_count() const {
-    const auto count = std::count_if(quantities.begin(), quantities.end(),
-                                     [](const Quantity& quantity) { return quantity.is_species; });
-    return static_cast<std::uint32_t>(count);
+IdVector<SpeciesId, ItemId> System::species() const {
+    IdVector<SpeciesId, ItemId> species;
+    std::ranges::copy_if(quantities.ids(), std::back_inserter(species),
+                         [&](ItemId item) { return is_species(item); });
+    return species;
 }
 
-std::string_view System::item_name(std::uint32_t item) const {
-    if (item < quantities.size()) return quantities[item].name;
-    CHECK(item < item_count(), "an item is a quantity, frozen or speed");
+std::optional<SpeciesId> System::species_of(ItemId item) const {
+    const auto all = species();
+    const auto found = std::ranges::find(all, item);
+    if (found == all.end()) return std::nullopt;
+    return SpeciesId(static_cast<std::size_t>(found - all.begin()));
+}
+
+std::string_view System::item_name(ItemId item) const {
+    if (item < quantities.next()) return quantities[item].name;
+    CHECK(item <= speed_item(), "an item is a quantity, frozen or speed");
     return item == frozen_item() ? "frozen" : "speed";
 }
 

@@ -9,6 +9,7 @@
 #include "core/side.h"
 #include "core/source.h"
 #include "ir/solver.h"
+#include "ir/sweep_form.h"
 #include "lang/vocabulary/functions.h"
 
 #include <array>
@@ -19,6 +20,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace cascade {
@@ -59,20 +61,40 @@ inline constexpr std::array<std::string_view, model_plane_count> model_names{
 /// Is the plane only made for formulas that read it?
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
-enum class NodeKind : std::uint8_t {
-    number,         ///< `number`
-    text,           ///< Literals::texts()[index]
-    own,            ///< item `index` of this stage
-    earlier,        ///< item `index` of stage `stage`
-    builtin,        ///< Builtin `index`
-    definition,     ///< definition `index` of the stage's system
-    rate,           ///< rate of species item `index`
-    call,           ///< `function` of `operands`
-    surface_value,  ///< Literals::surface_values()[index]
-    metric,         ///< MetricPlane `index`; only lowering makes such nodes
-    model,          ///< ModelPlane `index`; only lowering makes such nodes
-    inside,         ///< true where the cell is inside the mask; only lowering makes such nodes
+/// A quantity of a system, or after these `frozen` or `speed`.
+using ItemId = Id<struct ItemTag>;
+using DefinitionId = Id<struct DefinitionTag>;      ///< Of System::definitions.
+using TextId = Id<struct TextTag>;                  ///< A text in quotes, in Literals.
+using SurfaceValueId = Id<struct SurfaceValueTag>;  ///< In Literals.
+
+/// An item of a stage.
+struct StageItem {
+    std::uint32_t stage = 0;
+    ItemId item;
+    bool operator==(const StageItem&) const = default;
 };
+
+/// The rate of a species.
+struct Rate {
+    ItemId species;
+    bool operator==(const Rate&) const = default;
+};
+
+/// True where the cell is inside the mask.
+struct InsideMask {
+    bool operator==(const InsideMask&) const = default;
+};
+
+/// A function of operands.
+struct Call {
+    std::uint8_t octaves = 0;  ///< Of noise.
+    bool operator==(const Call&) const = default;
+};
+
+/// What a node is. An ItemId is an item of this stage, a StageItem one of an earlier stage. Only
+/// lowering makes nodes of the last three kinds.
+using NodeKind = std::variant<double, TextId, ItemId, StageItem, Builtin, DefinitionId, Rate, Call,
+                              SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
 
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
@@ -82,30 +104,35 @@ using Operands = std::array<NodeId, most_operands>;
 
 /// A node of a formula or of an expression graph. Operands are earlier nodes of the same list.
 struct Node {
-    NodeKind kind = NodeKind::number;
-    Function function = Function::add;
+    NodeKind kind = 0.0;
+    Span span = {};
     ValueType type = ValueType::number;
-    Span span;
-    double number = 0;
-    std::uint32_t index = 0;
-    std::uint32_t stage = 0;
-    Operands operands{};
+    Function function = Function::add;  ///< Of a call. Other kinds have no operands.
     std::uint8_t operand_count = 0;
+    Operands operands{};
 
+    template <typename Kind>
+    bool is() const {
+        return std::holds_alternative<Kind>(kind);
+    }
+    bool is(const NodeKind& other) const { return kind == other; }
+    /// Null if it is of another kind.
+    template <typename Kind>
+    const Kind* as() const {
+        return std::get_if<Kind>(&kind);
+    }
     /// The operands in use.
     std::span<const NodeId> reads() const { return {operands.data(), operand_count}; }
     std::span<NodeId> reads() { return {operands.data(), operand_count}; }
-    bool calls(Function called) const { return kind == NodeKind::call && function == called; }
+    bool calls(Function called) const { return is<Call>() && function == called; }
 };
 
 /// Does the node draw random numbers?
-inline bool is_draw(const Node& node) {
-    return node.kind == NodeKind::call && is_random(node.function);
-}
+inline bool is_draw(const Node& node) { return node.is<Call>() && is_random(node.function); }
 
 /// Is the node an aggregate over the domain?
 inline bool is_aggregate(const Node& node) {
-    return node.kind == NodeKind::call && info(node.function).is_aggregate;
+    return node.is<Call>() && info(node.function).is_aggregate;
 }
 
 using Nodes = IdVector<NodeId, Node>;
@@ -143,9 +170,9 @@ struct Definition {
 };
 
 struct Invariant {
-    std::uint32_t species = 0;  ///< Item of the species.
-    bool at_least = true;       ///< species >= bound, else species <= bound.
-    Formula bound;              ///< Of numbers and parameters.
+    ItemId species;
+    bool at_least = true;  ///< species >= bound, else species <= bound.
+    Formula bound;         ///< Of numbers and parameters.
 };
 
 /// Settings of time that a system may give as defaults and a stage may replace.
@@ -229,7 +256,7 @@ struct SideSetting {
 
 /// A rule of one species.
 struct SpeciesSide {
-    std::uint32_t species = 0;  ///< Its item.
+    ItemId species;
     Side side = Side::left;
     SideSetting setting;
 };
@@ -238,43 +265,46 @@ struct System {
     std::string name;
     Span span;
     bool built_in = false;
-    std::optional<std::uint32_t> base;    ///< The system from which it is derived.
-    std::string doc;                      ///< The text of its doc comment; may be empty.
-    std::string title, cite, about;       ///< Its texts; may be empty.
-    std::vector<Index> indices;           ///< Families become quantities u[1], u[2], …
-    std::vector<Quantity> quantities;     ///< In order of writing.
-    std::vector<Definition> definitions;  ///< Each after those it reads.
-    std::vector<Formula> rates;           ///< One per quantity; empty nodes for parameters.
-    std::vector<std::uint32_t>
-        rate_order;  ///< Species items, each after those whose rate it reads.
+    std::optional<std::uint32_t> base;               ///< The system from which it is derived.
+    std::string doc;                                 ///< The text of its doc comment; may be empty.
+    std::string title, cite, about;                  ///< Its texts; may be empty.
+    std::vector<Index> indices;                      ///< Families become quantities u[1], u[2], …
+    IdVector<ItemId, Quantity> quantities;           ///< In order of writing.
+    IdVector<DefinitionId, Definition> definitions;  ///< Each after those it reads.
+    IdVector<ItemId, Formula> rates;  ///< One per quantity; empty nodes for parameters.
+    std::vector<ItemId> rate_order;   ///< Species, each after those whose rate it reads.
     std::vector<Invariant> invariants;
     std::vector<SpeciesSide> sides;  ///< Later ones replace earlier ones.
     Settings settings;
 
     // A stage's items are its quantities, then `frozen`, then `speed`.
-    std::uint32_t frozen_item() const { return static_cast<std::uint32_t>(quantities.size()); }
-    std::uint32_t speed_item() const { return frozen_item() + 1; }
-    std::uint32_t item_count() const { return frozen_item() + 2; }
-    std::string_view item_name(std::uint32_t item) const;
-    bool is_species(std::uint32_t item) const {
-        return item < quantities.size() && quantities[item].is_species;
+    ItemId frozen_item() const { return quantities.next(); }
+    ItemId speed_item() const { return ItemId(quantities.size() + 1); }
+    std::size_t item_count() const { return quantities.size() + 2; }
+    auto items() const { return ids_below<ItemId>(item_count()); }
+    std::string_view item_name(ItemId item) const;
+    bool is_species(ItemId item) const {
+        return item < quantities.next() && quantities[item].is_species;
     }
-    std::uint32_t species_count() const;
+    /// In the order of their items.
+    IdVector<SpeciesId, ItemId> species() const;
+    std::optional<SpeciesId> species_of(ItemId item) const;
+    std::uint32_t species_count() const { return static_cast<std::uint32_t>(species().size()); }
 };
 
 struct Stage {
     std::string name;  ///< As written, or stage1, stage2, … by position.
     Span span;
     std::uint32_t system = 0;
-    std::vector<Formula> items;        ///< Starting value of every item.
-    std::vector<std::uint32_t> order;  ///< Items in an order in which each can be evaluated.
-    std::vector<bool> uniform;         ///< Per item: the same in all cells. Species never are.
-    std::int64_t iterations = 0;       ///< With a duration: the largest number of steps.
-    std::int64_t interval = 1;         ///< 0 if the stage is observed at tenths of the duration.
+    IdVector<ItemId, Formula> items;  ///< Starting value of every item.
+    std::vector<ItemId> order;        ///< Items in an order in which each can be evaluated.
+    IdVector<ItemId, bool> uniform;   ///< The same in all cells. Species never are.
+    std::int64_t iterations = 0;      ///< With a duration: the largest number of steps.
+    std::int64_t interval = 1;        ///< 0 if the stage is observed at tenths of the duration.
     Formula show;
     StageTime time;
     /// By species, in their order; empty if the boundary holds at all sides.
-    std::vector<std::array<SideSetting, side_count>> sides;
+    IdVector<SpeciesId, std::array<SideSetting, side_count>> sides;
 };
 
 /// A surface in space on which the grid lies.
@@ -358,13 +388,16 @@ struct DomainSettings {
 /// of a checked program that names something new adds it at the end. From one thread at a time.
 class Literals {
 public:
-    /// The number of an equal one, or of a new one.
-    std::uint32_t number_of(const std::string& text);
-    std::uint32_t number_of(const SurfaceValue& value);
+    /// The id of an equal one, or of a new one.
+    TextId id_of(const std::string& text);
+    SurfaceValueId id_of(const SurfaceValue& value);
 
-    /// Texts in quotes: palette names, paths.
-    const std::deque<std::string>& texts() const { return texts_; }
-    const std::deque<SurfaceValue>& surface_values() const { return surface_values_; }
+    /// In quotes: the name of a palette, a path.
+    const std::string& text(TextId id) const { return texts_[id.index()]; }
+    const SurfaceValue& surface_value(SurfaceValueId id) const {
+        return surface_values_[id.index()];
+    }
+    auto text_ids() const { return ids_below<TextId>(texts_.size()); }
 
 private:
     std::deque<std::string> texts_;

@@ -71,8 +71,7 @@ std::vector<Channel> RunResults::channels(const Canvas& canvas) const {
     };
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const System& system = script.program->system_of(stage);
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item)) continue;
+    for (const ItemId item : system.species()) {
         add(std::string(system.item_name(item)), simulation.state(stage).field(item));
     }
     if (!request.picture.show.empty() && !canvas.is_colour()) add("shown", canvas.fields[0]);
@@ -151,8 +150,7 @@ Result<void> RunResults::write_volume() {
     const DomainMask* mask = simulation.mask();
     std::deque<Field> copies;
     std::vector<VolumeArray> arrays;
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item)) continue;
+    for (const ItemId item : system.species()) {
         const Field& field = simulation.state(stage).field(item);
         if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
         arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});

@@ -61,8 +61,7 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
     const auto model = simulation.model();
     const Grid grid =
         model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item)) continue;
+    for (const ItemId item : system.species()) {
         const std::string name =
             array_name(program.stages[stage], fmt::format("{}{}", system.item_name(item), suffix));
         const auto file = read_saved_file(folder, manifest, name);
@@ -89,7 +88,7 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
 }
 
 /// True if the stage's item has a plane to be saved.
-bool is_saved(const Program& program, std::uint32_t stage, std::uint32_t item) {
+bool is_saved(const Program& program, std::uint32_t stage, ItemId item) {
     return program.system_of(stage).is_species(item) || !program.stages[stage].uniform[item];
 }
 
@@ -100,7 +99,7 @@ Result<void> check_savable(const std::filesystem::path& folder, const Script& sc
     std::vector<std::string> names;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         const System& system = program.system_of(k);
-        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        for (const ItemId item : system.items()) {
             const std::string_view name = system.item_name(item);
             if (is_saved(program, k, item)) names.push_back(array_name(program.stages[k], name));
             if (!program.stages[k].time.steady || !system.is_species(item)) continue;
@@ -129,7 +128,7 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
         if (!simulation.state(k).started) break;
         const Stage& stage = program.stages[k];
         const System& system = program.system_of(k);
-        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        for (const ItemId item : system.items()) {
             if (!is_saved(program, k, item)) continue;
             auto done =
                 write(array_name(stage, system.item_name(item)), simulation.state(k).field(item));

@@ -46,8 +46,9 @@ std::uint64_t add_files(std::uint64_t hash, const Script& script) {
         if (bytes) hash = add_line(hash, *bytes);
     };
     const GrantedFiles files(script.folder, script.overrides.reads);
-    for (const std::string& name : script.program->literals->texts())
-        add(files.read(name, largest_file));
+    const Literals& literals = *script.program->literals;
+    for (const TextId name : literals.text_ids())
+        add(files.read(literals.text(name), largest_file));
     const auto& model = script.program->domain.model;
     if (!model || model->shape != ModelShape::file) return hash;
     add(script.overrides.model_is_asked_for ? read_linked_file(model->path, largest_file)

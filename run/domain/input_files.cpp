@@ -17,6 +17,8 @@ namespace cascade {
 
 namespace {
 
+TextId text_of(const Node& node) { return std::get<TextId>(node.kind); }
+
 /// Parses a file that the script names.
 template <typename Parse>
 auto read_granted(const Script& script, const std::string& name, std::uint64_t largest,
@@ -30,7 +32,7 @@ auto read_granted(const Script& script, const std::string& name, std::uint64_t l
 }
 
 void read_one(Script& script, const Node& node, InputFiles& files) {
-    const std::string& name = script.program->literals->texts()[node.index];
+    const std::string& name = script.program->literals->text(text_of(node));
     const Grid& grid = script.program->domain.grid;
     const Precision precision = script.program->domain.precision;
     const auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
@@ -53,13 +55,13 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
                 : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
                               array->slices));
     } else {
-        files.add({Function::field, node.index}, to_field(*array, precision));
+        files.add({Function::field, text_of(node)}, to_field(*array, precision));
     }
 }
 
 /// The pixels of a PNG; nothing with a diagnostic.
 std::optional<GreyPicture> read_picture(Script& script, const Node& node) {
-    const std::string& name = script.program->literals->texts()[node.index];
+    const std::string& name = script.program->literals->text(text_of(node));
     auto picture = read_granted(script, name, largest_picture_file, parse_grey_picture);
     if (picture) return *std::move(picture);
     script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
@@ -71,7 +73,7 @@ void read_image(Script& script, const Node& node, InputFiles& files) {
     const auto picture = read_picture(script, node);
     if (!picture) return;
     const Field plane = to_field(resized(*picture, grid.width, grid.height), grid);
-    files.add({Function::image, node.index}, plane.converted(script.program->domain.precision));
+    files.add({Function::image, text_of(node)}, plane.converted(script.program->domain.precision));
 }
 
 /// The values that the model has at its points, or of a picture painted on it.
@@ -80,7 +82,7 @@ void read_of_model(Script& script, const Node& node, Function function, const Mo
     const Precision precision = script.program->domain.precision;
     Result<Field> plane;
     if (function == Function::attr) {
-        plane = attribute_plane(script.program->literals->texts()[node.index], model, precision);
+        plane = attribute_plane(script.program->literals->text(text_of(node)), model, precision);
     } else {
         const auto picture = read_picture(script, node);
         if (!picture) return;
@@ -88,7 +90,7 @@ void read_of_model(Script& script, const Node& node, Function function, const Mo
     }
     if (!plane)
         return script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
-    files.add({function, node.index}, *std::move(plane));
+    files.add({function, text_of(node)}, *std::move(plane));
 }
 
 }  // namespace
@@ -99,9 +101,9 @@ Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
     std::set<NamedPlane> known;
     const auto read_of = [&](const Formula& formula) {
         for (const Node& node : formula.nodes) {
-            if (node.kind != NodeKind::call || !reads_file(node.function)) continue;
+            if (!node.is<Call>() || !reads_file(node.function)) continue;
             const Node& text = formula.nodes[node.operands[0]];
-            if (!known.insert({node.function, text.index}).second) continue;
+            if (!known.insert({node.function, text_of(text)}).second) continue;
             if (node.function == Function::field) {
                 read_one(script, text, files);
             } else if (node.function == Function::image) {

@@ -87,21 +87,21 @@ void SurfaceValues::make(std::span<const Formula* const> formulas,
     for (const Formula* formula : formulas) {
         for (const Node& node : formula->nodes) {
             if (cancel) return;
-            if (node.kind == NodeKind::surface_value && !values_.contains(node.index)) {
-                values_[node.index] =
-                    make_value(program_.literals->surface_values()[node.index], cancel);
+            const auto* id = node.as<SurfaceValueId>();
+            if (id != nullptr && !values_.contains(*id)) {
+                values_[*id] = make_value(program_.literals->surface_value(*id), cancel);
             }
-            if (node.kind != NodeKind::builtin) continue;
-            const auto read = model_plane_of(static_cast<Builtin>(node.index));
+            if (!node.is<Builtin>()) continue;
+            const auto read = model_plane_of(*node.as<Builtin>());
             if (read && is_made_when_read(*read)) (void)plane(*read);
         }
     }
 }
 
-const Field& SurfaceValues::value(std::uint32_t number) {
-    const auto known = values_.find(number);
+const Field& SurfaceValues::value(SurfaceValueId id) {
+    const auto known = values_.find(id);
     if (known != values_.end()) return known->second;
-    return values_[number] = make_value(program_.literals->surface_values()[number], never);
+    return values_[id] = make_value(program_.literals->surface_value(id), never);
 }
 
 const Field& SurfaceValues::plane(ModelPlane plane) {

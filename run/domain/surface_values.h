@@ -34,8 +34,7 @@ public:
     /// Computes the values that formulas read. They are meaningless if `cancel` became true.
     void make(std::span<const Formula* const> formulas, const std::atomic<bool>& cancel);
 
-    /// Literals::surface_values()[number].
-    const Field& value(std::uint32_t number);
+    const Field& value(SurfaceValueId id);
     /// One of the planes of a model that are made on demand.
     const Field& plane(ModelPlane plane);
 
@@ -47,7 +46,7 @@ private:
     const Program& program_;
     const ModelCells& model_;
     Team& team_;
-    std::map<std::uint32_t, Field> values_;
+    std::map<SurfaceValueId, Field> values_;
     std::map<ModelPlane, Field> planes_;
 };
 

@@ -189,7 +189,7 @@ private:
         const StepPlan plan = plan_start(program_, k_);
         std::vector<std::string> taken;
         result_.start += plan_text(plan, [&](std::uint32_t number) {
-            const std::uint32_t item = plan.results[number];
+            const ItemId item = plan.results[number];
             const StageItem source{k_, item};
             if (!stage_.uniform[item]) return tables_.plane(source);
             // Uniform: the first cell is read.
@@ -207,12 +207,12 @@ private:
 
     /// After all starting values.
     void describe_sides() {
-        for (std::size_t species = 0; species < stage_.sides.size(); ++species) {
+        for (const SpeciesId species : stage_.sides.ids()) {
             for (std::size_t side = 0; side < side_count; ++side) {
                 const SideSetting& setting = stage_.sides[species][side];
                 if (!takes_value(setting.kind)) continue;
                 const StepPlan plan = plan_view(program_, setting.value, k_);
-                const std::string rule = fmt::format("s->sides[{}][{}]", species, side);
+                const std::string rule = fmt::format("s->sides[{}][{}]", species.index(), side);
                 std::string plane;
                 const std::string text = plan_text(plan, [&](std::uint32_t) {
                     plane = plan.is_uniform
@@ -340,7 +340,7 @@ private:
         if (stage_.uniform[system_.speed_item()]) {
             result_.speed = tables_.number_place({k_, system_.speed_item()});
         }
-        const std::uint32_t frozen = system_.frozen_item();
+        const ItemId frozen = system_.frozen_item();
         if (stage_.uniform[frozen] && request_.numbers[k_][frozen] != 0.0F) {
             result_.frozen = tables_.number_place({k_, frozen});
         }

@@ -60,9 +60,8 @@ CTables::CTables(const CStageRequest& request, CStage& stage)
       stage_(stage) {
     const Stage& source = program_.stages[request.stage];
     const StepPlan early = plan_uniform_start(program_, request.stage);
-    for (std::uint32_t item = 0; item < system_.item_count(); ++item) {
+    for (const ItemId item : system_.items()) {
         if (system_.is_species(item)) {
-            species_.push_back(item);
             add_entry(stage_.species, {std::string(), item_path({request.stage, item}), false},
                       system_.item_name(item));
         }
@@ -87,7 +86,7 @@ std::string CTables::item_name(StageItem item) const {
     return fmt::format("{}_{}", program_.stages[item.stage].name, name);
 }
 
-bool CTables::is_late(std::uint32_t item) const {
+bool CTables::is_late(ItemId item) const {
     return std::find(late_.begin(), late_.end(), item) != late_.end();
 }
 
@@ -111,7 +110,7 @@ void CTables::add_plane(const PlaneSource& source) {
     std::string name;
     const Overloaded describe{
         [&](NamedPlane each) {
-            plane.meaning = fmt::format("\"{}\"", program_.literals->texts()[each.text]);
+            plane.meaning = fmt::format("\"{}\"", program_.literals->text(each.text));
             name = fmt::format("file{}", planes_.size());
             plane.data = add_data(request_.files.plane(each));
         },
@@ -135,9 +134,9 @@ void CTables::add_plane(const PlaneSource& source) {
 std::string CTables::plane(const PlaneSource& source) {
     if (const auto* const id = std::get_if<TemporaryId>(&source)) return temporary(id->index());
     const auto* const item = std::get_if<StageItem>(&source);
-    if (item != nullptr && item->stage == request_.stage && system_.is_species(item->item)) {
-        const auto place = std::find(species_.begin(), species_.end(), item->item);
-        return fmt::format("s->species[{}]", place - species_.begin());
+    if (item != nullptr && item->stage == request_.stage) {
+        const auto species = system_.species_of(item->item);
+        if (species) return fmt::format("s->species[{}]", species->index());
     }
     return fmt::format("s->planes[{}]", place_of(planes_, source, [&] { add_plane(source); }));
 }

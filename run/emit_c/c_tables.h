@@ -34,7 +34,7 @@ public:
 
 private:
     std::string item_name(StageItem item) const;
-    bool is_late(std::uint32_t item) const;
+    bool is_late(ItemId item) const;
     void add_plane(const PlaneSource& source);
     std::string add_data(const Field& field);
 
@@ -42,9 +42,8 @@ private:
     const Program& program_;
     const System& system_;
     CStage& stage_;
-    std::vector<std::uint32_t> species_;  ///< Items.
     /// Uniform items whose values are known only once there are cells.
-    std::vector<std::uint32_t> late_;
+    std::vector<ItemId> late_;
     // In the order of the tables.
     std::vector<StageItem> numbers_, masks_;
     std::vector<PlaneSource> planes_;

@@ -24,12 +24,12 @@ Result<void> make_per_cell(Program& program, std::uint32_t k,
                            const std::vector<std::string>& names) {
     const System& system = program.system_of(k);
     std::vector<std::string> known;
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+    for (const ItemId item : system.items()) {
         if (!system.is_species(item)) known.emplace_back(system.item_name(item));
     }
     for (const std::string& name : names) {
         bool found = false;
-        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        for (const ItemId item : system.items()) {
             if (system.item_name(item) != name || system.is_species(item)) continue;
             program.stages[k].uniform[item] = false;
             found = true;
@@ -92,7 +92,7 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
         return failure(
             fmt::format("--stages: {} has no stages to choose; rkl1 and rkl2 have", name));
     }
-    const std::uint32_t speed = program.system_of(k).speed_item();
+    const ItemId speed = program.system_of(k).speed_item();
     if (!stage.uniform[speed] && !takes_speed_by_cell(stage.time.solver)) {
         return failure(fmt::format("{} cannot take the speed of stage '{}', which varies by cell",
                                    name, stage.name));

@@ -17,10 +17,12 @@ namespace {
 bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbers& numbers,
                    const Program& program) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
-        const bool is_own = node.kind == NodeKind::own;
-        if (!is_own && node.kind != NodeKind::earlier) return false;
-        const std::uint32_t of = is_own ? stage : node.stage;
-        return program.stages[of].uniform[node.index] && !numbers[of][node.index];
+        const auto is_unknown = [&](StageItem item) {
+            return program.stages[item.stage].uniform[item.item] && !numbers[item.stage][item.item];
+        };
+        const auto* earlier = node.as<StageItem>();
+        if (earlier != nullptr) return is_unknown(*earlier);
+        return node.is<ItemId>() && is_unknown({stage, *node.as<ItemId>()});
     });
 }
 
@@ -40,13 +42,13 @@ KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
         const StepPlan plan = plan_uniform_start(program, k);
         const auto values = run_plan(plan, compile, places.context(), one, team);
         auto& known = numbers.emplace_back(stage.items.size());
-        std::vector<std::optional<float>> computed(stage.items.size());
+        IdVector<ItemId, std::optional<float>> computed(stage.items.size());
         for (std::size_t r = 0; r < values.size(); ++r) {
             computed[plan.results[r]] = values[r].at(0, 0);
             places.states()[k].numbers[plan.results[r]] = values[r].at(0, 0);
         }
         // In the order of evaluation, so that operands come first.
-        for (const std::uint32_t item : stage.order) {
+        for (const ItemId item : stage.order) {
             if (!reads_unknown(stage.items[item], k, numbers, program))
                 known[item] = computed[item];
         }

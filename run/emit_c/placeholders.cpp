@@ -11,7 +11,7 @@ Placeholders::Placeholders(const Program& program, std::uint32_t last) {
         for (Field& field : state.species) field = Field(layout);
         state.frozen = Mask(layout);
     }
-    for (std::uint32_t text = 0; text < program.literals->texts().size(); ++text) {
+    for (const TextId text : program.literals->text_ids()) {
         files_.add({Function::field, text}, Field(layout));
         files_.add({Function::image, text}, Field(layout));
     }

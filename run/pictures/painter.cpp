@@ -158,8 +158,7 @@ Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
         if (!simulation.state(k).started) continue;
         const System& system = program.system_of(k);
         std::size_t in_stage = 0;
-        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-            if (!system.is_species(item)) continue;
+        for (const ItemId item : system.species()) {
             const Field field =
                 as_shown(simulation.state(k).field(item), simulation.mask(), request);
             const ValueRange range = request.range.value_or(automatic_range(spread_of(field)));

@@ -21,7 +21,7 @@ std::vector<Formula> written_areas(const Program& program) {
     std::vector<Formula> areas;
     for (const Formula* formula : formulas_of(program)) {
         for (const Node& node : formula->nodes) {
-            if (node.kind != NodeKind::call) continue;
+            if (!node.is<Call>()) continue;
             if (node.function != Function::disc && node.function != Function::ring &&
                 node.function != Function::box) {
                 continue;
@@ -35,7 +35,7 @@ std::vector<Formula> written_areas(const Program& program) {
             }
             const bool is_known =
                 std::all_of(area.nodes.begin(), area.nodes.end(),
-                            [](const Node& number) { return number.kind == NodeKind::number; });
+                            [](const Node& number) { return number.is<double>(); });
             const bool is_new = std::none_of(areas.begin(), areas.end(), [&](const Formula& other) {
                 return other.nodes.back().span == call.span;
             });

@@ -228,9 +228,9 @@ bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
     const Stage& stage = simulation.program().stages[k];
     const System& system = simulation.program().system_of(k);
     const auto is_of_neighbours = [](const Node& node) {
-        return node.kind == NodeKind::call && differentiates(node.function);
+        return node.is<Call>() && differentiates(node.function);
     };
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+    for (const ItemId item : system.quantities.ids()) {
         if (!system.is_species(item) && !stage.uniform[item]) return false;
     }
     if (holds_in_rates(system, is_draw) || !holds_in_rates(system, is_of_neighbours)) return false;

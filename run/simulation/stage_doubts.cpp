@@ -29,10 +29,7 @@ constexpr std::int64_t shorter_steps = 3;
 bool knows_its_steps(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     const auto knows = [&](const Node& node) {
-        return is_draw(node) ||
-               (node.kind == NodeKind::builtin &&
-                node.index == static_cast<std::uint32_t>(Builtin::step)) ||
-               (node.kind == NodeKind::own && node.index == system.speed_item());
+        return is_draw(node) || node.is(Builtin::step) || node.is(system.speed_item());
     };
     return holds_in_rates(system, knows) || holds_in_sides(program.stages[stage], knows) ||
            std::any_of(system.invariants.begin(), system.invariants.end(),

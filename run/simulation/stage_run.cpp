@@ -82,7 +82,7 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
 }
 
 bool StageRun::is_frozen() const {
-    const std::uint32_t item = view_.system().frozen_item();
+    const ItemId item = view_.system().frozen_item();
     return view_.stage().uniform[item] && state_.numbers[item] != 0;
 }
 

@@ -35,12 +35,12 @@ void start_varying_items(const StageView& view, StageState& state) {
     const StepPlan& plan = view.environment().plans->start(view.number());
     std::vector<Field> values = view.evaluate(plan);
     for (std::size_t r = 0; r < values.size(); ++r) {
-        const std::uint32_t item = plan.results[r];
-        const int species = state.species_of_item[item];
+        const ItemId item = plan.results[r];
+        const auto species = state.species_of_item[item];
         if (view.stage().uniform[item]) {
             state.numbers[item] = values[r].number_at(0, 0);
-        } else if (species >= 0) {
-            state.species[static_cast<std::size_t>(species)] = std::move(values[r]);
+        } else if (species) {
+            state.species[species->index()] = std::move(values[r]);
         } else {
             if (item == view.system().frozen_item()) state.frozen = to_mask(values[r]);
             state.fields[item] = std::move(values[r]);
@@ -113,7 +113,7 @@ Result<void> find_sides(const StageView& view, StageState& state) {
 
 Result<void> check_speed(const StageView& view) {
     const Environment& here = view.environment();
-    const std::uint32_t item = view.system().speed_item();
+    const ItemId item = view.system().speed_item();
     double slowest = view.state().numbers[item];
     if (!view.stage().uniform[item]) slowest = smallest(view.state().fields[item], here.inside());
     if (slowest > 0 && std::isfinite(slowest)) return {};

@@ -36,8 +36,8 @@ std::vector<Field> StageView::starting_species() const {
     std::vector<Field> values = evaluate(plan);
     std::vector<Field> species(state().species.size());
     for (std::size_t r = 0; r < values.size(); ++r) {
-        const int place = state().species_of_item[plan.results[r]];
-        if (place >= 0) species[static_cast<std::size_t>(place)] = std::move(values[r]);
+        const auto id = state().species_of_item[plan.results[r]];
+        if (id) species[id->index()] = std::move(values[r]);
     }
     return species;
 }
@@ -56,7 +56,7 @@ StabilityEstimate StageView::stability(std::span<const Field> species,
 
 StepInUse StageView::step_in_use() const {
     const StageTime& time = stage().time;
-    const std::uint32_t speed = system().speed_item();
+    const ItemId speed = system().speed_item();
     StepInUse use;
     use.speed = state().time.clock.step;
     if (!(use.speed > 0)) use.speed = stage().uniform[speed] ? state().numbers[speed] : NAN;

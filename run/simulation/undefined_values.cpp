@@ -36,9 +36,8 @@ std::optional<CellPlace> first_cell(const Field& field, const Mask* counted, Tes
 
 /// Does it consist of numbers alone? The checker has then reported it.
 bool is_constant(const Formula& formula) {
-    return std::all_of(formula.nodes.begin(), formula.nodes.end(), [](const Node& node) {
-        return node.kind == NodeKind::number || node.kind == NodeKind::call;
-    });
+    return std::all_of(formula.nodes.begin(), formula.nodes.end(),
+                       [](const Node& node) { return node.is<double>() || node.is<Call>(); });
 }
 
 std::string not_finite_words(double value) {
@@ -55,7 +54,7 @@ std::vector<UndefinedWatch> watched_in_steps(const System& system) {
                            const char* effect) {
         for (LostNumber& each : found) watched.push_back({where, effect, std::move(each)});
     };
-    for (const std::uint32_t item : system.rate_order) {
+    for (const ItemId item : system.rate_order) {
         watch(lost.in_rate(item), fmt::format("in the rate of {}", system.item_name(item)),
               for_comparisons);
     }
@@ -71,7 +70,7 @@ std::vector<UndefinedWatch> watched_in_steps(const System& system) {
 std::vector<UndefinedWatch> watched_at_start(const Stage& stage, const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+    for (const ItemId item : system.items()) {
         for (LostNumber& each : lost.in_comparisons(stage.items[item])) {
             watched.push_back({fmt::format("in the value of {}", system.item_name(item)),
                                for_comparisons, std::move(each)});
@@ -125,8 +124,8 @@ bool warn_of_undefined_parameters(const StageView& view, const RunControl& contr
     const StageState& state = view.state();
     const Environment& here = view.environment();
     const auto is_undefined = [](double value) { return !std::isfinite(value); };
-    for (std::uint32_t item = 0; item < system.speed_item(); ++item) {
-        if (system.is_species(item)) continue;
+    for (const ItemId item : system.items()) {
+        if (system.is_species(item) || item == system.speed_item()) continue;
         std::string place;
         double value = state.numbers[item];
         if (!state.fields[item].empty()) {
@@ -172,11 +171,11 @@ void UndefinedValues::look_at_until(const StageView& view, const RunControl& con
 
 void warn_of_even_pictures(const Environment& environment, const RunControl& control) {
     if (!control.warn) return;
-    environment.files.each_of(Function::image, [&](std::uint32_t text, const Field& plane) {
+    environment.files.each_of(Function::image, [&](TextId text, const Field& plane) {
         const FieldMoments levels = moments(plane);
         if (levels.deviation > one_level) return;
         control.warn(fmt::format("image(\"{}\") is {:.4g} in all cells{}",
-                                 environment.program->literals->texts()[text], levels.mean,
+                                 environment.program->literals->text(text), levels.mean,
                                  levels.mean > 1 - one_level
                                      ? ": is it all transparent? What is transparent lies on white"
                                      : ""));

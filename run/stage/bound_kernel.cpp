@@ -13,7 +13,7 @@ const Field& plane_of(const PlaneSource& source, const BindingContext& context) 
     const Overloaded plane{
         [&](StageItem each) { return &context.states[each.stage].field(each.item); },
         [&](NamedPlane each) { return &context.files.plane(each); },
-        [&](SurfaceValueId id) { return &context.surface_values->value(id.index()); },
+        [&](SurfaceValueId id) { return &context.surface_values->value(id); },
         [&](MetricPlane of) { return &context.metric[static_cast<std::size_t>(of)]; },
         [&](ModelPlane of) {
             return is_made_when_read(of) ? &context.surface_values->plane(of)
@@ -100,10 +100,9 @@ private:
 
     PlaneRef bind_plane(const PlaneSource& source) const {
         PlaneRef plane;
-        const auto set_species = [&](std::uint32_t item) {
+        const auto set_species = [&](ItemId item) {
             plane.kind = PlaneRef::Kind::species;
-            plane.number =
-                static_cast<std::uint32_t>(context_.states[stage_].species_of_item[item]);
+            plane.number = context_.states[stage_].species_of_item[item]->index();
         };
         if (const auto* const temporary = std::get_if<TemporaryId>(&source)) {
             plane.kind = PlaneRef::Kind::temporary;
@@ -134,10 +133,8 @@ private:
         }
         if (const auto* const each = std::get_if<StageItem>(&source)) {
             const StageState& state = context_.states[each->stage];
-            const int species = state.species_of_item[each->item];
-            if (species >= 0 && !state.sides.empty()) {
-                return state.sides[static_cast<std::size_t>(species)];
-            }
+            const auto species = state.species_of_item[each->item];
+            if (species && !state.sides.empty()) return state.sides[species->index()];
         }
         return context_.grid.boundary;
     }
@@ -224,7 +221,8 @@ private:
             result.plane.in_register = sweep_->outputs[target.index / written];
             result.read_at = read_at_[target.index / written];
             const auto position = static_cast<std::uint32_t>(target.index % written);
-            result.plane.number = form_->species.empty() ? position : form_->species[position];
+            result.plane.number =
+                form_->species.empty() ? position : form_->species[position].index();
             result.needs_halo = problem_.species_needs_halo[result.plane.number] &&
                                 halo_registers_[result.plane.in_register];
             return result;
@@ -352,11 +350,7 @@ StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const Bindin
 }
 
 std::string species_name(const System& system, std::size_t species) {
-    std::size_t number = 0;
-    for (const Quantity& quantity : system.quantities) {
-        if (quantity.is_species && number++ == species) return quantity.name;
-    }
-    CHECK(false, "the species exists");
+    return system.quantities[system.species()[SpeciesId(species)]].name;
 }
 
 }  // namespace cascade

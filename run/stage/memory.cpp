@@ -104,7 +104,7 @@ double memory_of(const Program& program, StagePlans& plans, const ModelFacts* mo
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
         const System& system = program.systems[stage.system];
-        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        for (const ItemId item : system.items()) {
             if (system.is_species(item)) {
                 planes += stage.time.steady ? 2 : 1;
             } else if (!stage.uniform[item]) {

@@ -36,7 +36,7 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
     for (const Spread& spread : course.last().species)
         is_the_same = is_the_same && spread.squares == 0;
     bool parameters_are = true;
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+    for (const ItemId item : system.quantities.ids()) {
         parameters_are = parameters_are && (system.is_species(item) || stage.uniform[item]);
     }
     if (since.step == course.first().step && is_the_same && parameters_are) {
@@ -125,7 +125,7 @@ std::string describe_end(const Stage& stage, const System& system, const StageSt
     const auto about = [&](const std::string& words) {
         return fmt::format("stage '{}' {}", stage.name, words);
     };
-    const std::uint32_t frozen = system.frozen_item();
+    const ItemId frozen = system.frozen_item();
     const double frozen_part = stage.uniform[frozen] ? (state.numbers[frozen] != 0 ? 1 : 0)
                                                      : part_of_ones(state.frozen, inside);
     if (frozen_part == 1) return about("is frozen in all cells: nothing in it changes");

@@ -11,12 +11,10 @@ StageState empty_state(const System& system) {
     StageState state;
     state.numbers.assign(system.item_count(), 0);
     state.fields.resize(system.item_count());
-    state.species_of_item.assign(system.item_count(), -1);
-    for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
-        if (!system.is_species(item)) continue;
-        state.species_of_item[item] = static_cast<int>(state.species.size());
-        state.species.emplace_back();
-    }
+    state.species_of_item.resize(system.item_count());
+    const auto species = system.species();
+    for (const SpeciesId id : species.ids()) state.species_of_item[species[id]] = id;
+    state.species.resize(species.size());
     return state;
 }
 

@@ -10,6 +10,7 @@
 #include "solvers/steady.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,18 +25,17 @@ struct StageState {
     StageState& operator=(StageState&&) = default;
 
     bool started = false;
-    bool done = false;           ///< All its steps are taken, or it has ended early.
-    bool condition_met = false;  ///< Its `until` has ended it.
-    std::int64_t steps = 0;      ///< Complete steps.
-    double t = 0;                ///< Its time; 0 if `speed` varies by cell.
-    TimeState time;              ///< The state from which steps of other lengths go on.
-    SteadyWatch watch;           ///< The last evaluation of `until: steady(…)`.
-    StageCourse course;          ///< Since it began, or went on from a saved run.
-    std::vector<double>
-        numbers;  ///< Of the run's precision, per item; meaningful where it is uniform.
-    std::vector<Field> fields;                 ///< Per item; empty where uniform, and for species.
-    std::vector<Field> species;                ///< In order of the species' items.
-    std::vector<int> species_of_item;          ///< Per item; −1 for parameters.
+    bool done = false;                 ///< All its steps are taken, or it has ended early.
+    bool condition_met = false;        ///< Its `until` has ended it.
+    std::int64_t steps = 0;            ///< Complete steps.
+    double t = 0;                      ///< Its time; 0 if `speed` varies by cell.
+    TimeState time;                    ///< The state from which steps of other lengths go on.
+    SteadyWatch watch;                 ///< The last evaluation of `until: steady(…)`.
+    StageCourse course;                ///< Since it began, or went on from a saved run.
+    IdVector<ItemId, double> numbers;  ///< Of the run's precision; meaningful where uniform.
+    IdVector<ItemId, Field> fields;    ///< Empty where uniform, and for species.
+    std::vector<Field> species;        ///< By SpeciesId.
+    IdVector<ItemId, std::optional<SpeciesId>> species_of_item;
     Mask frozen;                               ///< Only where `frozen` varies.
     std::vector<SideRules> sides;              ///< By species; empty if the boundary holds for all.
     std::vector<ChangingSide> changing_sides;  ///< The sides whose values change with time.
@@ -44,9 +44,9 @@ struct StageState {
     void go_to(std::int64_t complete, double time_then);
 
     /// The plane of an item that varies (a species or a varying parameter).
-    const Field& field(std::uint32_t item) const {
-        const int index = species_of_item[item];
-        return index >= 0 ? species[static_cast<std::size_t>(index)] : fields[item];
+    const Field& field(ItemId item) const {
+        const auto id = species_of_item[item];
+        return id ? species[id->index()] : fields[item];
     }
 };
 

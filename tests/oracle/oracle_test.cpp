@@ -34,7 +34,7 @@ Solver solver_of(const std::string& system) {
 oracle::State state_of(const TestRun& run, std::uint32_t stage) {
     oracle::State state;
     const System& system = run.program().system_of(stage);
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+    for (const ItemId item : system.items()) {
         const std::string name(system.item_name(item));
         state[name] = run.values(stage, name);
     }

@@ -62,7 +62,7 @@ void TestRun::finish_all() {
 std::vector<double> TestRun::values(std::uint32_t stage, const std::string& name) const {
     const System& system = program().system_of(stage);
     const StageState& state = simulation_->state(stage);
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+    for (const ItemId item : system.items()) {
         if (system.item_name(item) != name) continue;
         if (program().stages[stage].uniform[item]) {
             return std::vector<double>(width() * height(), state.numbers[item]);

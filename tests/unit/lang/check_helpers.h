@@ -48,8 +48,8 @@ inline std::unique_ptr<Checked> check_text(const std::string& text,
 
 /// The number that a formula is, or a number that no test expects.
 inline double only_number(const Formula& formula) {
-    if (formula.nodes.size() != 1 || formula.nodes.front().kind != NodeKind::number) return -1e300;
-    return formula.nodes.front().number;
+    const auto* number = formula.nodes.front().as<double>();
+    return formula.nodes.size() == 1 && number != nullptr ? *number : -1e300;
 }
 
 }  // namespace cascade::testing

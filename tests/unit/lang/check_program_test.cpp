@@ -21,12 +21,12 @@ const System& system_named(const Program& program, const std::string& name) {
     return *found;
 }
 
-std::uint32_t item_named(const System& system, const std::string& name) {
-    for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+ItemId item_named(const System& system, const std::string& name) {
+    for (const ItemId item : system.items()) {
         if (system.item_name(item) == name) return item;
     }
     ADD_FAILURE() << "no item " << name;
-    return 0;
+    return {};
 }
 
 bool is_uniform(const Program& program, std::uint32_t stage, const std::string& name) {
@@ -69,14 +69,14 @@ TEST(CheckProgram, SettingsOfSystemsAndStages) {
     EXPECT_TRUE(is_uniform(*checked->program, 0, "speed"));
     EXPECT_EQ(stages[1].iterations, 8);
     EXPECT_EQ(stages[1].interval, 30);
-    EXPECT_EQ(only_number(stages[1].items[3]), 0.5);
+    EXPECT_EQ(only_number(stages[1].items[ItemId(3)]), 0.5);
     ASSERT_EQ(stages[1].show.nodes.size(), 1u);
-    EXPECT_EQ(stages[1].show.nodes.front().index, 1u);
+    EXPECT_TRUE(stages[1].show.nodes.front().is(ItemId(1)));
     EXPECT_EQ(stages[2].iterations, 7);
     EXPECT_EQ(stages[2].interval, 1);
     EXPECT_EQ(stages[3].iterations, 1000);
     EXPECT_EQ(stages[3].interval, 100);
-    EXPECT_EQ(stages[3].show.nodes.front().index, 2u) << "the first species";
+    EXPECT_TRUE(stages[3].show.nodes.front().is(ItemId(2))) << "the first species";
 }
 
 TEST(CheckProgram, OrderOfItems) {
@@ -108,11 +108,11 @@ TEST(CheckProgram, OrderOfDefinitionsAndRates) {
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     const System& system = system_named(*checked->program, "s");
     ASSERT_EQ(system.definitions.size(), 2u);
-    EXPECT_EQ(system.definitions[0].name, "first");
-    EXPECT_EQ(system.definitions[1].name, "second");
-    EXPECT_THAT(system.rate_order, ElementsAre(2u, 1u, 0u));
-    EXPECT_EQ(system.rates[0].nodes.back().kind, NodeKind::definition);
-    EXPECT_EQ(system.rates[0].nodes.back().index, 1u) << "renumbered with the definitions";
+    EXPECT_EQ(system.definitions.front().name, "first");
+    EXPECT_EQ(system.definitions.back().name, "second");
+    EXPECT_THAT(system.rate_order, ElementsAre(ItemId(2), ItemId(1), ItemId(0)));
+    EXPECT_TRUE(system.rates.front().nodes.back().is(DefinitionId(1)))
+        << "renumbered with the definitions";
 }
 
 TEST(CheckProgram, RatesSuperpose) {
@@ -132,7 +132,7 @@ TEST(CheckProgram, UniformAndVarying) {
     const Program& program = *checked->program;
     const auto uniform = [&](std::uint32_t stage) {
         std::string names;
-        for (std::uint32_t item = 0; item < program.system_of(stage).item_count(); ++item) {
+        for (const ItemId item : program.system_of(stage).items()) {
             if (!program.stages[stage].uniform[item]) continue;
             names += std::string(program.system_of(stage).item_name(item)) + " ";
         }
@@ -224,9 +224,10 @@ TEST(CheckProgram, Views) {
                                         checked->sources, diagnostics);
         if (!formula) return diagnostics.sorted().at(0).message;
         for (const Node& node : formula->nodes) {
-            kinds += node.kind == NodeKind::own ? fmt::format("own{} ", node.index)
-                     : node.kind == NodeKind::earlier
-                         ? fmt::format("{}:{} ", node.stage, node.index)
+            const auto* earlier = node.as<StageItem>();
+            kinds += node.is<ItemId>() ? fmt::format("own{} ", node.as<ItemId>()->index())
+                     : earlier != nullptr
+                         ? fmt::format("{}:{} ", earlier->stage, earlier->item.index())
                          : "other ";
         }
         return kinds;

@@ -71,17 +71,16 @@ TEST(Functions, AnArgumentIsComputedOnce) {
     ASSERT_THAT(checked->faults(), IsEmpty());
     const System& system = system_named(*checked, "s");
     const auto draws = [&](std::size_t item) {
-        const auto& nodes = system.quantities[item].start.nodes;
-        return std::count_if(nodes.begin(), nodes.end(), [](const Node& node) {
-            return node.kind == NodeKind::call && node.function == Function::random;
-        });
+        const auto& nodes = system.quantities[ItemId(item)].start.nodes;
+        return std::count_if(nodes.begin(), nodes.end(),
+                             [](const Node& node) { return node.calls(Function::random); });
     };
     EXPECT_EQ(draws(0), 1);
     EXPECT_EQ(draws(1), 2);
     EXPECT_EQ(draws(2), 0);  // What a function does not read is not computed.
-    const Node& product = system.quantities[0].start.nodes.back();
+    const Node& product = system.quantities[ItemId(0)].start.nodes.back();
     EXPECT_EQ(product.operands[0], product.operands[1]);
-    EXPECT_EQ(only_number(system.quantities[2].start), 2);
+    EXPECT_EQ(only_number(system.quantities[ItemId(2)].start), 2);
 }
 
 TEST(Families, AreWrittenOut) {
@@ -130,8 +129,8 @@ TEST(Families, InStagesAndPictures) {
             "picture { color: palette(u[1] + u[2] + a.u[1], 0, 1, \"tan\") }");
     const auto changed = check_text(system + run_s, {"p[i]=4", "a.p[2]=3*2"});
     ASSERT_THAT(changed->faults(), IsEmpty());
-    EXPECT_EQ(only_number(changed->program->stages[0].items[2]), 4);
-    EXPECT_EQ(changed->program->stages[0].items[3].nodes.size(), 3u);
+    EXPECT_EQ(only_number(changed->program->stages[0].items[ItemId(2)]), 4);
+    EXPECT_EQ(changed->program->stages[0].items[ItemId(3)].nodes.size(), 3u);
 }
 
 TEST(Derivation, ReplacesAndAdds) {
@@ -173,8 +172,8 @@ TEST(Derivation, OfSystemsOfTheLibrary) {
     ASSERT_THAT(checked->faults(), IsEmpty());
     const System& system = checked->program->system_of(0);
     EXPECT_FALSE(system.built_in);
-    EXPECT_EQ(system.quantities[2].name, "feed");
-    EXPECT_EQ(only_number(system.quantities[2].start), 0.014);
+    EXPECT_EQ(system.quantities[ItemId(2)].name, "feed");
+    EXPECT_EQ(only_number(system.quantities[ItemId(2)].start), 0.014);
     EXPECT_EQ(checked->program->system_of(1).invariants.size(), 1u);
 }
 
@@ -189,18 +188,18 @@ TEST(Parameters, RangesAndDocs) {
     EXPECT_EQ(base.doc, "Two words.");
     EXPECT_EQ(base.title, "The Base");
     EXPECT_EQ(base.cite, "A. Author (1999)");
-    EXPECT_EQ(base.quantities[0].doc, "rate");
-    EXPECT_EQ(base.quantities[2].doc, "height");
-    ASSERT_TRUE(base.quantities[0].range);
-    EXPECT_EQ(base.quantities[0].range->high, 1);
-    EXPECT_EQ(base.quantities[0].range->step, 0.1);
+    EXPECT_EQ(base.quantities[ItemId(0)].doc, "rate");
+    EXPECT_EQ(base.quantities[ItemId(2)].doc, "height");
+    ASSERT_TRUE(base.quantities[ItemId(0)].range);
+    EXPECT_EQ(base.quantities[ItemId(0)].range->high, 1);
+    EXPECT_EQ(base.quantities[ItemId(0)].range->step, 0.1);
     const System& derived = system_named(*right, "s");
     EXPECT_EQ(derived.cite, base.cite);
     EXPECT_EQ(derived.about, "Waves.");
-    EXPECT_EQ(derived.quantities[0].doc, "rate");
-    EXPECT_TRUE(derived.quantities[0].range);
-    EXPECT_EQ(derived.quantities[1].doc, "new");
-    EXPECT_EQ(derived.quantities[1].range->low, 1);
+    EXPECT_EQ(derived.quantities[ItemId(0)].doc, "rate");
+    EXPECT_TRUE(derived.quantities[ItemId(0)].range);
+    EXPECT_EQ(derived.quantities[ItemId(1)].doc, "new");
+    EXPECT_EQ(derived.quantities[ItemId(1)].range->low, 1);
 }
 
 }  // namespace

@@ -32,11 +32,12 @@ void expect_derivatives(const std::string& rate) {
     const Program& program = *checked->program;
     ScriptRun run(program);
     run.start(0);
-    for (const std::uint32_t by : {0u, 1u}) {
-        const auto derivative = rate_derivative(program, 0, 0, by);
+    const ItemId u(0), v(1);
+    for (const ItemId by : {u, v}) {
+        const auto derivative = rate_derivative(program, 0, u, by);
         ASSERT_TRUE(derivative) << rate;
         const Field found = std::move(run.view(*derivative, 0)[0]);
-        Field& species = run.field(0, by == 0 ? "u" : "v");
+        Field& species = run.field(0, by == u ? "u" : "v");
         constexpr float h = 0.005f;
         shift(species, h);
         const Field above = std::move(run.rates(0)[0]);
@@ -46,7 +47,7 @@ void expect_derivatives(const std::string& rate) {
         for (std::int64_t i = 0; i < 16; ++i) {
             const double difference = (double{above.at(i, 0)} - below.at(i, 0)) / (2 * h);
             EXPECT_NEAR(found.at(i, 0), difference, 2e-3 * (1 + std::abs(difference)))
-                << rate << " by " << by << ", column " << i;
+                << rate << " by " << by.index() << ", column " << i;
         }
     }
 }

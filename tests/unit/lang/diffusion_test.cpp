@@ -25,7 +25,7 @@ std::vector<std::string> factors_of(const std::string& rate) {
     EXPECT_EQ(found.size(), 2u);
     std::vector<std::string> result;
     for (std::size_t k = 0; k < diffusion_terms; ++k) {
-        const Formula& formula = found[0][k];
+        const Formula& formula = found.front()[k];
         if (formula.nodes.empty()) continue;
         const Field values = std::move(run.view(formula, 0)[0]);
         float largest = values.at(0, 0);

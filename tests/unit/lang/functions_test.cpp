@@ -27,11 +27,8 @@ TEST(Functions, OfNumbersHaveAValueAndOthersHaveNone) {
 
 TEST(Functions, ThatJumpHaveNoSlope) {
     Algebra algebra;
-    Node call;
-    call.kind = NodeKind::call;
-    for (std::uint32_t index = 0; index < 3; ++index) {
-        call.operands[index] = algebra.leaf(NodeKind::own, index);
-    }
+    Node call{Call()};
+    for (std::size_t k = 0; k < 3; ++k) call.operands[k] = algebra.leaf(ItemId(k));
     for_each_function([&](Function function) {
         call.function = function;
         call.operand_count = static_cast<std::uint8_t>(info(function).arity.least);

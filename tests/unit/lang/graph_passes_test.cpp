@@ -131,9 +131,9 @@ TEST(GraphPasses, TheVerifierFindsWhatIsWrong) {
     };
     using Graph = ExpressionGraph;
     EXPECT_EQ(fault([](Graph& graph) { return graph.number(1); }), "");
-    EXPECT_THAT(fault([](Graph& graph) { return graph.leaf(NodeKind::rate); }),
+    EXPECT_THAT(fault([](Graph& graph) { return graph.leaf(Rate()); }),
                 HasSubstr("do not exist here"));
-    EXPECT_THAT(fault([](Graph& graph) { return graph.leaf(NodeKind::metric); }),
+    EXPECT_THAT(fault([](Graph& graph) { return graph.leaf(MetricPlane::area); }),
                 HasSubstr("do not exist here"));
     EXPECT_THAT(fault([](Graph& graph) { return graph.call(Function::add, {graph.number(1)}); }),
                 HasSubstr("number of operands"));
@@ -146,8 +146,7 @@ TEST(GraphPasses, TheVerifierFindsWhatIsWrong) {
                 }),
                 HasSubstr("number of operands"));
     EXPECT_THAT(fault([](Graph& graph) {
-                    Node forwards;
-                    forwards.kind = NodeKind::call;
+                    Node forwards{Call()};
                     forwards.function = Function::sin;
                     forwards.operands[0] = NodeId(0);
                     forwards.operand_count = 1;

@@ -82,18 +82,18 @@ public:
 
 private:
     struct State {
-        std::vector<float> numbers;
-        std::vector<Field> fields;
+        IdVector<ItemId, float> numbers;
+        IdVector<ItemId, Field> fields;
         int steps = 0;
     };
 
-    std::uint32_t item_of(std::uint32_t stage, const std::string& name) const {
+    ItemId item_of(std::uint32_t stage, const std::string& name) const {
         const System& system = program_.system_of(stage);
-        for (std::uint32_t item = 0; item < system.item_count(); ++item) {
+        for (const ItemId item : system.items()) {
             if (system.item_name(item) == name) return item;
         }
         ADD_FAILURE() << "no item " << name;
-        return 0;
+        return {};
     }
 
     Field& field_of(StageItem item) { return stages_[item.stage].fields[item.item]; }
@@ -118,7 +118,7 @@ private:
         std::vector<const float*> fields;
         for (const PlaneSource& source : bound.fields) {
             const auto* const file = std::get_if<NamedPlane>(&source);
-            Field& field = file != nullptr ? files.at(program_.literals->texts()[file->text])
+            Field& field = file != nullptr ? files.at(program_.literals->text(file->text))
                                            : field_of(std::get<StageItem>(source));
             EXPECT_FALSE(field.empty());
             fill_halo(field.origin(), layout, program_.domain.grid.boundary);

@@ -32,7 +32,7 @@ public:
         if (!checked_->program) return;
         run_ = std::make_unique<ScriptRun>(*checked_->program);
         run_->start(0);
-        uniform_ = checked_->program->stages[0].uniform[1];
+        uniform_ = checked_->program->stages[0].uniform[ItemId(1)];
     }
     float at(std::int64_t i, std::int64_t j, std::int64_t k = 0) {
         return uniform_ ? run_->number(0, "p") : run_->field(0, "p").at(i, j, k);
@@ -280,7 +280,7 @@ TEST(Lower, StepsClampAndFreeze) {
     EXPECT_THAT(step.kernel.mask_names, ElementsAre("frozen"));
     EXPECT_THAT(step.kernel.field_names, ElementsAre("u"));
     EXPECT_THAT(step.kernel.uniform_names, ::testing::UnorderedElementsAre("rate", "speed", "low"));
-    EXPECT_THAT(step.results, ElementsAre(0u));
+    EXPECT_THAT(step.results, ElementsAre(ItemId(0)));
 }
 
 TEST(Lower, UniformFrozenIsNotInTheKernel) {

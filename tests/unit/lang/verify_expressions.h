@@ -30,7 +30,7 @@ public:
             if (operand >= id) return "an operand does not come before its reader";
         }
         if (!may_exist(node)) return "nodes of this kind do not exist here";
-        if (node.kind != NodeKind::call) {
+        if (!node.is<Call>()) {
             return node.operand_count == 0 ? "" : "only calls have operands";
         }
         if (!has_arity(node)) return "it has the wrong number of operands";
@@ -44,20 +44,15 @@ private:
     ValueType type(const Node& node, std::size_t k) const { return graph_[node.operands[k]].type; }
 
     bool may_exist(const Node& node) const {
-        switch (node.kind) {
-            case NodeKind::definition:
-            case NodeKind::rate: return false;
-            case NodeKind::metric: return context_.has_metric();
-            case NodeKind::model: return context_.has_model();
-            case NodeKind::inside: return is_past("mask");
-            case NodeKind::builtin: {
-                const auto builtin = static_cast<Builtin>(node.index);
-                const bool is_place = builtin != Builtin::t && builtin != Builtin::step;
-                return !is_place || !context_.has_model() || !is_past("links");
-            }
-            case NodeKind::call: break;
-            default: return true;
+        if (node.is<DefinitionId>() || node.is<Rate>()) return false;
+        if (node.is<MetricPlane>()) return context_.has_metric();
+        if (node.is<ModelPlane>()) return context_.has_model();
+        if (node.is<InsideMask>()) return is_past("mask");
+        if (node.is<Builtin>()) {
+            const bool is_place = !node.is(Builtin::t) && !node.is(Builtin::step);
+            return !is_place || !context_.has_model() || !is_past("links");
         }
+        if (!node.is<Call>()) return true;
         if (node.calls(Function::domain_mean) && is_past("areas")) {
             return !context_.has_metric() && !context_.has_model();
         }
@@ -114,9 +109,8 @@ private:
     bool is_masked(const Node& node) const {
         if (!context_.has_mask() || !is_past("mask")) return true;
         const Node& of = graph_[node.operands[0]];
-        const bool is_item = of.kind == NodeKind::own || of.kind == NodeKind::earlier;
-        return is_item ||
-               (of.calls(Function::if_) && graph_[of.operands[0]].kind == NodeKind::inside);
+        const bool is_item = of.is<ItemId>() || of.is<StageItem>();
+        return is_item || (of.calls(Function::if_) && graph_[of.operands[0]].is<InsideMask>());
     }
 
     const ExpressionGraph& graph_;

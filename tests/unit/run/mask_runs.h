@@ -24,15 +24,15 @@ struct Ran {
 
     const Field& field(const std::string& name, std::uint32_t stage = 0) const {
         const System& system = simulation->program().system_of(stage);
-        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        for (const ItemId item : system.quantities.ids()) {
             if (system.quantities[item].name == name) return simulation->state(stage).field(item);
         }
         ADD_FAILURE() << name;
-        return simulation->state(stage).field(0);
+        return simulation->state(stage).field({});
     }
     double number(const std::string& name, std::uint32_t stage = 0) const {
         const System& system = simulation->program().system_of(stage);
-        for (std::uint32_t item = 0; item < system.quantities.size(); ++item) {
+        for (const ItemId item : system.quantities.ids()) {
             if (system.quantities[item].name == name) return simulation->state(stage).numbers[item];
         }
         ADD_FAILURE() << name;

@@ -46,7 +46,7 @@ public:
     std::vector<double> values(const std::string& name) const {
         if (!simulation_) return {};
         const StageState& state = simulation_->state(0);
-        const std::uint32_t item = item_named(name);
+        const ItemId item = item_named(name);
         if (simulation_->program().stages[0].uniform[item]) {
             return std::vector<double>(simulation_->model()->count(), state.numbers[item]);
         }
@@ -79,13 +79,13 @@ public:
     const Script& script() const { return *script_; }
 
 private:
-    std::uint32_t item_named(const std::string& name) const {
+    ItemId item_named(const std::string& name) const {
         const System& system = simulation_->program().system_of(0);
-        for (std::uint32_t k = 0; k < system.quantities.size(); ++k) {
+        for (const ItemId k : system.quantities.ids()) {
             if (system.quantities[k].name == name) return k;
         }
         ADD_FAILURE() << "no item " << name;
-        return 0;
+        return {};
     }
 
     std::unique_ptr<Script> script_;

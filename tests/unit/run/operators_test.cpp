@@ -57,13 +57,13 @@ public:
     }
 
 private:
-    std::uint32_t item(const std::string& name, std::uint32_t stage) const {
+    ItemId item(const std::string& name, std::uint32_t stage) const {
         const System& system = script_.program->system_of(stage);
-        for (std::uint32_t k = 0; k < system.quantities.size(); ++k) {
+        for (const ItemId k : system.quantities.ids()) {
             if (system.quantities[k].name == name) return k;
         }
         ADD_FAILURE() << "no item " << name;
-        return 0;
+        return {};
     }
 
     Script script_;

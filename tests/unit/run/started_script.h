@@ -25,11 +25,11 @@ inline std::unique_ptr<Simulation> start(Script& script) {
 /// The plane of an item of the first stage that varies.
 inline const Field& result_of(const Simulation& simulation, const std::string& name) {
     const System& system = simulation.program().system_of(0);
-    for (std::uint32_t k = 0; k < system.quantities.size(); ++k) {
+    for (const ItemId k : system.quantities.ids()) {
         if (system.quantities[k].name == name) return simulation.state(0).field(k);
     }
     ADD_FAILURE() << "no item " << name;
-    return simulation.state(0).field(0);
+    return simulation.state(0).field({});
 }
 
 }  // namespace cascade::test

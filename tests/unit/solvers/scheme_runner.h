@@ -66,12 +66,13 @@ private:
         }
         std::vector<PlainState> inputs;
         for (const std::uint32_t input : sweep.inputs) inputs.push_back(registers_[input]);
-        std::vector<std::uint32_t> species = form.species;
+        std::vector<std::size_t> species;
+        for (const SpeciesId id : form.species) species.push_back(id.index());
         if (species.empty()) {
-            for (std::uint32_t s = 0; s < rates.size(); ++s) species.push_back(s);
+            for (std::size_t s = 0; s < rates.size(); ++s) species.push_back(s);
         }
         for (std::size_t o = 0; o < form.outputs.size(); ++o) {
-            for (const std::uint32_t s : species) {
+            for (const std::size_t s : species) {
                 for (std::size_t cell = 0; cell < rates[s].size(); ++cell) {
                     double sum = 0;
                     for (const SweepTerm& term : form.outputs[o].terms) {
