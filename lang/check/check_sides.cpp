@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -104,6 +105,30 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
     }
 }
 
+/// Makes a rule of `from` one of a system derived from it, in which names have other numbers and
+/// may mean something else. Reports an error and returns false if it cannot be computed there.
+bool take_over(Workspace& work, const System& from, std::uint32_t derived, SpeciesSide& side) {
+    const System& system = work.program.systems[derived];
+    for (Node& node : side.setting.value.nodes) {
+        const auto* item = node.as<ItemId>();
+        if (item == nullptr) continue;
+        const std::string_view name = from.item_name(*item);
+        const Meaning* own = find(work.names[derived], name);
+        if (own == nullptr || own->has_error) continue;
+        if (own->is_definition()) {
+            work.diagnostics.error(
+                node.span,
+                fmt::format("'{}' is a definition in {} and cannot be read here", name,
+                            system.name),
+                fmt::format("give {}.{} another rule in {}", system.item_name(side.species),
+                            side_names[static_cast<std::size_t>(side.side)], system.name));
+            return false;
+        }
+        node.kind = own->item();
+    }
+    return reads_no_species(work, system, side);
+}
+
 }  // namespace
 
 bool is_side_word(std::string_view word) { return is_setting_of(SettingBlock::side, word); }
@@ -114,26 +139,22 @@ void check_system_sides(Workspace& work, const ast::Script& script, const ast::B
     Scope scope;
     scope.system = index;
     System& system = work.draft->systems[index];
+    std::vector<SpeciesSide> own = read_side_rules(work, script, scope, block.sides);
     if (base && *base < work.program.systems.size()) {
         const System& from = work.program.systems[*base];
-        // Species keep their names in a derived system, but not always their numbers.
         for (SpeciesSide side : from.sides) {
             const auto species = find_species(work, index, from.item_name(side.species));
-            if (!species) continue;
+            const bool is_replaced = std::ranges::any_of(own, [&](const SpeciesSide& rule) {
+                return rule.species == species && rule.side == side.side;
+            });
+            if (!species || is_replaced) continue;
             side.species = *species;
-            for (Node& node : side.setting.value.nodes) {
-                const auto* item = node.as<ItemId>();
-                if (item == nullptr) continue;
-                const Meaning* own = find(work.names[index], from.item_name(*item));
-                if (own != nullptr && !own->is_definition()) node.kind = own->item();
-            }
+            if (!take_over(work, from, index, side)) break;
             mark_reads(work, side.setting.value, index);
             system.sides.push_back(std::move(side));
         }
     }
-    for (SpeciesSide& rule : read_side_rules(work, script, scope, block.sides)) {
-        system.sides.push_back(std::move(rule));
-    }
+    std::ranges::move(own, std::back_inserter(system.sides));
 }
 
 void check_domain_side(Workspace& work, const ast::Script& script,

@@ -125,11 +125,10 @@ std::string as_source(std::string_view species, Side side) {
         species, places[number], counts[number / 2]);
 }
 
-/// Values of sides are computed when the stage starts, but species change. Reports an error and
-/// returns false if one reads a species.
-bool reads_no_species(Workspace& work, const System& system, const SideSetting& setting, Side side,
-                      std::string_view of) {
-    const auto& nodes = setting.value.nodes;
+}  // namespace
+
+bool reads_no_species(Workspace& work, const System& system, const SpeciesSide& side) {
+    const auto& nodes = side.setting.value.nodes;
     const auto read = std::find_if(nodes.begin(), nodes.end(), [&](const Node& node) {
         return node.is<ItemId>() && system.is_species(*node.as<ItemId>());
     });
@@ -137,11 +136,13 @@ bool reads_no_species(Workspace& work, const System& system, const SideSetting& 
     const std::string_view name = system.item_name(*read->as<ItemId>());
     work.diagnostics.error(
         read->span, fmt::format("a side cannot follow '{}', which every step changes", name),
-        setting.kind == SideKind::flux
-            ? as_source(of, side)
+        side.setting.kind == SideKind::flux
+            ? as_source(system.item_name(side.species), side.side)
             : fmt::format("a parameter keeps what {0} starts with: name: …; {0}: name", name));
     return false;
 }
+
+namespace {
 
 /// Collects the rules of statements; later ones replace earlier ones.
 class RuleChecker {
@@ -208,7 +209,7 @@ private:
             setting.value = std::move(checked->formula);
             mark_reads(work_, setting.value, scope_.system);
             const Side side = sides_of_word(statement.side.text)[0];
-            if (!reads_no_species(work_, system_, setting, side, declaration.name)) return;
+            if (!reads_no_species(work_, system_, {*species, side, setting})) return;
         }
         for (const Side side : sides_of_word(statement.side.text)) {
             rules_.push_back({{*species, side, setting},

@@ -24,6 +24,10 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
 /// The sides that a word means; empty if it means none.
 std::vector<Side> sides_of_word(std::string_view word);
 
+/// Values of sides are computed when the stage starts, but species change. Reports an error and
+/// returns false if a value reads a species of the system.
+bool reads_no_species(Workspace& work, const System& system, const SpeciesSide& side);
+
 /// The rules of statements about sides of species, in an order in which later ones replace earlier
 /// ones; reports errors.
 std::vector<SpeciesSide> read_side_rules(Workspace& work, const ast::Script& script,
