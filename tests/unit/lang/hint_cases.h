@@ -151,6 +151,12 @@ inline constexpr HintCase hint_cases[] = {
     {"stage", "u.sides: fixed(t * dx(x * t))",
      "put t and step outside: it is computed once, when the stage starts",
      "u.sides: fixed(t * dx(x))"},
+    {"script",
+     "system b { u: 1; p: 2; u' = p; u.left: fixed(p) }\nsystem d: b { p = 3 }\nstage s: d { }\n"
+     "domain { boundary: noflux }",
+     "give u.left another rule in d",
+     "system b { u: 1; p: 2; u' = p; u.left: fixed(p) }\nsystem d: b { p = 3; u.left: noflux }\n"
+     "stage s: d { }\ndomain { boundary: noflux }"},
     {"domain", "sides: fixed", "write fixed(0)"},
     {"domain", "sides: noflux(1)", "write noflux"},
     {"domain", "left: fixed(0)", "give right a rule too, or write boundary: noflux in the domain",
