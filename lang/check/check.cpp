@@ -34,9 +34,9 @@ void check_systems(Workspace& work, const ast::Script& script,
         if (block.kind == ast::BlockKind::system) blocks.push_back({&script, &block, false});
     }
     const std::vector<checking::DerivedSystem> systems = checking::derive_systems(work, blocks);
-    std::vector<std::uint32_t> numbers;  // The index of each system in the program.
+    std::vector<SystemId> numbers;  // The id of each system in the program.
     for (const checking::DerivedSystem& each : systems) {
-        std::optional<std::uint32_t> base;
+        std::optional<SystemId> base;
         if (each.base) base = numbers[*each.base];
         const std::size_t errors_before = work.diagnostics.error_count();
         numbers.push_back(checking::check_system(work, each, base));

@@ -7,11 +7,10 @@
 
 namespace cascade::checking {
 
-/// Checks a system; `base` is the number of the one it is derived from. Returns its number. A
-/// system with errors is added, too, so that its readers do not cause further messages; one whose
-/// base is unknown is not (unknown_system).
-std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
-                           std::optional<std::uint32_t> base);
+/// Checks a system; `base` is the one it is derived from. A system with errors is added, too, so
+/// that its readers do not cause further messages; one whose base is unknown is not
+/// (unknown_system).
+SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base);
 
 /// The statement if it gives a value, else null.
 const ast::Statement* value_statement(const ast::Statement& statement);
@@ -47,7 +46,7 @@ void check_stages(Workspace& work, const ast::Script& script);
 /// Checks the sides that the block of system `index` gives its species, added to
 /// those of system `base`, which it is derived from.
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
-                        std::uint32_t index, std::optional<std::uint32_t> base);
+                        SystemId index, std::optional<SystemId> base);
 
 /// Checks a statement of the domain about a side, for all species.
 void check_domain_side(Workspace& work, const ast::Script& script, const ast::Statement& statement);

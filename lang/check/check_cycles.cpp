@@ -92,7 +92,7 @@ void report_item_cycle(Workspace& work, const System& system,
     report_cycle(work, place_of(*items[cycle[first]], next), "values", names);
 }
 
-void report_cycles_of_defaults(Workspace& work, std::uint32_t index) {
+void report_cycles_of_defaults(Workspace& work, SystemId index) {
     const System& system = work.program.systems[index];
     std::vector<const Formula*> items;
     for (const Quantity& quantity : system.quantities) items.push_back(&quantity.start);
@@ -106,7 +106,7 @@ void report_cycles_of_defaults(Workspace& work, std::uint32_t index) {
     }
 }
 
-void order_steps(Workspace& work, std::uint32_t index) {
+void order_steps(Workspace& work, SystemId index) {
     System& target = work.draft->systems[index];
     const Order order = topological_order(step_dependencies(target));
     for (const auto& cycle : order.cycles) report_step_cycle(work, target, cycle);

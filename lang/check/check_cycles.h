@@ -20,10 +20,10 @@ void report_item_cycle(Workspace& work, const System& system,
                        const std::vector<std::uint32_t>& cycle);
 
 /// Reports cycles of defaults, which are errors of system `index` even if its stages override them.
-void report_cycles_of_defaults(Workspace& work, std::uint32_t index);
+void report_cycles_of_defaults(Workspace& work, SystemId index);
 
 /// Orders the definitions of system `index` topologically, finds the order of its rates, and
 /// reports cycles and operators that are nested too deeply.
-void order_steps(Workspace& work, std::uint32_t index);
+void order_steps(Workspace& work, SystemId index);
 
 }  // namespace cascade::checking

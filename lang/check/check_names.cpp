@@ -11,7 +11,7 @@ namespace cascade::checking {
 
 namespace {
 
-const System& system_at(const Workspace& work, std::uint32_t index) {
+const System& system_at(const Workspace& work, SystemId index) {
     return work.program.systems[index];
 }
 
@@ -235,7 +235,7 @@ std::optional<Node> resolve_previous(Workspace& work, const Scope& scope, std::s
         return std::nullopt;
     }
     const std::uint32_t previous = *scope.stage - 1;
-    const std::uint32_t system = work.program.stages[previous].system;
+    const SystemId system = work.program.stages[previous].system;
     if (system == unknown_system) return std::nullopt;
     if (find(work.names[system], name) == nullptr) {
         report_unknown_previous(work, scope, name, span);
@@ -318,7 +318,7 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
     }
     const auto stage = find_stage(work, scope, qualified);
     if (!stage) return std::nullopt;
-    const std::uint32_t index = work.program.stages[*stage].system;
+    const SystemId index = work.program.stages[*stage].system;
     if (index == unknown_system) return std::nullopt;
     if (scope.context == Context::picture && *stage == *scope.stage) {
         return resolve_own(work, scope, qualified.name.text, qualified.name.span);
@@ -343,7 +343,7 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
     return resolve_other(work, *stage, qualified.name.text, qualified.name.span);
 }
 
-void report_not_species(Workspace& work, std::uint32_t index, std::string_view name, Span span) {
+void report_not_species(Workspace& work, SystemId index, std::string_view name, Span span) {
     if (is_incomplete(work, index)) return;
     const System& system = work.program.systems[index];
     if (auto explained = explain_family(work, system, name)) {

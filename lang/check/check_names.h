@@ -34,7 +34,7 @@ struct Meaning {
 using NameTable = std::unordered_map<std::string, Meaning>;
 
 /// The system of a stage with an unknown system; reading from it causes no further messages.
-inline constexpr std::uint32_t unknown_system = UINT32_MAX;
+inline constexpr SystemId unknown_system(UINT32_MAX);
 
 class FunctionTable;
 
@@ -42,12 +42,12 @@ class FunctionTable;
 struct Workspace {
     const Program& program;
     Diagnostics& diagnostics;
-    std::vector<NameTable> names;                                ///< By system.
-    std::unordered_map<std::string, std::uint32_t> systems;      ///< By name.
-    std::unordered_map<std::string, std::uint32_t> stages;       ///< By name.
-    std::vector<IdVector<ItemId, bool>> items_read;              ///< By system.
-    std::vector<IdVector<DefinitionId, bool>> definitions_read;  ///< By system.
-    std::size_t names_compared = 0;                              ///< For suggestions, so far.
+    IdVector<SystemId, NameTable> names;
+    std::unordered_map<std::string, SystemId> systems;      ///< By name.
+    std::unordered_map<std::string, std::uint32_t> stages;  ///< By name.
+    IdVector<SystemId, IdVector<ItemId, bool>> items_read;
+    IdVector<SystemId, IdVector<DefinitionId, bool>> definitions_read;
+    std::size_t names_compared = 0;  ///< For suggestions, so far.
     /// Operators measure on a surface, where some of them have no meaning.
     bool on_surface = false;
     /// The functions of each script whose expressions have been checked; see user_functions.h.
@@ -56,9 +56,9 @@ struct Workspace {
     std::size_t parts_written = 0;
     /// The call of a script's own function that is being checked; errors refer to it.
     std::optional<Span> call = std::nullopt;
-    /// By system: true if one of its statements or indices could not be read. A name that it seems
-    /// to lack may be declared there, so it is not reported.
-    std::vector<bool> incomplete = {};
+    /// True if one of a system's statements or indices could not be read. A name that it seems to
+    /// lack may be declared there, so it is not reported.
+    IdVector<SystemId, bool> incomplete = {};
     /// Indices without values, which have been reported; declarations that use them are ignored.
     std::vector<std::string_view> invalid_indices = {};
     Program* draft = nullptr;  ///< The program under construction; null if it is finished.
@@ -83,7 +83,7 @@ struct IndexValue {
 
 struct Scope {
     Context context = Context::value;
-    std::uint32_t system = 0;            ///< The system whose names are read without a prefix.
+    SystemId system;                     ///< The system whose names are read without a prefix.
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: the name of the value in messages.
@@ -99,8 +99,7 @@ Reserved reserved(std::string_view name);
 NameTable names_of(const System& system);
 const Meaning* find(const NameTable& table, std::string_view name);
 /// The species of a name; nothing if it is none.
-std::optional<ItemId> find_species(const Workspace& work, std::uint32_t system,
-                                   std::string_view name);
+std::optional<ItemId> find_species(const Workspace& work, SystemId system, std::string_view name);
 
 // Each returns the node that a name refers to. If there is none, reports an error (unless that has
 // happened already) and returns nothing.
@@ -114,7 +113,7 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
                                  Span span);
 
 /// True if a part of the system could not be read.
-bool is_incomplete(const Workspace& work, std::uint32_t system);
+bool is_incomplete(const Workspace& work, SystemId system);
 
 /// True if the number of errors or compared names is so large that no more suggestions are made,
 /// which bounds the time to refuse a script.
@@ -143,7 +142,7 @@ std::optional<Explanation> explain_family(Workspace& work, const System& system,
 
 /// Reports a name that is not a species of the system, unless a part that could not be read may
 /// declare it.
-void report_not_species(Workspace& work, std::uint32_t system, std::string_view name, Span span);
+void report_not_species(Workspace& work, SystemId system, std::string_view name, Span span);
 
 /// The error of an index that is read where it has no value.
 Explanation index_without_value(std::string_view index);
@@ -161,6 +160,6 @@ void add_call(const Workspace& work, Diagnostic& diagnostic);
 void report_twice(Workspace& work, Span second, Span first, std::string message);
 
 /// Marks the species, parameters and definitions that a formula reads.
-void mark_reads(Workspace& work, const Formula& formula, std::uint32_t system);
+void mark_reads(Workspace& work, const Formula& formula, SystemId system);
 
 }  // namespace cascade::checking

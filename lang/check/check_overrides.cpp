@@ -68,7 +68,7 @@ bool set_in_stages_of_system(const Workspace& work, std::string_view system,
                              const ast::Statement* statement, StageOverrides& result) {
     bool used = false;
     for (std::size_t i = 0; i < result.size(); ++i) {
-        const std::uint32_t its = work.program.stages[i].system;
+        const SystemId its = work.program.stages[i].system;
         if (its == unknown_system || work.program.systems[its].name != system) continue;
         result[i].push_back(statement);
         used = true;

@@ -107,7 +107,7 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
 
 /// Makes a rule of `from` one of a system derived from it, in which names have other numbers and
 /// may mean something else. Reports an error and returns false if it cannot be computed there.
-bool take_over(Workspace& work, const System& from, std::uint32_t derived, SpeciesSide& side) {
+bool take_over(Workspace& work, const System& from, SystemId derived, SpeciesSide& side) {
     const System& system = work.program.systems[derived];
     for (Node& node : side.setting.value.nodes) {
         const auto* item = node.as<ItemId>();
@@ -134,13 +134,13 @@ bool take_over(Workspace& work, const System& from, std::uint32_t derived, Speci
 bool is_side_word(std::string_view word) { return is_setting_of(SettingBlock::side, word); }
 
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
-                        std::uint32_t index, std::optional<std::uint32_t> base) {
-    if (index >= work.program.systems.size()) return;  // It had errors and was not added.
+                        SystemId index, std::optional<SystemId> base) {
+    if (index == unknown_system) return;  // It had errors and was not added.
     Scope scope;
     scope.system = index;
     System& system = work.draft->systems[index];
     std::vector<SpeciesSide> own = read_side_rules(work, script, scope, block.sides);
-    if (base && *base < work.program.systems.size()) {
+    if (base && *base != unknown_system) {
         const System& from = work.program.systems[*base];
         for (SpeciesSide side : from.sides) {
             const auto species = find_species(work, index, from.item_name(side.species));

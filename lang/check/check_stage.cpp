@@ -278,7 +278,7 @@ void StageChecker::find_uniform() {
     }
 }
 
-std::uint32_t find_system(Workspace& work, const ast::Word& name) {
+SystemId find_system(Workspace& work, const ast::Word& name) {
     const auto found = work.systems.find(std::string(name.text));
     if (found != work.systems.end()) return found->second;
     if (!name.empty()) report_unknown_system(work, name);

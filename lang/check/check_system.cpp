@@ -21,7 +21,7 @@ struct RateStatements {
 
 class SystemChecker {
 public:
-    SystemChecker(Workspace& work, const DerivedSystem& derived, std::uint32_t index)
+    SystemChecker(Workspace& work, const DerivedSystem& derived, SystemId index)
         : work_(work),
           derived_(derived),
           index_(index),
@@ -56,7 +56,7 @@ private:
 
     Workspace& work_;
     const DerivedSystem& derived_;
-    std::uint32_t index_;
+    SystemId index_;
     std::vector<Declaration> declarations_;
     std::unordered_map<std::string, Span> declared_;
     IdVector<ItemId, const Declaration*> values_;
@@ -359,17 +359,16 @@ void SystemChecker::check_settings() {
 
 }  // namespace
 
-std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
-                           std::optional<std::uint32_t> base) {
+SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base) {
     const ast::Block& block = *derived.from.block;
-    const auto index = static_cast<std::uint32_t>(work.program.systems.size());
+    const SystemId index = work.program.systems.next();
     System system;
     system.name = std::string(block.name.text);
     system.span = block.name.span;
     system.built_in = derived.from.built_in;
     system.base = base;
     system.doc = block.doc;
-    const std::uint32_t number = derived.is_known ? index : unknown_system;
+    const SystemId number = derived.is_known ? index : unknown_system;
     const auto [found, is_new] = work.systems.try_emplace(system.name, number);
     if (!is_new && !block.name.empty()) {
         const bool is_known = found->second != unknown_system;
@@ -386,8 +385,7 @@ std::uint32_t check_system(Workspace& work, const DerivedSystem& derived,
     work.names.emplace_back();
     work.items_read.emplace_back();
     work.definitions_read.emplace_back();
-    work.incomplete.resize(index + 1);
-    work.incomplete[index] = block.is_damaged || (base && is_incomplete(work, *base));
+    work.incomplete.push_back(block.is_damaged || (base && is_incomplete(work, *base)));
     SystemChecker(work, derived, index).run();
     return index;
 }

@@ -20,7 +20,7 @@ struct Unread {
 std::string family_of(const std::string& name) { return name.substr(0, name.find('[')); }
 
 /// A family gets one message, and only if none of its members is read.
-std::vector<Unread> find_unread(const Workspace& work, std::uint32_t index) {
+std::vector<Unread> find_unread(const Workspace& work, SystemId index) {
     const System& system = work.program.systems[index];
     std::unordered_set<std::string> read;
     std::vector<Unread> unread;
@@ -63,7 +63,7 @@ void report_change_of_nothing(Workspace& work, const System& system, const Unrea
 }  // namespace
 
 void warn_unread(Workspace& work) {
-    for (std::uint32_t index = 0; index < work.program.systems.size(); ++index) {
+    for (const SystemId index : work.program.systems.ids()) {
         const System& system = work.program.systems[index];
         if (system.built_in) continue;
         for (const Unread& unread : find_unread(work, index)) {

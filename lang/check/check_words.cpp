@@ -41,16 +41,15 @@ const Meaning* find(const NameTable& table, std::string_view name) {
     return found == table.end() ? nullptr : &found->second;
 }
 
-std::optional<ItemId> find_species(const Workspace& work, std::uint32_t system,
-                                   std::string_view name) {
+std::optional<ItemId> find_species(const Workspace& work, SystemId system, std::string_view name) {
     const Meaning* meaning = find(work.names[system], name);
     const bool is_species = meaning != nullptr && !meaning->is_definition() &&
                             work.program.systems[system].is_species(meaning->item());
     return is_species ? std::optional(meaning->item()) : std::nullopt;
 }
 
-bool is_incomplete(const Workspace& work, std::uint32_t system) {
-    return system < work.incomplete.size() && work.incomplete[system];
+bool is_incomplete(const Workspace& work, SystemId system) {
+    return system < work.incomplete.next() && work.incomplete[system];
 }
 
 bool is_hopeless(const Workspace& work) {
@@ -164,12 +163,12 @@ void report_twice(Workspace& work, Span second, Span first, std::string message)
     work.diagnostics.add(std::move(diagnostic));
 }
 
-void mark_reads(Workspace& work, const Formula& formula, std::uint32_t system) {
+void mark_reads(Workspace& work, const Formula& formula, SystemId system) {
     for (const Node& node : formula.nodes) {
         if (const auto* own = node.as<ItemId>()) work.items_read[system][*own] = true;
         if (const auto* id = node.as<DefinitionId>()) work.definitions_read[system][*id] = true;
         if (const auto* earlier = node.as<StageItem>()) {
-            const std::uint32_t other = work.program.stages[earlier->stage].system;
+            const SystemId other = work.program.stages[earlier->stage].system;
             if (other != unknown_system) work.items_read[other][earlier->item] = true;
         }
     }

@@ -61,8 +61,8 @@ bool can_be_index(Workspace& work, const ast::Word& name) {
     return false;
 }
 
-std::uint32_t number_of(const Workspace& work, const System& system) {
-    return static_cast<std::uint32_t>(&system - work.program.systems.data());
+SystemId id_of(const Workspace& work, const System& system) {
+    return SystemId(static_cast<std::size_t>(&system - work.program.systems.data()));
 }
 
 /// Collects the indices; of equal names the one of the highest level.
@@ -84,7 +84,7 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemStat
         auto index =
             can_be_index(work, each.statement->name) ? check_index(work, each) : std::nullopt;
         if (!index) {
-            work.incomplete[number_of(work, system)] = true;
+            work.incomplete[id_of(work, system)] = true;
             work.invalid_indices.push_back(each.statement->name.text);
             continue;
         }

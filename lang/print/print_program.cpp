@@ -201,10 +201,10 @@ void print_domain(const Program& program, Output out) {
 std::string print_program(const Program& program) {
     std::string text;
     const Output out = std::back_inserter(text);
-    std::vector<bool> used(program.systems.size(), program.stages.empty());
+    IdVector<SystemId, bool> used(program.systems.size(), program.stages.empty());
     for (const Stage& stage : program.stages) used[stage.system] = true;
-    for (std::size_t i = 0; i < program.systems.size(); ++i) {
-        if (used[i]) print_system(program, program.systems[i], out);
+    for (const SystemId id : program.systems.ids()) {
+        if (used[id]) print_system(program, program.systems[id], out);
     }
     print_domain(program, out);
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {

@@ -134,7 +134,7 @@ std::vector<const Formula*> formulas_of(const Program& program) {
     const auto add = [&](const Formula& formula) {
         if (!formula.nodes.empty()) formulas.push_back(&formula);
     };
-    std::vector<bool> used(program.systems.size());
+    IdVector<SystemId, bool> used(program.systems.size());
     for (const Stage& stage : program.stages) {
         if (!used[stage.system]) {
             used[stage.system] = true;

@@ -61,6 +61,7 @@ inline constexpr std::array<std::string_view, model_plane_count> model_names{
 /// Is the plane only made for formulas that read it?
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
+using SystemId = Id<struct SystemTag>;  ///< Of Program::systems.
 /// A quantity of a system, or after these `frozen` or `speed`.
 using ItemId = Id<struct ItemTag>;
 using DefinitionId = Id<struct DefinitionTag>;      ///< Of System::definitions.
@@ -265,7 +266,7 @@ struct System {
     std::string name;
     Span span;
     bool built_in = false;
-    std::optional<std::uint32_t> base;               ///< The system from which it is derived.
+    std::optional<SystemId> base;                    ///< The system from which it is derived.
     std::string doc;                                 ///< The text of its doc comment; may be empty.
     std::string title, cite, about;                  ///< Its texts; may be empty.
     std::vector<Index> indices;                      ///< Families become quantities u[1], u[2], …
@@ -295,7 +296,7 @@ struct System {
 struct Stage {
     std::string name;  ///< As written, or stage1, stage2, … by position.
     Span span;
-    std::uint32_t system = 0;
+    SystemId system;
     IdVector<ItemId, Formula> items;  ///< Starting value of every item.
     std::vector<ItemId> order;        ///< Items in an order in which each can be evaluated.
     IdVector<ItemId, bool> uniform;   ///< The same in all cells. Species never are.
@@ -405,7 +406,7 @@ private:
 };
 
 struct Program {
-    std::vector<System> systems;  ///< Built-in ones first.
+    IdVector<SystemId, System> systems;  ///< Built-in ones first.
     std::vector<Stage> stages;
     DomainSettings domain;
     std::shared_ptr<Literals> literals =

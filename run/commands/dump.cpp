@@ -58,12 +58,12 @@ std::string dump_ir(const Program& program) {
 /// The systems of the stages; if there are no stages, the script's own systems.
 std::string dump_equations(const Script& script, Notation notation) {
     const Program& program = *script.program;
-    std::vector<bool> shown(program.systems.size(), false);
+    IdVector<SystemId, bool> shown(program.systems.size(), false);
     for (const Stage& stage : program.stages) shown[stage.system] = true;
     std::vector<std::string_view> names;
-    for (std::size_t k = 0; k < program.systems.size(); ++k) {
-        const System& system = program.systems[k];
-        if (program.stages.empty() ? !system.built_in : shown[k]) names.push_back(system.name);
+    for (const SystemId id : program.systems.ids()) {
+        const System& system = program.systems[id];
+        if (program.stages.empty() ? !system.built_in : shown[id]) names.push_back(system.name);
     }
     const auto equations =
         print_equations(script.tree, script.sources, names, notation, EquationParts::all);
