@@ -102,7 +102,9 @@ private:
 
     /// The error of a step is not finite if one of its values is not.
     bool take_judged_step() {
-        if (!lengths_.take_judged_step(outcome_)) return false;
+        if (!tuner_.take_judged_step([this] { return lengths_.take_judged_step(outcome_); })) {
+            return false;
+        }
         found_finite();
         return true;
     }

@@ -40,9 +40,7 @@ void BatchTuner::end_batch(std::int64_t count, Clock::time_point now) {
 bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool look) {
     if (&problem != &stepper_.problem()) {
         stepper_.use(problem);
-        // What is known of tilings stays valid if the new passes have the same candidates.
-        auto tilings = tilings_to_try();
-        if (tilings != tile_tuner_.candidates()) tile_tuner_ = tuner_of(std::move(tilings));
+        renew_tile_tuner();
     }
     const bool is_native = !problem.is_provisional();
     // Trials time steps without the checks, and only while the number of threads is fixed.
@@ -57,6 +55,27 @@ bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool
         tile_tuner_.took(count * sweeps_of_step(), duration, time_left(of_step));
     }
     return look && is_trial ? stepper_.is_finite() : finite;
+}
+
+bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
+    // Where only a few steps are judged, the others are measured.
+    if (!schedule_.judges_all) return take();
+    const bool is_native = !stepper_.problem().is_provisional();
+    const Clock::time_point before = Clock::now();
+    if (!take()) return false;
+    const Seconds duration = Clock::now() - before;
+    if (!renew_tile_tuner() && is_native && !thread_tuner_.is_trying())
+        tile_tuner_.took(sweeps_of_step(), duration, time_left(duration));
+    return true;
+}
+
+/// Begins again if the passes have other candidates; otherwise what is known of tilings stays
+/// valid. Returns whether it began again.
+bool BatchTuner::renew_tile_tuner() {
+    auto tilings = tilings_to_try();
+    if (tilings == tile_tuner_.candidates()) return false;
+    tile_tuner_ = tuner_of(std::move(tilings));
+    return true;
 }
 
 Stepping BatchTuner::stepping() const {

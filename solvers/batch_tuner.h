@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace cascade {
@@ -31,6 +32,8 @@ public:
     /// Takes `count` steps of equal length with the passes of `problem`. Returns whether all values
     /// are finite, or true without `look`.
     bool take_steps(const StepProblem& problem, std::int64_t count, bool look);
+    /// Takes one step whose error is estimated, by that function; returns its result.
+    bool take_judged_step(const std::function<bool()>& take);
 
     int threads() const { return thread_tuner_.threads(); }
     Pace& pace() { return pace_; }
@@ -40,6 +43,7 @@ public:
 private:
     using Seconds = std::chrono::duration<double>;
 
+    bool renew_tile_tuner();
     std::vector<Tiling> tilings_to_try() const;
     TileTuner tuner_of(std::vector<Tiling> tilings) const;
     std::int64_t sweeps_of_step() const;

@@ -27,6 +27,27 @@ SweepForm error_form() {
     return form;
 }
 
+/// Lets the first sweep, which evaluates the rates at the old step, read them instead.
+void read_first_rates(Scheme& scheme, std::uint32_t first_rate) {
+    Sweep& first = scheme.sweeps.front();
+    SweepForm form = scheme.forms[first.form];
+    for (SweepOutput& output : form.outputs) {
+        for (SweepTerm& term : output.terms) {
+            if (term.source != Source::rate) continue;
+            term.source = Source::value;
+            term.input = form.inputs;
+        }
+    }
+    ++form.inputs;
+    first.inputs.push_back(first_rate);
+    const auto uses_it = [&](const Sweep& sweep) { return sweep.form == first.form; };
+    if (std::count_if(scheme.sweeps.begin(), scheme.sweeps.end(), uses_it) > 1) {
+        first.form = static_cast<std::uint32_t>(scheme.forms.size());
+        scheme.forms.emplace_back();
+    }
+    scheme.forms[first.form] = std::move(form);
+}
+
 Scheme with_lower_order(Scheme scheme) {
     Sweep error;
     error.form = static_cast<std::uint32_t>(scheme.forms.size());
@@ -52,6 +73,7 @@ Scheme with_error_estimate(Scheme scheme) {
     scheme.last_rate_register = first_rate + 1;
     scheme.error_register = first_rate + 2;
     scheme.registers += 3;
+    read_first_rates(scheme, first_rate);
     const auto forms = static_cast<std::uint32_t>(scheme.forms.size());
     scheme.forms.push_back(rate_form());
     scheme.forms.push_back(error_form());

@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// The same step, followed by one more evaluation of the rates f that estimates its error as
+/// The same step, followed by an evaluation of the rates f that estimates its error as
 ///
 ///     e = h/2 · (f(old) + f(new)) − (new − old),
 ///
@@ -19,9 +19,9 @@ namespace cascade {
 /// instead: the difference from the first-order solution that the step computes on its way (Verwer
 /// et al. 1999, section 2).
 ///
-/// The rates at `new` are the first rates of the next step, so the estimate costs one more
-/// evaluation and three more registers (`imex2`: no evaluation, one register). e is 0 where a value
-/// is frozen or held at a bound.
+/// The rates at `new` are the first rates of the next step, which reads them and does not evaluate
+/// them again. So the estimate costs a sweep without an evaluation, and three more registers
+/// (`imex2`: one). e is 0 where a value is frozen or held at a bound.
 Scheme with_error_estimate(Scheme scheme);
 
 }  // namespace cascade

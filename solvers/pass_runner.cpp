@@ -181,20 +181,24 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
 }
 
 void PassRunner::bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-                      const StepMoment& moment, bool is_near) {
+                      const StepMoment& moment, bool is_near, const RowsWritten* when_written) {
     std::visit(
-        [&](auto& arguments) { bind_as(arguments, level, pass, registers, moment, is_near); },
+        [&](auto& arguments) {
+            bind_as(arguments, level, pass, registers, moment, is_near, when_written);
+        },
         worker.arguments);
 }
 
 template <typename Number>
 void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::size_t pass_number,
-                         Registers registers, const StepMoment& moment, bool is_near) {
+                         Registers registers, const StepMoment& moment, bool is_near,
+                         const RowsWritten* when_written) {
     if (arguments.levels.size() <= number) arguments.levels.resize(number + 1);
     const StepProblem::Pass& pass = problem_.passes[pass_number];
     Level<Number>& level = arguments.levels[number];
     level.pass = pass_number;
     level.moment = moment;
+    level.when_written = when_written;
     level.uniforms = arguments.uniforms[pass_number];
     set_uniforms(level.uniforms, pass, moment);
     level.fields.clear();
@@ -227,6 +231,7 @@ void PassRunner::run_level(const Level<Number>& level, RowRange rows) const {
         for (std::size_t k = 0; k < level.results.size(); ++k) {
             if (pass.results[k].needs_halo && problem_.has_halo()) fill_halo_of(level, k, part);
         }
+        if (level.when_written != nullptr) (*level.when_written)(part);
     }
 }
 

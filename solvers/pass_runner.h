@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -31,6 +32,10 @@ struct StepMoment {
 /// The planes of every register, one for each species, in the problem's precision.
 using Registers = std::span<const std::span<Field>>;
 
+/// Called for rows that a pass has just written, while they are in the cache, by the thread that
+/// wrote them.
+using RowsWritten = std::function<void(RowRange)>;
+
 class PassRunner {
 public:
     /// Allocates temporaries. `problem` must outlive the runner.
@@ -45,6 +50,7 @@ public:
         std::vector<const Number*> fields;
         std::vector<Number*> results;
         KernelArgumentsOf<Number> given;
+        const RowsWritten* when_written = nullptr;  ///< May be null.
     };
     template <typename Number>
     struct Arguments {
@@ -78,9 +84,11 @@ public:
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
     /// Binds a pass as level `level` of the worker. Registers are read now, not later. `is_near`:
-    /// the values that it reads will be in a near cache.
+    /// the values that it reads will be in a near cache. `when_written` may be null and must
+    /// outlive the level.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
-              const StepMoment& moment, bool is_near = false);
+              const StepMoment& moment, bool is_near = false,
+              const RowsWritten* when_written = nullptr);
     /// Runs a level that is bound on some rows, and fills the halo that copies them.
     void run_rows(Worker& worker, std::size_t level, RowRange rows) const;
 
@@ -103,7 +111,8 @@ private:
                       const StepMoment& moment) const;
     template <typename Number>
     void bind_as(Arguments<Number>& arguments, std::size_t level, std::size_t pass,
-                 Registers registers, const StepMoment& moment, bool is_near);
+                 Registers registers, const StepMoment& moment, bool is_near,
+                 const RowsWritten* when_written);
     template <typename Number>
     void run_level(const Level<Number>& level, RowRange rows) const;
     template <typename Number>

@@ -80,7 +80,16 @@ void PassTeam::set_tiling(const Tiling& tiling) {
 
 void PassTeam::run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
                    const OwnRows& after) {
-    const Given given{planes, clock};
+    run({planes, clock}, first, count, after);
+}
+
+void PassTeam::run_step(StepPlanes& planes, const StageClock& clock, StepPass first,
+                        const RowsWritten& written) {
+    run({planes, clock, &written}, first, problem_->passes.size() - first.pass, nullptr);
+}
+
+void PassTeam::run(const Given& given, const StepPass& first, std::size_t count,
+                   const OwnRows& after) {
     team_.run(
         [&](int thread) {
             Worker& worker = workers_[static_cast<std::size_t>(thread)];
@@ -133,7 +142,8 @@ void PassTeam::run_together(Worker& worker, const Given& given, StepPass& next, 
         }
         // The first pass of a tile brings the data of the others into the cache.
         runner_->bind(worker.passes, number, next.pass, worker.registers, moment,
-                      tiling_.is_near && number > 0);
+                      tiling_.is_near && number > 0,
+                      next.pass + 1 == passes ? given.written_by_last : nullptr);
         go_on(next, passes);
     }
     if (count == 1) {

@@ -61,9 +61,12 @@ public:
     }
 
     /// Runs `count` passes from `first` on. Then every thread calls `after` with its own rows,
-    /// which are complete.
+    /// which are complete; `after` may be null.
     void run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
              const OwnRows& after);
+    /// Runs the passes of one step from `first` on, and calls `written` for all rows of the last.
+    void run_step(StepPlanes& planes, const StageClock& clock, StepPass first,
+                  const RowsWritten& written);
     /// Every thread calls `work` with its own rows.
     void run(const OwnRows& work);
 
@@ -76,9 +79,12 @@ private:
     struct Given {
         StepPlanes& planes;
         const StageClock& clock;
+        const RowsWritten* written_by_last =
+            nullptr;  ///< For the last pass of a step; may be null.
     };
 
     void set_tiling(const Tiling& tiling);
+    void run(const Given& given, const StepPass& first, std::size_t count, const OwnRows& after);
     void run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                     bool meets);
     std::size_t passes_together(const StepPass& next, std::size_t left) const;

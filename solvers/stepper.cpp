@@ -80,8 +80,8 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
     const std::size_t first_rate_passes = problem().first_rate_passes;
     const std::size_t first = knows_first_rates_ ? first_rate_passes : 0;
     CopyRoles roles = planes_.roles();
-    team_.run(planes_, clock_, {first, complete, roles}, problem().passes.size() - first,
-              [this](int, RowRange rows) { add_squares(rows); });
+    team_.run_step(planes_, clock_, {first, complete, roles},
+                   [this](RowRange rows) { add_squares(rows); });
     roles.go_on();
     planes_.set_roles(roles);
     knows_first_rates_ = first_rate_passes > 0;

@@ -179,7 +179,7 @@ std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reac
     const Tiling tiled = tiling_beyond_cache(problem, reach, caches);
     const bool is_small = static_cast<double>(bytes_of_step(problem)) / threads <=
                           part_of_second * static_cast<double>(caches.second);
-    if (tiled.levels == 1 || is_small || problem.error_register != 0) return tilings;
+    if (tiled.levels == 1 || is_small) return tilings;
     const auto add = [&](const Tiling& other) {
         if (std::find(tilings.begin(), tilings.end(), other) == tilings.end())
             tilings.push_back(other);
