@@ -2,6 +2,8 @@
 // Runge-Kutta-Legendre it takes the number of stages that gains the most time per stage.
 #include "run/stage/automatic_speed.h"
 
+#include "lang/program/program.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +15,13 @@ namespace {
 bool limits(double bound) { return std::isfinite(bound) && bound > 0; }
 
 }  // namespace
+
+double reaction_part_at(Solver solver, double tolerance) {
+    constexpr double most = 6;
+    const double part = reaction_part * std::pow(tolerance / StageTime::default_automatic_tolerance,
+                                                 1.0 / order_of_estimate(solver));
+    return std::min(part, is_semi_implicit(solver) ? reaction_part : most);
+}
 
 std::int64_t choose_every(Solver solver, bool by_rule) {
     return takes_long_steps(solver) && by_rule ? 10 : 100;
@@ -28,9 +37,9 @@ double stable_step(Solver solver, const RateBounds& bounds, std::uint32_t stages
     return step_safety * stability_interval(solver, stages) / bounds.whole;
 }
 
-SafeStep safe_step(Solver solver, const RateBounds& bounds, double wanted) {
+SafeStep safe_step(Solver solver, const RateBounds& bounds, double wanted, double part) {
     if (!takes_long_steps(solver)) return {std::min(wanted, stable_step(solver, bounds, 1)), 0};
-    if (limits(bounds.reaction)) wanted = std::min(wanted, reaction_part / bounds.reaction);
+    if (limits(bounds.reaction)) wanted = std::min(wanted, part / bounds.reaction);
     if (is_semi_implicit(solver)) return {wanted, 0};
     SafeStep best{0, least_stages(solver)};
     double most_per_stage = 0;

@@ -193,7 +193,8 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     const double by_time = forcing_.longest_step(state_.t);
     const double wanted =
         std::min({time.control.step, longest, stage_.time.largest_step.value_or(longest), by_time});
-    SafeStep safe = safe_step(solver, time.bounds, wanted);
+    const double part = reaction_part_at(solver, stage_.time.step_tolerance());
+    SafeStep safe = safe_step(solver, time.bounds, wanted, part);
     if (is_stabilised(solver) && time.stages >= least_stages(solver)) {
         const double same = std::min(stable_step(solver, time.bounds, time.stages), wanted);
         if (safe.length * time.stages <= worth_other_stages * same * safe.stages)

@@ -1,6 +1,8 @@
 // Steps and stages from bounds of the Jacobian.
 #include "run/stage/automatic_speed.h"
 
+#include "lang/program/program.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,6 +26,19 @@ TEST(AutomaticSpeed, StabilisedSolversStepAsTheReactionAllows) {
         EXPECT_GE(0.9 * stability_interval(solver, step.stages), step.length * 1.026);
         EXPECT_LT(0.9 * stability_interval(solver, step.stages - 2), step.length * 1.026);
     }
+}
+
+TEST(AutomaticSpeed, ReactionLimitsStepsAsToleranceDoes) {
+    constexpr double usual = StageTime::default_automatic_tolerance;
+    for (const Solver solver : {Solver::rkl1, Solver::rkl2, Solver::imex, Solver::imex2}) {
+        EXPECT_EQ(reaction_part_at(solver, usual), reaction_part) << name_of(solver);
+        // A step of half the length has 1/2^k of the error.
+        const double shorter = usual * std::pow(0.5, order_of_estimate(solver));
+        EXPECT_NEAR(reaction_part_at(solver, shorter), reaction_part / 2, 1e-12);
+    }
+    EXPECT_NEAR(reaction_part_at(Solver::rkl1, 4 * usual), 2 * reaction_part, 1e-12);
+    EXPECT_EQ(reaction_part_at(Solver::imex, 0.1), reaction_part);
+    EXPECT_LE(reaction_part_at(Solver::rkl1, 0.1), 6);
 }
 
 /// Evaluations of the rates for a unit of time.
