@@ -318,8 +318,10 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
             if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
         }
     };
-    if (!before.passes.empty()) add(before, nullptr, nullptr, {});
+    // The first rates come first, because a step that knows them leaves out its first passes.
+    const std::size_t needs_before = scheme.first_rate_register != 0 ? 1 : 0;
     for (std::size_t n = 0; n < scheme.sweeps.size(); ++n) {
+        if (n == needs_before && !before.passes.empty()) add(before, nullptr, nullptr, {});
         const Sweep& sweep = scheme.sweeps[n];
         add(plans[sweep.form], &scheme.forms[sweep.form], &sweep, moments_of_outputs(scheme, n));
     }

@@ -107,6 +107,16 @@ TEST(ChosenSteps, AreAsLongAsTheyMayWhereNothingMoves) {
     EXPECT_LT(ran.state().steps, 40);
 }
 
+/// Implicit diffusion uses the coefficient of the present step, not that of the first one.
+TEST(ChosenSteps, DoNotShrinkAsDiffusionBecomesFaster) {
+    for (const char* solver : {"imex", "imex2", "gauss"}) {
+        const Ran ran = run_text(script_of("u: random(1, 0.5); k = 0.01 + 0.1 * t; u' = k * lap(u)",
+                                           200, fmt::format("solver: {}; speed: auto", solver)));
+        EXPECT_EQ(ran.failure, "") << solver;
+        EXPECT_LT(ran.state().steps, 200) << solver;
+    }
+}
+
 /// A value that leaves a bound a little later must not depend on the method: invariants hold in
 /// every stage.
 TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
