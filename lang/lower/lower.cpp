@@ -112,8 +112,9 @@ StepPlan plan_step_invariants(const Program& program, std::uint32_t stage,
     }
     StepPlan plan = std::move(builder).finish();
     for (PassTarget& target : plan.passes.back().targets) {
-        if (target.kind != PassTarget::Kind::result) continue;
-        const NodeId node = step.step_invariants[target.index];
+        const auto* const result = std::get_if<ResultId>(&target.id);
+        if (result == nullptr) continue;
+        const NodeId node = step.step_invariants[result->index()];
         target.is_uniform = step.graph.is_uniform(node);
         target.boundary = step.graph.boundary(node);
     }

@@ -78,10 +78,9 @@ void PlanBuilder::lower(std::uint32_t pass) {
     values_ = std::make_unique<PassLowering>(view, *last_, wanted);
     for (const NodeId id : written_[pass]) {
         const std::string& name = graph_.name(id);
-        const std::uint32_t number = storage_.temporary[id].index();
-        result(name.empty() ? fmt::format("(temporary {})", number) : name, value(id)[0]);
-        plan_.passes[pass].targets.push_back(
-            {PassTarget::Kind::temporary, number, false, graph_.boundary(id)});
+        const TemporaryId target = storage_.temporary[id];
+        result(name.empty() ? fmt::format("(temporary {})", target.index()) : name, value(id)[0]);
+        plan_.passes[pass].targets.push_back({target, false, graph_.boundary(id)});
     }
     for (const NodeId id : aggregates_) {
         if (planner_.pass_of(id) != pass) continue;
@@ -104,7 +103,7 @@ StepPlan PlanBuilder::finish() && {
     close(planner_.pass_count() - 1);
     Pass& last = plan_.passes.back();
     while (last.targets.size() < last.bound.kernel.results.size()) {
-        last.targets.push_back({PassTarget::Kind::result, plan_.result_count++, false, {}});
+        last.targets.push_back({ResultId(plan_.result_count++), false, {}});
     }
     share_temporaries();
     plan_.is_uniform =
@@ -127,12 +126,13 @@ void PlanBuilder::share_temporaries() {
     std::uint32_t count = 0;
     for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
         for (PassTarget& target : plan_.passes[pass].targets) {
-            if (target.kind != PassTarget::Kind::temporary) continue;
-            const TemporaryId written(target.index);
+            auto* const temporary = std::get_if<TemporaryId>(&target.id);
+            if (temporary == nullptr) continue;
+            const TemporaryId written = *temporary;
             if (free.empty()) free.emplace_back(count++);
             plane[written] = free.back();
             free.pop_back();
-            target.index = plane[written].index();
+            *temporary = plane[written];
             freed_after[std::max(last_read[written], pass)].push_back(plane[written]);
         }
         for_each_read(plan_.passes[pass], [&](PlaneSource& source) {

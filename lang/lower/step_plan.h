@@ -25,11 +25,11 @@ struct BoundKernel {
     std::vector<ItemId> results;  ///< Of the stage; empty for views.
 };
 
+using ResultId = Id<struct ResultTag>;  ///< A result of a plan.
+
 /// The target of one result of a pass.
 struct PassTarget {
-    enum class Kind { result, temporary };
-    Kind kind = Kind::result;
-    std::uint32_t index = 0;   ///< Its number among the plan's results or temporaries.
+    std::variant<ResultId, TemporaryId> id;
     bool is_uniform = false;   ///< The same in all cells.
     Boundaries boundary = {};  ///< How the halo of a temporary or step-invariant part is filled.
 };

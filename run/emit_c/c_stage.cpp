@@ -146,12 +146,13 @@ private:
                     reduction(each.aggregate.index(), each.kind, tables_.plane(each.operand)));
             }
             for (const PassTarget& target : pass.targets) {
-                if (target.kind == PassTarget::Kind::result) {
-                    lines.results.push_back(result(target.index));
+                if (const auto* const number = std::get_if<ResultId>(&target.id)) {
+                    lines.results.push_back(result(number->index()));
                     continue;
                 }
-                lines.results.push_back(tables_.temporary(target.index));
-                if (with_halo.contains(TemporaryId(target.index))) {
+                const TemporaryId temporary = std::get<TemporaryId>(target.id);
+                lines.results.push_back(tables_.temporary(temporary.index()));
+                if (with_halo.contains(temporary)) {
                     lines.after.push_back(fill(lines.results.back(), request_.name + "_boundary"));
                 }
             }

@@ -97,9 +97,10 @@ StepInvariants find_step_invariants(const StageView& view) {
     if (found.empty()) return found;
     std::vector<Field> planes = view.evaluate(once);
     for (const PassTarget& target : once.passes.back().targets) {
-        if (target.kind != PassTarget::Kind::result) continue;
-        Field& plane = planes[target.index];
-        StepInvariant& part = found[StepInvariantId(target.index)];
+        const auto* const result = std::get_if<ResultId>(&target.id);
+        if (result == nullptr) continue;
+        Field& plane = planes[result->index()];
+        StepInvariant& part = found[StepInvariantId(result->index())];
         part.boundary = target.boundary;
         if (target.is_uniform) {
             part.number = plane.number_at(0, 0);

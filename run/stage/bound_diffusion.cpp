@@ -12,9 +12,9 @@ namespace {
 std::vector<std::uint32_t> results_to_temporaries(StepPlan& plan) {
     std::vector<std::uint32_t> planes;
     for (PassTarget& target : plan.passes.back().targets) {
-        if (target.kind != PassTarget::Kind::result) continue;
-        target = {PassTarget::Kind::temporary, plan.temporaries++};
-        planes.push_back(target.index);
+        if (!std::holds_alternative<ResultId>(target.id)) continue;
+        planes.push_back(plan.temporaries);
+        target = {TemporaryId(plan.temporaries++)};
     }
     plan.result_count = 0;
     return planes;

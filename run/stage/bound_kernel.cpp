@@ -205,29 +205,31 @@ private:
 
     StepProblem::Result bind_result(const PassTarget& target) const {
         StepProblem::Result result;
-        result.plane.number = target.index;
-        if (target.kind == PassTarget::Kind::temporary) {
+        if (const auto* const temporary = std::get_if<TemporaryId>(&target.id)) {
             result.plane.kind = PlaneRef::Kind::temporary;
-            result.needs_halo = temporary_needs_halo_[target.index];
+            result.plane.number = temporary->index();
+            result.needs_halo = temporary_needs_halo_[temporary->index()];
             result.boundary = target.boundary;
             return result;
         }
+        const std::uint32_t number = std::get<ResultId>(target.id).index();
         result.plane.kind = PlaneRef::Kind::species;
+        result.plane.number = number;
         result.plane.in_register = new_register;
         if (form_ != nullptr) {
             // Outputs in order, each for all species that are written.
             const std::size_t written =
                 form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
-            result.plane.in_register = sweep_->outputs[target.index / written];
-            result.read_at = read_at_[target.index / written];
-            const auto position = static_cast<std::uint32_t>(target.index % written);
+            result.plane.in_register = sweep_->outputs[number / written];
+            result.read_at = read_at_[number / written];
+            const auto position = static_cast<std::uint32_t>(number % written);
             result.plane.number =
                 form_->species.empty() ? position : form_->species[position].index();
             result.needs_halo = problem_.species_needs_halo[result.plane.number] &&
                                 halo_registers_[result.plane.in_register];
             return result;
         }
-        result.needs_halo = system_ != nullptr && problem_.species_needs_halo[target.index];
+        result.needs_halo = system_ != nullptr && problem_.species_needs_halo[number];
         return result;
     }
 

@@ -83,7 +83,8 @@ TEST(Plan, PlanesAreUsedAgain) {
     for (const Pass& pass : plan.passes) {
         std::set<std::uint32_t> written;
         for (const PassTarget& target : pass.targets) {
-            if (target.kind == PassTarget::Kind::temporary) written.insert(target.index);
+            const auto* const temporary = std::get_if<TemporaryId>(&target.id);
+            if (temporary != nullptr) written.insert(temporary->index());
         }
         for (const PlaneSource& source : pass.bound.fields) {
             const auto* const read = std::get_if<TemporaryId>(&source);
