@@ -5,11 +5,31 @@
 
 namespace cascade {
 
-/// Collapses edges shorter than `shortest` to their midpoints, in order of their faces, if that
-/// preserves the shape of the surface: the link condition holds (T. Dey et al., "Topology
-/// Preserving Edge Contraction", Publ. Inst. Math. Beograd 66, 1999), no triangle rotates by more
-/// than 75°, and no edge becomes longer than `longest`. The mesh must be closed, without double
-/// edges.
-void collapse_edges(HalfEdges& mesh, double shortest, double longest);
+/// What is known of vertices that have merged. Keeps rims, corners and tips where they are, which
+/// midpoints would wear away.
+class MergedVertices {
+public:
+    explicit MergedVertices(const HalfEdges& mesh);
+
+    /// An end of an edge, or its midpoint: where the sum of the squared distances from the planes
+    /// of all triangles that have merged there, weighted by their areas, is least (M. Garland and
+    /// P. Heckbert, "Surface Simplification Using Quadric Error Metrics", SIGGRAPH 1997).
+    Vector3d place(const HalfEdges& mesh, VertexHandle a, VertexHandle b) const;
+    void merge(VertexHandle stays, VertexHandle goes);
+
+    /// The vertex that is left where each one was, by index.
+    std::vector<std::uint32_t> left() const;
+
+private:
+    std::vector<PlaneQuadric> planes_;  ///< Of the triangles at each vertex.
+    std::vector<std::uint32_t> into_;
+};
+
+/// Collapses edges shorter than `shortest`, in order of their faces, to their midpoints or to the
+/// places that `merged` says, if that preserves the shape of the surface: the link condition holds
+/// (T. Dey et al., "Topology Preserving Edge Contraction", Publ. Inst. Math. Beograd 66, 1999), no
+/// triangle rotates by more than 75°, and no edge becomes longer than `longest`. Boundaries stay.
+void collapse_edges(HalfEdges& mesh, double shortest, double longest,
+                    MergedVertices* merged = nullptr);
 
 }  // namespace cascade

@@ -5,6 +5,8 @@
 #include "mesh/surface_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+// Needs what the kernel includes.
+#include <OpenMesh/Core/Geometry/QuadricT.hh>
 
 #include <limits>
 #include <span>
@@ -28,6 +30,9 @@ using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
+
+/// The sum of the squared distances of a point from planes.
+using PlaneQuadric = OpenMesh::Geometry::Quadricd;
 
 /// The largest number of faces: half-edges, up to six per face, have indices of type `int`.
 inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;

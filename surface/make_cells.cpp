@@ -3,6 +3,7 @@
 
 #include "core/counted.h"
 #include "core/with_commas.h"
+#include "surface/cells_by_copy.h"
 #include "surface/face_cells.h"
 #include "surface/scatter.h"
 #include "surface/vertex_cells.h"
@@ -85,6 +86,10 @@ Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& opti
     if (options.anisotropy) {
         Result<void> fine = check_anisotropy(mesh, *options.anisotropy);
         if (!fine) return tl::unexpected(fine.error());
+    }
+    if (is_fine(mesh, options)) {
+        Result<SurfaceCells> cells = cells_by_copy(mesh, options, team, cancel);
+        if (cells) return cells;
     }
     std::vector<SurfacePlace> places =
         scatter(mesh, static_cast<std::size_t>(options.count), options.seed);

@@ -95,7 +95,8 @@ std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_
 
 }  // namespace
 
-std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed) {
+std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed,
+                                  const std::vector<double>& component_areas) {
     const std::vector<std::uint32_t> components = connected_components(mesh);
     const std::vector<std::uint32_t> order = in_order(mesh, components);
     std::vector<double> sums;       // Running sums of areas in that order, within each component.
@@ -108,7 +109,8 @@ std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, st
     ends.push_back(order.size());
     std::vector<double> areas;
     for (const std::size_t end : ends) areas.push_back(sums[end - 1]);
-    const std::vector<std::size_t> shares = shared_out(areas, count);
+    const std::vector<std::size_t> shares =
+        shared_out(component_areas.empty() ? areas : component_areas, count);
 
     std::vector<SurfacePlace> places;
     places.reserve(count);

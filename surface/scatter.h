@@ -11,7 +11,9 @@ namespace cascade {
 /// Random places, in numbers proportional to area, with at least one in each component of the
 /// surface if there are as many places as components. Each component is divided into strips of
 /// equal area, one for each of its places, in the order of its triangles along a Morton curve, so
-/// that places with near indices are near each other. A pure function of its arguments.
-std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed);
+/// that places with near indices are near each other. Components share places by
+/// `component_areas`, or by their own if it is empty. A pure function of its arguments.
+std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed,
+                                  const std::vector<double>& component_areas = {});
 
 }  // namespace cascade

@@ -1,0 +1,19 @@
+// Coarse copies of surfaces, for work that does not need their finest details.
+#pragma once
+
+#include "core/result.h"
+#include "mesh/surface_mesh.h"
+
+namespace cascade {
+
+struct CoarseCopy {
+    SurfaceMesh mesh;
+    /// For each point of the original, the point of the copy into which it has merged.
+    std::vector<std::uint32_t> merged;
+};
+
+/// The surface with its short edges collapsed until most are about as long as `edge`; it keeps its
+/// components, handles and boundaries. Fails as half_edges() does. Throws std::bad_alloc.
+Result<CoarseCopy> coarse_copy(const SurfaceMesh& mesh, double edge);
+
+}  // namespace cascade
