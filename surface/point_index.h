@@ -3,7 +3,6 @@
 
 #include "core/vector3.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -36,7 +35,7 @@ public:
         for (std::int32_t dz = -half; dz <= half; ++dz) {
             for (std::int32_t dy = -half; dy <= half; ++dy) {
                 for (std::int32_t dx = -half; dx <= half; ++dx) {
-                    const Box box = {middle[0] + dx, middle[1] + dy, middle[2] + dz};
+                    const Box box = {middle.x + dx, middle.y + dy, middle.z + dz};
                     const std::size_t slot = slot_of(box);
                     for (std::uint32_t k = starts_[slot]; k < starts_[slot + 1]; ++k) {
                         if (entries_[k].box == box) look_at(entries_[k]);
@@ -47,17 +46,23 @@ public:
     }
 
 private:
-    using Box = std::array<std::int32_t, 3>;
+    /// Compared number by number: compilers make a call of memcmp() of the comparison of arrays.
+    struct Box {
+        std::int32_t x = 0, y = 0, z = 0;
+        friend bool operator==(const Box& a, const Box& b) {
+            return ((a.x ^ b.x) | (a.y ^ b.y) | (a.z ^ b.z)) == 0;
+        }
+    };
     struct Entry {
-        Box box{};
+        Box box;
         std::uint32_t number = 0;
         Vector3d point;
     };
     Box box_of(Vector3d p) const;
     std::size_t slot_of(const Box& box) const {
-        std::uint32_t hash = static_cast<std::uint32_t>(box[0]) * 0x9e3779b1u;
-        hash = (hash ^ static_cast<std::uint32_t>(box[1])) * 0x85ebca77u;
-        hash = (hash ^ (hash >> 15) ^ static_cast<std::uint32_t>(box[2])) * 0xc2b2ae3du;
+        std::uint32_t hash = static_cast<std::uint32_t>(box.x) * 0x9e3779b1u;
+        hash = (hash ^ static_cast<std::uint32_t>(box.y)) * 0x85ebca77u;
+        hash = (hash ^ (hash >> 15) ^ static_cast<std::uint32_t>(box.z)) * 0xc2b2ae3du;
         return (hash ^ (hash >> 16)) & mask_;
     }
 
