@@ -39,6 +39,7 @@ public:
 
 private:
     Result<void> prepare();
+    Result<void> check_places(Folders folders);
     Result<void> make_simulation();
     Result<void> run_stages();
     Result<StageEnd> run_stage(std::uint32_t stage);
@@ -78,22 +79,18 @@ Result<void> Runner::prepare() {
     auto painter = Painter::create(script_, request_.picture);
     if (!painter) return tl::unexpected(painter.error());
     painter_ = std::move(*painter);
-    // Making the cells of a model takes a while, so outputs are checked before it, too.
-    if (script_.program->domain.model) {
-        if (auto good = check_outputs(request_, outputs_); !good) return good;
-    }
-    if (auto made = make_simulation(); !made || !simulation_) return made;
     if (!request_.log.expressions.empty()) {
         auto log = RunLog::create(script_, request_.log);
         if (!log) return tl::unexpected(log.error());
         log_ = std::move(*log);
     }
-    // Folders are created last, so that a run that is refused leaves none.
-    if (auto good = check_outputs(request_, outputs_); !good) return good;
-    if (!request_.save.empty()) {
-        if (auto good = check_savable(request_.save, script_); !good) return good;
+    // Making the cells of a model takes a while, so what is written is checked before it, too.
+    if (script_.program->domain.model) {
+        if (auto good = check_places(Folders::tried); !good) return good;
     }
-    if (auto good = check_folders(request_); !good) return good;
+    if (auto made = make_simulation(); !made || !simulation_) return made;
+    // Folders are created last, so that a run that is refused leaves none.
+    if (auto good = check_places(Folders::made); !good) return good;
     if (!request_.frames.empty()) {
         auto frames = earlier_frames(request_.frames, script_, !request_.resume.empty());
         if (!frames) return tl::unexpected(frames.error());
@@ -107,6 +104,15 @@ Result<void> Runner::prepare() {
     keep_while_running();
     if (request_.resume.empty()) return {};
     return restore_run(request_.resume, script_, *simulation_);
+}
+
+/// Checks all places to which the run will write.
+Result<void> Runner::check_places(Folders folders) {
+    if (auto good = check_outputs(request_, outputs_); !good) return good;
+    if (!request_.save.empty()) {
+        if (auto good = check_savable(request_.save, script_); !good) return good;
+    }
+    return check_folders(request_, folders);
 }
 
 /// Saves the run periodically, so that it can be resumed if it is killed. An error of writing does
@@ -132,6 +138,7 @@ void Runner::keep_while_running() {
 Result<void> Runner::make_simulation() {
     SimulationOptions options = request_.simulation;
     options.control = &control_;
+    if (request_.model_files.bake > 0) options.check_model = check_bakeable;
     auto made = Simulation::create(script_, options);
     if (!made && control_.cancel && !script_.diagnostics.has_errors()) {
         report_.status = RunStatus::cancelled;
@@ -140,9 +147,6 @@ Result<void> Runner::make_simulation() {
     }
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
-    if (request_.model_files.bake > 0) {
-        if (auto good = check_bakeable(simulation_->model()->mesh); !good) return good;
-    }
     return check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
                               request_.simulation.memory_limit);
 }

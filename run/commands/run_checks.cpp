@@ -103,12 +103,23 @@ Result<void> check_outputs(const RunRequest& request,
                                twice[1].what, twice->path.string()));
 }
 
-Result<void> check_folders(const RunRequest& request) {
+Result<void> check_folders(const RunRequest& request, Folders folders) {
     for (const auto& folder : {request.frames, request.save}) {
         if (folder.empty()) continue;
-        if (auto made = make_folder(folder); !made) return made;
-        if (auto good = check_writable(folder / "run.json"); !good) return good;
-        remove_dead_temporaries(folder);
+        std::error_code error;
+        std::vector<std::filesystem::path> missing;
+        for (auto above = std::filesystem::absolute(folder, error);
+             above.has_relative_path() && !std::filesystem::exists(above, error);
+             above = above.parent_path()) {
+            missing.push_back(above);
+        }
+        Result<void> good = make_folder(folder);
+        if (good) good = check_writable(folder / "run.json");
+        if (good) remove_dead_temporaries(folder);
+        if (folders == Folders::tried) {
+            for (const auto& made : missing) std::filesystem::remove(made, error);
+        }
+        if (!good) return good;
     }
     return {};
 }

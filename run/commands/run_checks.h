@@ -24,8 +24,9 @@ Result<void> check_request(Script& script, const RunRequest& request);
 /// removes temporary files of killed runs.
 Result<void> check_outputs(const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
-/// Creates the folders, and tests them for writing.
-Result<void> check_folders(const RunRequest& request);
+/// Creates the folders, and tests them for writing. Those that are tried are removed again.
+enum class Folders { tried, made };
+Result<void> check_folders(const RunRequest& request, Folders folders);
 
 /// Refuses pictures that do not fit into memory; `memory` is what the run needs without them, in
 /// bytes.

@@ -93,32 +93,47 @@ void read_of_model(Script& script, const Node& node, Function function, const Mo
     files.add({function, text_of(node)}, *std::move(plane));
 }
 
-}  // namespace
-
-Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
-    InputFiles files;
-    // Each text is looked up once, and its error is reported once.
+/// Calls `read(function, text)` for each text that the script's formulas read, once.
+template <typename Read>
+void each_text_read(const Script& script, const Read& read) {
     std::set<NamedPlane> known;
     const auto read_of = [&](const Formula& formula) {
         for (const Node& node : formula.nodes) {
             if (!node.is<Call>() || !reads_file(node.function)) continue;
             const Node& text = formula.nodes[node.operands[0]];
-            if (!known.insert({node.function, text_of(text)}).second) continue;
-            if (node.function == Function::field) {
-                read_one(script, text, files);
-            } else if (node.function == Function::image) {
-                read_image(script, text, files);
-            } else {
-                CHECK(model != nullptr,
-                      "only scripts on models read what points and textures have");
-                read_of_model(script, text, node.function, *model, files);
-            }
+            if (known.insert({node.function, text_of(text)}).second) read(node.function, text);
         }
     };
     if (script.program->domain.mask) read_of(script.program->domain.mask->formula);
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         for (const Formula& formula : script.program->stages[k].items) read_of(formula);
     }
+}
+
+}  // namespace
+
+Result<void> check_attributes(Script& script, const SurfaceMesh& mesh) {
+    each_text_read(script, [&](Function function, const Node& text) {
+        if (function != Function::attr) return;
+        const auto found = find_attribute(script.program->literals->text(text_of(text)), mesh);
+        if (!found) script.diagnostics.error(text.span, found.error().message, found.error().hint);
+    });
+    if (script.diagnostics.has_errors()) return failure("the script's files cannot be used");
+    return {};
+}
+
+Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
+    InputFiles files;
+    each_text_read(script, [&](Function function, const Node& text) {
+        if (function == Function::field) {
+            read_one(script, text, files);
+        } else if (function == Function::image) {
+            read_image(script, text, files);
+        } else {
+            CHECK(model != nullptr, "only scripts on models read what points and textures have");
+            read_of_model(script, text, function, *model, files);
+        }
+    });
     if (script.diagnostics.has_errors()) return failure("the script's files cannot be used");
     return files;
 }

@@ -36,6 +36,10 @@ private:
     std::map<NamedPlane, Field> planes_;
 };
 
+/// Checks that a model's points have all that attr() reads in the mask or a starting value; if not,
+/// there are diagnostics at the text in the script.
+Result<void> check_attributes(Script& script, const SurfaceMesh& mesh);
+
 /// Reads every file that the mask or a starting value names, relative to the script's folder, and
 /// the values that starting values take from the points and the texture of a model (null on a
 /// grid). A missing file, a wrong type, a shape other than the grid's, and a name that the model

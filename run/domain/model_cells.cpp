@@ -176,6 +176,9 @@ public:
         model_->repairs = std::move(made->repairs);
         model_->up = settings_.up;
         for (Vector3d& point : model_->mesh.points) point = turned_upright(point, settings_.up);
+        if (access.check) {
+            if (auto good = access.check(model_->mesh); !good) return tl::unexpected(good.error());
+        }
         if (auto spread = spread_cells(access.cache); !spread)
             return tl::unexpected(spread.error());
         if (control_.cancel) return std::shared_ptr<const ModelCells>();

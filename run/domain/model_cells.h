@@ -13,6 +13,7 @@
 #include "surface/surface_cells.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -58,6 +59,8 @@ struct ModelAccess {
     ReadAccess reads;
     bool is_asked_for = false;    ///< Named on the command line: the file may lie anywhere.
     std::filesystem::path cache;  ///< Where spread cells are kept; empty: nowhere.
+    /// Refuses a model, upright, before its cells are made; may be empty.
+    std::function<Result<void>(const SurfaceMesh&)> check = {};
 };
 
 /// Reads or makes the model, spreads its cells and links them. Fails on a file that cannot be used,

@@ -136,14 +136,10 @@ void SurfaceValues::make_curvatures() {
     planes_[ModelPlane::curvature_gauss] = in_cells(gauss, unit * unit);
 }
 
-Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
-                              Precision precision) {
+Result<const PointAttribute*> find_attribute(const std::string& name, const SurfaceMesh& mesh) {
     std::vector<std::string> names;
-    for (const PointAttribute& attribute : model.mesh.attributes) {
-        if (attribute.name == name) {
-            return field_of_cells(values_at(model.mesh, attribute.values, model.cells.places),
-                                  model, precision);
-        }
+    for (const PointAttribute& attribute : mesh.attributes) {
+        if (attribute.name == name) return &attribute;
         names.push_back(attribute.name);
     }
     const std::string near = nearest_name(name, names);
@@ -151,6 +147,14 @@ Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                    !near.empty()   ? fmt::format("did you mean '{}'?", near)
                    : names.empty() ? std::string("they have no attributes")
                                    : fmt::format("they have {}", fmt::join(names, ", ")));
+}
+
+Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
+                              Precision precision) {
+    const auto attribute = find_attribute(name, model.mesh);
+    if (!attribute) return tl::unexpected(attribute.error());
+    return field_of_cells(values_at(model.mesh, (*attribute)->values, model.cells.places), model,
+                          precision);
 }
 
 Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,

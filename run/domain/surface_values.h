@@ -50,8 +50,10 @@ private:
     std::map<ModelPlane, Field> planes_;
 };
 
-/// attr("name") in the cells, interpolated linearly between points. Fails if the points of the
-/// model have no attribute of that name.
+/// The values that attr("name") reads. Fails if the points of the model have none of that name.
+Result<const PointAttribute*> find_attribute(const std::string& name, const SurfaceMesh& mesh);
+
+/// attr("name") in the cells, interpolated linearly between points. Fails as find_attribute() does.
 Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                               Precision precision);
 

@@ -59,10 +59,18 @@ Result<void> make_cells(Environment& here, Script& script, const SimulationOptio
                         RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
     Team makers(here.threads);
+    bool is_refused = false;  // By a check, which says why.
+    const auto check = [&](const SurfaceMesh& mesh) {
+        Result<void> good = options.check_model ? options.check_model(mesh) : Result<void>();
+        if (good) good = check_attributes(script, mesh);
+        is_refused = !good;
+        return good;
+    };
     const ModelAccess access{script.folder, script.overrides.reads,
-                             script.overrides.model_is_asked_for, options.cell_cache};
+                             script.overrides.model_is_asked_for, options.cell_cache, check};
     auto made = make_model_cells(*here.program, access, makers, control);
     if (control.cancel) return failure("stopped while the cells of the model were made");
+    if (is_refused) return tl::unexpected(made.error());
     if (!made) {
         script.diagnostics.error(here.program->domain.model->span, made.error().message,
                                  made.error().hint);

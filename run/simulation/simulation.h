@@ -41,6 +41,8 @@ struct SimulationOptions {
     std::shared_ptr<TieredBackend> stepper = nullptr;
     /// Receives progress while the cells of a model are made, and may cancel it; may be null.
     RunControl* control = nullptr;
+    /// Refuses a model before its cells are made; may be empty.
+    std::function<Result<void>(const SurfaceMesh&)> check_model = {};
     TimeAccount* account = nullptr;  ///< Receives the times spent; may be null.
     std::filesystem::path cell_cache =
         {};  ///< The folder in which cells of models are kept; empty: none.

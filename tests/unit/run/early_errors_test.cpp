@@ -1,0 +1,71 @@
+// Errors that are known before the cells of a model are made are reported before that.
+#include "run/commands/run.h"
+#include "run/script/script.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace cascade {
+namespace {
+
+struct Refusal {
+    std::string messages;
+    bool made_cells = false;
+};
+
+Refusal refusal_of(const std::string& start, const std::function<void(RunRequest&)>& ask) {
+    const std::string text =
+        "domain { surface: implicit(1 - x^2 - y^2 - z^2, 2); cells: 50 }\nsystem s { u: " + start +
+        "\n u' = lap(u) }\nstage one: s { iterations: 1 }\n";
+    Script script = load_script("test", text, ".", {});
+    Refusal refusal;
+    RunControl control;
+    control.report = [&](const Progress& progress) {
+        refusal.made_cells |= progress.doing.starts_with("spreading");
+    };
+    RunRequest request;
+    request.simulation.backend = BackendKind::interpreter;
+    request.outputs = {std::filesystem::temp_directory_path() / "early_errors.npz"};
+    ask(request);
+    const auto report = run(script, request, control);
+    EXPECT_FALSE(report);
+    refusal.messages = script.messages(false);
+    if (!report) refusal.messages += report.error().message;
+    return refusal;
+}
+
+void expect_early(const Refusal& refusal, const std::string& message) {
+    EXPECT_FALSE(refusal.made_cells) << message;
+    EXPECT_NE(refusal.messages.find(message), std::string::npos) << refusal.messages;
+}
+
+TEST(EarlyErrors, ComeBeforeCellsAreMade) {
+    expect_early(refusal_of("1", [](RunRequest& r) { r.frames = "/proc/frames"; }),
+                 "/proc/frames cannot be made");
+    expect_early(refusal_of("1", [](RunRequest& r) { r.save = "/proc/saved"; }),
+                 "/proc/saved cannot be made");
+    expect_early(refusal_of("1", [](RunRequest& r) { r.log.expressions = {"mean(u over"}; }),
+                 "<--log>");
+    expect_early(refusal_of("attr(\"weight\")", [](RunRequest&) {}),
+                 "the model's points have no 'weight'");
+    expect_early(refusal_of("1",
+                            [](RunRequest& r) {
+                                r.model_files.bake = 64;
+                                r.outputs[0].replace_extension(".glb");
+                            }),
+                 "no texture coordinates to paint by");
+}
+
+TEST(EarlyErrors, LeaveNoFolders) {
+    const auto folder = std::filesystem::temp_directory_path() / "cascade_early" / "saved";
+    std::filesystem::remove_all(folder.parent_path());
+    const Refusal refusal = refusal_of("attr(\"weight\")", [&](RunRequest& r) { r.save = folder; });
+    expect_early(refusal, "have no 'weight'");
+    EXPECT_FALSE(std::filesystem::exists(folder.parent_path()));
+}
+
+}  // namespace
+}  // namespace cascade
