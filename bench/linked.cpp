@@ -86,8 +86,10 @@ public:
         StepProblem::Pass& pass = problem_.passes.emplace_back();
         using Kind = StepProblem::PlaneRef::Kind;
         pass.kernel = *kernel;
-        pass.fields = {{Kind::species, 0, 0}, {Kind::species, 1, 0}, {Kind::fixed, 0, 0, &beta_}};
-        pass.results = {{{Kind::species, 0, 1}}, {{Kind::species, 1, 1}}};
+        pass.fields = {{Kind::species, 0, old_register},
+                       {Kind::species, 1, old_register},
+                       {Kind::fixed, 0, {}, &beta_}};
+        pass.results = {{{Kind::species, 0, new_register}}, {{Kind::species, 1, new_register}}};
         pass.uniforms = {double{parameters.step}, double{parameters.s},
                          double{parameters.diffusion_u}, double{parameters.diffusion_v}};
         problem_.grid = grid_;

@@ -16,6 +16,11 @@ namespace cascade {
 
 using SpeciesId = Id<struct SpeciesTag>;  ///< Of a system, counted from its first species.
 
+/// A register holds the planes of all species at one moment or intermediate point. The old step is
+/// in the first register, the second one gets the new step, and the others are scratch.
+using RegisterId = Id<struct RegisterTag>;
+inline constexpr RegisterId old_register{0}, new_register{1}, first_scratch_register{2};
+
 /// A term of an output, for each species in turn.
 struct SweepTerm {
     enum class Source : std::uint8_t {
@@ -78,10 +83,6 @@ struct SweepForm {
     friend bool operator==(const SweepForm&, const SweepForm&) = default;
 };
 
-/// A register holds the planes of all species at one moment or intermediate point. Register 0 is
-/// the old step, 1 becomes the new one, further ones are scratch.
-inline constexpr std::uint32_t old_register = 0, new_register = 1;
-
 /// The factor of a wave that diffusion changes at the rate M ≤ 0 in a step of length h.
 enum class WaveResponse : std::uint8_t {
     implicit,     ///< 1 / (1 − h M): diffusion as it is at the end of the step.
@@ -90,19 +91,19 @@ enum class WaveResponse : std::uint8_t {
 
 /// Multiplies every wave of all species in a register by its response.
 struct SweepFilter {
-    std::uint32_t in_register = 0;
+    RegisterId in_register;
     WaveResponse response = WaveResponse::implicit;
     double part = 1;  ///< h as a fraction of the time step.
 };
 
 /// One sweep of a scheme: a form with its arguments.
 struct Sweep {
-    std::uint32_t form = 0;              ///< Index of the form in its scheme.
-    std::optional<SweepFilter> filter;   ///< Applied before the sweep.
-    std::vector<std::uint32_t> inputs;   ///< Register of each input.
-    std::vector<std::uint32_t> outputs;  ///< Register of each output, which may be that of an
-                                         ///< input that is only read in the cell itself.
-    /// Species with an index below this are read from register 1 wherever input 0 is read.
+    std::uint32_t form = 0;             ///< Index of the form in its scheme.
+    std::optional<SweepFilter> filter;  ///< Applied before the sweep.
+    std::vector<RegisterId> inputs;     ///< Register of each input.
+    std::vector<RegisterId> outputs;    ///< Register of each output, which may be that of an
+                                        ///< input that is only read in the cell itself.
+    /// Species with an index below this are read from the new register wherever input 0 is read.
     std::uint32_t renewed = 0;
     struct Coefficient {
         double value = 0;

@@ -28,7 +28,7 @@ SweepForm error_form() {
 }
 
 /// Lets the first sweep, which evaluates the rates at the old step, read them instead.
-void read_first_rates(Scheme& scheme, std::uint32_t first_rate) {
+void read_first_rates(Scheme& scheme, RegisterId first_rate) {
     Sweep& first = scheme.sweeps.front();
     SweepForm form = scheme.forms[first.form];
     for (SweepOutput& output : form.outputs) {
@@ -52,27 +52,25 @@ Scheme with_lower_order(Scheme scheme) {
     Sweep error;
     error.form = static_cast<std::uint32_t>(scheme.forms.size());
     error.time = 1;
-    error.inputs = {new_register, scheme.lower_order_register};
-    error.outputs = {scheme.registers};
+    error.inputs = {new_register, *scheme.lower_order_register};
+    scheme.error_register = scheme.add_register();
+    error.outputs = {*scheme.error_register};
     SweepForm form;
     form.inputs = 2;
     form.base_input = 1;
     form.outputs = {{SweepOutput::Kind::change, {{Source::difference, 0}}}};
     scheme.forms.push_back(std::move(form));
     scheme.sweeps.push_back(std::move(error));
-    scheme.error_register = scheme.registers++;
     return scheme;
 }
 
 }  // namespace
 
 Scheme with_error_estimate(Scheme scheme) {
-    if (scheme.lower_order_register != 0) return with_lower_order(std::move(scheme));
-    const std::uint32_t first_rate = scheme.registers;
-    scheme.first_rate_register = first_rate;
-    scheme.last_rate_register = first_rate + 1;
-    scheme.error_register = first_rate + 2;
-    scheme.registers += 3;
+    if (scheme.lower_order_register) return with_lower_order(std::move(scheme));
+    const RegisterId first_rate = scheme.add_register(), last_rate = scheme.add_register();
+    scheme.rate_registers = {first_rate, last_rate};
+    scheme.error_register = scheme.add_register();
     read_first_rates(scheme, first_rate);
     const auto forms = static_cast<std::uint32_t>(scheme.forms.size());
     scheme.forms.push_back(rate_form());
@@ -85,7 +83,7 @@ Scheme with_error_estimate(Scheme scheme) {
     error.form = forms + 1;
     error.time = 1;
     error.inputs = {new_register, old_register, first_rate};
-    error.outputs = {scheme.error_register, scheme.last_rate_register};
+    error.outputs = {*scheme.error_register, last_rate};
     error.coefficients = {{0.5, true}, {0.5, true}, {-1, false}};
     scheme.sweeps.push_back(std::move(error));
     return scheme;

@@ -68,7 +68,7 @@ template <typename Number>
 const Number* PassRunner::read(const StepProblem::PlaneRef& ref, Registers registers) const {
     switch (ref.kind) {
         case StepProblem::PlaneRef::Kind::species:
-            return registers[ref.in_register][ref.number].template origin<Number>();
+            return registers[ref.in_register.index()][ref.number].template origin<Number>();
         case StepProblem::PlaneRef::Kind::temporary:
             return temporaries_[ref.number].template origin<Number>();
         case StepProblem::PlaneRef::Kind::fixed: break;
@@ -80,7 +80,8 @@ template <typename Number>
 Number* PassRunner::written(const StepProblem::PlaneRef& ref, Registers registers) {
     CHECK(ref.kind != StepProblem::PlaneRef::Kind::fixed, "no pass writes a fixed plane");
     const bool is_species = ref.kind == StepProblem::PlaneRef::Kind::species;
-    Field& field = is_species ? registers[ref.in_register][ref.number] : temporaries_[ref.number];
+    Field& field =
+        is_species ? registers[ref.in_register.index()][ref.number] : temporaries_[ref.number];
     return field.template origin<Number>();
 }
 
@@ -148,7 +149,7 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
         }
     }
     std::vector<Number*> planes;
-    for (Field& field : registers[filter.in_register]) {
+    for (Field& field : registers[filter.in_register.index()]) {
         planes.push_back(field.template origin<Number>());
     }
     std::get<std::optional<WaveFilter<Number>>>(wave_filters_)

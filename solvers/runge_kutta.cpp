@@ -5,8 +5,10 @@
 #include "solvers/runge_kutta.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace cascade {
@@ -46,10 +48,10 @@ public:
 private:
     /// Stage 0 is the old step. The stage after the last is the new step, which overwrites stage 1
     /// cell by cell unless rates are evaluated there.
-    std::uint32_t register_of(std::uint32_t stage) const {
+    RegisterId register_of(std::uint32_t stage) const {
         if (stage == 0) return old_register;
         if (stage == tableau_.b.size()) return new_register;
-        return tableau_.b.size() == 2 ? stage + 1 : stage;
+        return RegisterId(tableau_.b.size() == 2 ? stage + 1 : stage);
     }
 
     const std::vector<double>& row_of(std::uint32_t stage) const {
@@ -110,7 +112,7 @@ private:
 class EmbeddedScheme {
 public:
     explicit EmbeddedScheme(const ButcherTableau& tableau)
-        : tableau_(tableau), rate_register_(tableau.b.size(), 0) {}
+        : tableau_(tableau), rate_register_(tableau.b.size()) {}
 
     Scheme build() && {
         const auto stages = static_cast<std::uint32_t>(tableau_.b.size());
@@ -118,16 +120,12 @@ public:
         add_second_state();
         for (std::uint32_t stage = 1; stage < stages; ++stage) add_stage(stage);
         add_error();
-        scheme_.registers = next_register_;
         return std::move(scheme_);
     }
 
 private:
-    /// Two registers for the states of stages, which are swapped; the rates follow.
-    static constexpr std::uint32_t first_state = 2, first_rate = 4;
-
-    static std::uint32_t state_register(std::uint32_t stage) {
-        return stage == 0 ? old_register : first_state + stage % 2;
+    RegisterId state_register(std::uint32_t stage) const {
+        return stage == 0 ? old_register : state_registers_[stage % 2];
     }
 
     /// The row that gives the state after a stage: the next stage's, or that of the new step.
@@ -150,22 +148,22 @@ private:
             if (weights[j] == 0) continue;
             output.terms.push_back(
                 {Source::value, form.inputs++, Weight::coefficient, form.coefficients++});
-            sweep.inputs.push_back(rate_register_[j]);
+            sweep.inputs.push_back(*rate_register_[j]);
             sweep.coefficients.push_back({weights[j], true});
         }
     }
 
-    void keep_rate(SweepForm& form, Sweep& sweep, std::uint32_t in_register) const {
+    /// Returns the register of the rate.
+    RegisterId keep_rate(SweepForm& form, Sweep& sweep) {
         form.outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
-        sweep.outputs.push_back(in_register);
+        return sweep.outputs.emplace_back(scheme_.add_register());
     }
 
     void add_first_rate() {
         SweepForm form;
         Sweep sweep;
         sweep.inputs = {old_register};
-        scheme_.first_rate_register = rate_register_[0] = next_register_++;
-        keep_rate(form, sweep, rate_register_[0]);
+        rate_register_[0] = keep_rate(form, sweep);
         add(scheme_, std::move(form), std::move(sweep));
     }
 
@@ -177,7 +175,7 @@ private:
         form.coefficients = 1;
         form.outputs = {{SweepOutput::Kind::state,
                          {{Source::value, 1, Weight::coefficient, 0}, {Source::value, 0}}}};
-        sweep.inputs = {old_register, rate_register_[0]};
+        sweep.inputs = {old_register, *rate_register_[0]};
         sweep.outputs = {state_register(1)};
         sweep.coefficients = {{tableau_.a[1][0], true}};
         add(scheme_, std::move(form), std::move(sweep));
@@ -197,10 +195,7 @@ private:
         state.terms.push_back({Source::value, form.base_input});
         form.outputs.push_back(std::move(state));
         sweep.outputs = {is_last ? new_register : state_register(stage + 1)};
-        if (is_read_later(stage)) {
-            rate_register_[stage] = next_register_++;
-            keep_rate(form, sweep, rate_register_[stage]);
-        }
+        if (is_read_later(stage)) rate_register_[stage] = keep_rate(form, sweep);
         add(scheme_, std::move(form), std::move(sweep));
     }
 
@@ -216,17 +211,17 @@ private:
         add_kept_rates(form, sweep, error, tableau_.error);
         error.terms.push_back(own_rate(form, sweep, tableau_.error.back()));
         form.outputs = {std::move(error)};
-        scheme_.error_register = next_register_++;
-        sweep.outputs = {scheme_.error_register};
-        scheme_.last_rate_register = next_register_++;
-        keep_rate(form, sweep, scheme_.last_rate_register);
+        scheme_.error_register = scheme_.add_register();
+        sweep.outputs = {*scheme_.error_register};
+        scheme_.rate_registers = {*rate_register_[0], keep_rate(form, sweep)};
         add(scheme_, std::move(form), std::move(sweep));
     }
 
     const ButcherTableau& tableau_;
     Scheme scheme_;
-    std::vector<std::uint32_t> rate_register_;  ///< By stage; 0 if the rate is not kept.
-    std::uint32_t next_register_ = first_rate;
+    /// The states of stages are in the two in turn.
+    std::array<RegisterId, 2> state_registers_{scheme_.add_register(), scheme_.add_register()};
+    std::vector<std::optional<RegisterId>> rate_register_;  ///< By stage; none if it is not kept.
 };
 
 }  // namespace

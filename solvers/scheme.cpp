@@ -49,12 +49,13 @@ Scheme symplectic(std::uint32_t species, bool by_item) {
     return scheme;
 }
 
-/// Registers of Runge-Kutta-Legendre: 0, and two for stages in turn. The last stage is in 1,
-/// because stage j may overwrite stage j − 2 cell by cell.
-std::uint32_t place_of_stage(std::uint32_t j, std::uint32_t stages) {
-    return j == 0 ? old_register : new_register + (stages - j) % 2;
+/// The register of the state after part j of a step: the old one, then two in turn, because part j
+/// may overwrite part j − 2 cell by cell. The last part is the new step.
+RegisterId register_of_part(std::uint32_t j, std::uint32_t parts) {
+    if (j == 0) return old_register;
+    return (parts - j) % 2 == 0 ? new_register : first_scratch_register;
 }
-constexpr std::uint32_t legendre_registers = 3;
+constexpr std::uint32_t registers_of_parts = 3;
 
 /// Y₁ = Y₀ + μ̃₁ τ L(Y₀).
 SweepForm first_legendre_form() {
@@ -82,17 +83,17 @@ SweepForm rkl1_form() {
 Scheme rkl1(std::uint32_t stages) {
     const double s = stages, w = 2 / (s * s + s);
     Scheme scheme;
-    scheme.registers = legendre_registers;
+    scheme.registers = registers_of_parts;
     scheme.forms = {first_legendre_form(), rkl1_form()};
     for (std::uint32_t j = 1; j <= stages; ++j) {
         const double n = j;
         Sweep sweep;
         sweep.form = j == 1 ? 0 : 1;
         sweep.time = (n * n - n) / (s * s + s);
-        sweep.inputs = {place_of_stage(j - 1, stages)};
-        sweep.outputs = {place_of_stage(j, stages)};
+        sweep.inputs = {register_of_part(j - 1, stages)};
+        sweep.outputs = {register_of_part(j, stages)};
         if (j > 1) {
-            sweep.inputs.push_back(place_of_stage(j - 2, stages));
+            sweep.inputs.push_back(register_of_part(j - 2, stages));
             sweep.coefficients.push_back({(n - 1) / n, false});
         }
         sweep.coefficients.push_back({(2 * n - 1) / n * w, true});
@@ -156,9 +157,9 @@ SweepForm rkl2_form(bool second) {
 
 /// The register after those of stages holds L(Y₀).
 Scheme rkl2(std::uint32_t stages) {
-    constexpr std::uint32_t rates_register = legendre_registers;
     Scheme scheme;
-    scheme.registers = rates_register + 1;
+    scheme.registers = registers_of_parts;
+    const RegisterId rates_register = scheme.add_register();
     scheme.forms = {first_legendre_form(), rkl2_form(true), rkl2_form(false)};
     scheme.forms[0].outputs.push_back({SweepOutput::Kind::change, {{Source::rate}}});
     for (std::uint32_t j = 1; j <= stages; ++j) {
@@ -166,14 +167,14 @@ Scheme rkl2(std::uint32_t stages) {
         Sweep sweep;
         sweep.form = std::min(j - 1, 2U);
         sweep.time = rkl2_time(j - 1, stages);
-        sweep.inputs = {place_of_stage(j - 1, stages)};
-        sweep.outputs = {place_of_stage(j, stages)};
+        sweep.inputs = {register_of_part(j - 1, stages)};
+        sweep.outputs = {register_of_part(j, stages)};
         if (j > 1) {
             sweep.inputs.push_back(old_register);
             sweep.coefficients.push_back({stage.mu, false});
         }
         if (j > 2) {
-            sweep.inputs.push_back(place_of_stage(j - 2, stages));
+            sweep.inputs.push_back(register_of_part(j - 2, stages));
             sweep.coefficients.push_back({stage.nu, false});
         }
         sweep.coefficients.push_back({stage.mu_tilde, true});
@@ -196,7 +197,7 @@ std::size_t Scheme::evaluations() const {
     const auto count = std::count_if(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) {
         return forms[sweep.form].uses_rates();
     });
-    return static_cast<std::size_t>(count) - (first_rate_register != 0 ? 1 : 0);
+    return static_cast<std::size_t>(count) - (rate_registers ? 1 : 0);
 }
 
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages) {
@@ -222,21 +223,17 @@ SweepForm rate_form() {
     return form;
 }
 
-/// Registers: 0, and two for parts in turn; the last part is in 1.
 Scheme make_substeps(std::uint32_t count) {
     CHECK(count >= 2, "a step has parts");
     Scheme scheme = euler(false);
-    scheme.registers = 3;
-    const auto place = [&](std::uint32_t part) {
-        return part == 0 ? old_register : new_register + (count - part) % 2;
-    };
+    scheme.registers = registers_of_parts;
     scheme.sweeps.clear();
     for (std::uint32_t part = 0; part < count; ++part) {
         Sweep sweep;
         sweep.time = static_cast<double>(part) / count;
         sweep.coefficients = {{1.0 / count, true}};
-        sweep.inputs = {place(part)};
-        sweep.outputs = {place(part + 1)};
+        sweep.inputs = {register_of_part(part, count)};
+        sweep.outputs = {register_of_part(part + 1, count)};
         scheme.sweeps.push_back(std::move(sweep));
     }
     return scheme;

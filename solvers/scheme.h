@@ -9,24 +9,31 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cascade {
+
+/// Of a method whose last rate is the first rate of the next step ("first same as last").
+struct RateRegisters {
+    RegisterId first, last;
+
+    friend bool operator==(RateRegisters, RateRegisters) = default;
+};
 
 struct Scheme {
     std::uint32_t registers = 2;
     std::vector<SweepForm> forms;
     std::vector<Sweep> sweeps;  ///< In order; one of the last writes the new step.
-    /// The register of an estimate of the step's error, of the order order_of() in the length of
-    /// the step; 0: the scheme has none.
-    std::uint32_t error_register = 0;
-    /// The register that holds a solution of lower order once the step is complete; 0 for none.
-    std::uint32_t lower_order_register = 0;
-    /// For methods whose last rate is the first rate of the next step ("first same as last"): sweep
-    /// 0 only writes the first rate, and the last sweep writes the last one. In a step that follows
-    /// another the two registers are swapped and sweep 0 is left out. 0 for none.
-    std::uint32_t first_rate_register = 0, last_rate_register = 0;
+    /// An estimate of the step's error, of the order order_of() in the length of the step.
+    std::optional<RegisterId> error_register;
+    /// A solution of lower order once the step is complete.
+    std::optional<RegisterId> lower_order_register;
+    /// If set, sweep 0 only writes the first rate, and the last sweep writes the last one. In a
+    /// step that follows another the two registers are swapped and sweep 0 is left out.
+    std::optional<RateRegisters> rate_registers;
 
+    RegisterId add_register() { return RegisterId(registers++); }
     /// Evaluations of the rates in a step that follows another.
     std::size_t evaluations() const;
 };

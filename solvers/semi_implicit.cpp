@@ -29,9 +29,8 @@ SweepForm sum_form(std::uint32_t changes) {
 }  // namespace
 
 Scheme one_filter(WaveResponse response) {
-    constexpr std::uint32_t change = 2;
     Scheme scheme;
-    scheme.registers = 3;
+    const RegisterId change = scheme.add_register();
     scheme.forms = {rate_form(), sum_form(1)};
     Sweep rate, sum;
     rate.inputs = {old_register};
@@ -46,10 +45,10 @@ Scheme one_filter(WaveResponse response) {
 }
 
 Scheme rosenbrock() {
-    constexpr std::uint32_t first = 2, state = 3, second = 4;
     const double gamma = 1 - 1 / std::sqrt(2.0);
     Scheme scheme;
-    scheme.registers = 5;
+    const RegisterId first = scheme.add_register(), state = scheme.add_register(),
+                     second = scheme.add_register();
     scheme.lower_order_register = state;
     // f − 2 k₁: inputs are the state, then k₁.
     SweepForm second_rate = rate_form();

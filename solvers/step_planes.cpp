@@ -35,14 +35,15 @@ void StepPlanes::take_back(std::vector<Field>& from) {
 }
 
 void StepPlanes::make_registers(std::uint32_t count) {
-    while (scratch_.size() + first_scratch < count) {
+    while (scratch_.size() + first_scratch_register.index() < count) {
         std::vector<Field>& planes = scratch_.emplace_back();
         for (std::size_t s = 0; s < species_; ++s) planes.emplace_back(layout_, precision_);
     }
 }
 
-void StepPlanes::exchange(std::uint32_t one, std::uint32_t other) {
-    std::swap(scratch_[one - first_scratch], scratch_[other - first_scratch]);
+void StepPlanes::exchange(RegisterId one, RegisterId other) {
+    const std::uint32_t first = first_scratch_register.index();
+    std::swap(scratch_[one.index() - first], scratch_[other.index() - first]);
 }
 
 void StepPlanes::list(CopyRoles roles, std::vector<std::span<Field>>& registers) {

@@ -60,18 +60,16 @@ public:
     /// Makes planes for this number of registers, the old and the new step included.
     void make_registers(std::uint32_t count);
     /// The planes of a scratch register.
-    const std::vector<Field>& scratch(std::uint32_t number) const {
-        return scratch_[number - first_scratch];
+    const std::vector<Field>& scratch(RegisterId id) const {
+        return scratch_[id.index() - first_scratch_register.index()];
     }
     /// Swaps two scratch registers.
-    void exchange(std::uint32_t one, std::uint32_t other);
+    void exchange(RegisterId one, RegisterId other);
 
     /// Lists the planes of all registers of a step: the old step, the new one, then scratch.
     void list(CopyRoles roles, std::vector<std::span<Field>>& registers);
 
 private:
-    static constexpr std::uint32_t first_scratch = 2;
-
     void check(const Field& field) const;
 
     PlaneLayout layout_;

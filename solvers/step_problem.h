@@ -6,8 +6,8 @@
 #include "ir/backend.h"
 #include "ir/diffusion.h"
 #include "ir/reduction.h"
-#include "ir/sweep_form.h"
 #include "solvers/changing_side.h"
+#include "solvers/scheme.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,7 +28,7 @@ struct StepProblem {
         };
         Kind kind = Kind::fixed;
         std::uint32_t number = 0;
-        std::uint32_t in_register = 0;
+        RegisterId in_register;
         const Field* field = nullptr;
     };
 
@@ -88,15 +88,13 @@ struct StepProblem {
     std::int64_t cells_inside = 0;
     Precision precision = Precision::single;
     std::vector<Pass> passes;  ///< In order; at least one.
-    /// A register is the planes of all species at one moment: 0 is the old step, 1 becomes the new
-    /// one, and further registers are scratch.
     std::uint32_t registers = 2;
-    std::uint32_t error_register = 0;  ///< An estimate of the step's error; 0 for none.
-    /// The number of passes at the start that only write the rates of the old step to
-    /// `first_rate_register`. `last_rate_register` gets the rates of the new step: after a step the
-    /// two registers are swapped, and those passes are left out. 0 for none.
+    std::optional<RegisterId> error_register;  ///< An estimate of the step's error.
+    /// The number of passes at the start that only write the first of the rate registers, with the
+    /// rates of the old step. The last one gets the rates of the new step: after a step the two are
+    /// swapped, and those passes are left out. 0 for none.
     std::size_t first_rate_passes = 0;
-    std::uint32_t first_rate_register = 0, last_rate_register = 0;
+    std::optional<RateRegisters> rate_registers;
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
     std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.

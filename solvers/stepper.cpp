@@ -36,7 +36,7 @@ void Stepper::use(const StepProblem& problem) {
     const StepProblem& before = team_.problem();
     if (&problem == &before) return;
     knows_first_rates_ = knows_first_rates_ && problem.first_rate_passes > 0 &&
-                         problem.first_rate_register == before.first_rate_register;
+                         problem.rate_registers == before.rate_registers;
     planes_.make_registers(problem.registers);
     team_.use(problem);
 }
@@ -97,8 +97,8 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
 }
 
 void Stepper::accept() {
-    if (problem().first_rate_passes == 0) return;
-    planes_.exchange(problem().first_rate_register, problem().last_rate_register);
+    const std::optional<RateRegisters>& rates = problem().rate_registers;
+    if (rates) planes_.exchange(rates->first, rates->last);
 }
 
 /// Sums the squares of some rows of the step just computed.

@@ -52,7 +52,7 @@ public:
     void accept();
     /// The planes of the error estimate, one for each species.
     const std::vector<Field>& error_planes() const {
-        return planes_.scratch(problem().error_register);
+        return planes_.scratch(*problem().error_register);
     }
 
 private:

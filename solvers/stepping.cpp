@@ -11,7 +11,7 @@ namespace cascade {
 namespace {
 
 /// Is each step checked before the next one begins?
-bool is_judged(const StepProblem& problem) { return problem.error_register != 0; }
+bool is_judged(const StepProblem& problem) { return problem.error_register.has_value(); }
 
 /// The reason why steps are taken one by one; empty if there is none.
 std::string hindrance(const StepProblem& problem) {

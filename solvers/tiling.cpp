@@ -110,7 +110,9 @@ std::int64_t bytes_of_step(const StepProblem& problem) {
     std::set<const std::uint8_t*> masks;
     const auto add = [&](const PlaneRef& ref) {
         switch (ref.kind) {
-            case PlaneRef::Kind::species: species.emplace(ref.in_register, ref.number); break;
+            case PlaneRef::Kind::species:
+                species.emplace(ref.in_register.index(), ref.number);
+                break;
             case PlaneRef::Kind::temporary: temporaries.emplace(0, ref.number); break;
             case PlaneRef::Kind::fixed: fixed.insert(ref.field); break;
         }
@@ -120,8 +122,8 @@ std::int64_t bytes_of_step(const StepProblem& problem) {
         for (const StepProblem::Result& result : pass.results) {
             add(result.plane);
             // A plane written as the new step is read as the old one.
-            if (result.plane.in_register == 1) {
-                add({PlaneRef::Kind::species, result.plane.number, 0, nullptr});
+            if (result.plane.in_register == new_register) {
+                add({PlaneRef::Kind::species, result.plane.number, old_register, nullptr});
             }
         }
         masks.insert(pass.masks.begin(), pass.masks.end());

@@ -71,7 +71,9 @@ private:
         if (plane.in_register == old_register) return fmt::format("s->species[{}]", plane.number);
         if (plane.in_register == new_register) return fmt::format("s->next[{}]", plane.number);
         return fmt::format("s->scratch[{}]",
-                           (plane.in_register - 2) * system_.species_count() + plane.number);
+                           (plane.in_register.index() - first_scratch_register.index()) *
+                                   system_.species_count() +
+                               plane.number);
     }
     /// The rules at the sides of a plane that is read at neighbours and is not a species of this
     /// step.
@@ -245,7 +247,7 @@ private:
         const auto no_kernel = [](const CellKernel&) { return KernelPointer(); };
         const StepProblem problem =
             bind_scheme(request_.scheme, plans, {}, no_kernel, places.context(), system_, k_);
-        result_.scratch_registers = problem.registers - 2;
+        result_.scratch_registers = problem.registers - first_scratch_register.index();
         result_.step_aggregates = problem.aggregates;
         for (std::size_t species = 0; species < system_.species_count(); ++species) {
             if (!problem.species_needs_halo[species]) continue;

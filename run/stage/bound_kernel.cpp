@@ -75,7 +75,9 @@ public:
     /// By species: is it read at neighbours? Other plans of the same step may need more.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
     /// By register of the scheme: does any sweep read it at neighbours?
-    void set_halo_registers(const std::vector<bool>& registers) { halo_registers_ = registers; }
+    void set_halo_registers(const IdVector<RegisterId, bool>& registers) {
+        halo_registers_ = registers;
+    }
 
     StepProblem bind(const Compile& compile) {
         problem_.grid = context_.grid;
@@ -121,7 +123,7 @@ private:
     }
 
     /// The plane of a species that rates read.
-    std::uint32_t register_of(std::uint32_t species) const {
+    RegisterId register_of(std::uint32_t species) const {
         if (sweep_ == nullptr) return old_register;
         return species < sweep_->renewed ? new_register : sweep_->inputs[0];
     }
@@ -242,13 +244,13 @@ private:
     std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
     StepProblem problem_;
     std::vector<bool> temporary_needs_halo_;
-    std::vector<bool> halo_registers_;
+    IdVector<RegisterId, bool> halo_registers_;
 };
 
 /// The registers at which rates are evaluated: those of stages, the old step, and the new one,
 /// which becomes the old one. Kept rates and errors are only read in the cell itself.
-std::vector<bool> halo_registers(const Scheme& scheme) {
-    std::vector<bool> registers(scheme.registers, false);
+IdVector<RegisterId, bool> halo_registers(const Scheme& scheme) {
+    IdVector<RegisterId, bool> registers(scheme.registers, false);
     registers[old_register] = registers[new_register] = true;
     for (const Sweep& sweep : scheme.sweeps) registers[sweep.inputs[0]] = true;
     return registers;
@@ -275,7 +277,7 @@ namespace {
 std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number) {
     const std::span<const Sweep> later(scheme.sweeps.begin() + number + 1, scheme.sweeps.end());
     std::vector<double> moments;
-    for (const std::uint32_t output : scheme.sweeps[number].outputs) {
+    for (const RegisterId output : scheme.sweeps[number].outputs) {
         const auto reads = [&](const Sweep& sweep) { return sweep.inputs[0] == output; };
         const auto writes = [&](const Sweep& sweep) {
             return std::find(sweep.outputs.begin(), sweep.outputs.end(), output) !=
@@ -321,13 +323,13 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         }
     };
     // The first rates come first, because a step that knows them leaves out its first passes.
-    const std::size_t needs_before = scheme.first_rate_register != 0 ? 1 : 0;
+    const std::size_t needs_before = scheme.rate_registers ? 1 : 0;
     for (std::size_t n = 0; n < scheme.sweeps.size(); ++n) {
         if (n == needs_before && !before.passes.empty()) add(before, nullptr, nullptr, {});
         const Sweep& sweep = scheme.sweeps[n];
         add(plans[sweep.form], &scheme.forms[sweep.form], &sweep, moments_of_outputs(scheme, n));
     }
-    const std::vector<bool> with_halo = halo_registers(scheme);
+    const IdVector<RegisterId, bool> with_halo = halo_registers(scheme);
     for (std::size_t n = 0; n < binders.size(); ++n) {
         binders[n].species_needs_halo() = whole.species_needs_halo;
         binders[n].set_halo_registers(with_halo);
@@ -338,12 +340,11 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
         for (StepProblem::Pass& pass : part.passes) whole.passes.push_back(std::move(pass));
     }
-    if (scheme.first_rate_register != 0) {
+    if (scheme.rate_registers) {
         const StepPlan& first = plans[scheme.sweeps[0].form];
         if (rates_go_on(first)) {
             whole.first_rate_passes = first.passes.size();
-            whole.first_rate_register = scheme.first_rate_register;
-            whole.last_rate_register = scheme.last_rate_register;
+            whole.rate_registers = scheme.rate_registers;
         }
     }
     return whole;

@@ -48,8 +48,8 @@ const Field& plane_of(const PlaneSource& source, const BindingContext& context);
 /// Creates a kernel that can be run.
 using Compile = std::function<KernelPointer(const CellKernel&)>;
 
-/// The passes of a plan with all slots bound. Species of `stage` are those of register 0, and
-/// results go to register 1, in order. The halo of planes that do not change is filled here.
+/// The passes of a plan with all slots bound. Species of `stage` are those of the old register,
+/// and results go to the new one, in order. The halo of planes that do not change is filled here.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage);
 
@@ -60,7 +60,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
                         const BindingContext& context, const System& system, std::uint32_t stage);
 
 /// The passes of a plan that is not part of a stage's steps: it reads no registers, and results go
-/// to register 1.
+/// to the new one.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context);
 
 /// The name of species number `species`.

@@ -36,7 +36,7 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     const Stage& stage = program.stages[k];
     const std::uint32_t species = program.system_of(k).species_count();
     Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
-    if (stage.time.automatic_speed && scheme.error_register == 0) {
+    if (stage.time.automatic_speed && !scheme.error_register) {
         scheme = with_error_estimate(std::move(scheme));
     }
     std::uint32_t temporaries = plans.start(k).temporaries;

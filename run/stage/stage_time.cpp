@@ -139,7 +139,7 @@ const StepProblem& StageTimer::problem_of(std::uint32_t stages, bool is_judged) 
     Scheme scheme = is_split
                         ? make_substeps(stages)
                         : make_scheme(stage_.time.solver, species_, steps_by_item(stage_), stages);
-    if (is_judged && scheme.error_register == 0) scheme = with_error_estimate(std::move(scheme));
+    if (is_judged && !scheme.error_register) scheme = with_error_estimate(std::move(scheme));
     return problems_.emplace(key, tools_.bind(scheme)).first->second;
 }
 

@@ -18,7 +18,7 @@ PlaneKey key_of(const StepProblem::PlaneRef& plane) {
     using Kind = StepProblem::PlaneRef::Kind;
     const bool is_species = plane.kind == Kind::species, is_fixed = plane.kind == Kind::fixed;
     return {static_cast<int>(plane.kind), is_fixed ? 0 : plane.number,
-            is_species ? plane.in_register : 0, is_fixed ? plane.field : nullptr};
+            is_species ? plane.in_register.index() : 0, is_fixed ? plane.field : nullptr};
 }
 
 /// Links of a cell, on average.

@@ -66,7 +66,7 @@ private:
 
 /// The slot of a plane that does not change.
 inline StepProblem::PlaneRef fixed_plane(const Field& field) {
-    return {StepProblem::PlaneRef::Kind::fixed, 0, 0, &field};
+    return {StepProblem::PlaneRef::Kind::fixed, 0, {}, &field};
 }
 
 /// A step of one pass whose slot k is species k, all read at neighbours.
@@ -77,8 +77,8 @@ inline StepProblem make_problem(const Grid& grid, int species, KernelPointer ker
     problem.grid = grid;
     using Kind = StepProblem::PlaneRef::Kind;
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(species); ++k) {
-        pass.fields.push_back({Kind::species, k, 0, nullptr});
-        pass.results.push_back({{Kind::species, k, 1, nullptr}, true});
+        pass.fields.push_back({Kind::species, k, old_register, nullptr});
+        pass.results.push_back({{Kind::species, k, new_register, nullptr}, true});
     }
     problem.species_needs_halo.assign(static_cast<std::size_t>(species), true);
     return problem;

@@ -27,7 +27,7 @@ public:
 
     /// Takes a step and stays at the old one; accept() goes on to the new one.
     void attempt(double step) {
-        const bool has_first_rate = scheme_.first_rate_register != 0 && knows_first_rate_;
+        const bool has_first_rate = scheme_.rate_registers && knows_first_rate_;
         for (std::size_t k = has_first_rate ? 1 : 0; k < scheme_.sweeps.size(); ++k) {
             run(scheme_.sweeps[k], step);
         }
@@ -36,7 +36,9 @@ public:
     }
     void accept() {
         registers_[old_register] = registers_[new_register];
-        std::swap(registers_[scheme_.first_rate_register], registers_[scheme_.last_rate_register]);
+        if (const auto& rates = scheme_.rate_registers) {
+            std::swap(registers_[rates->first], registers_[rates->last]);
+        }
         time_ += step_;
     }
     /// Evaluates the first rate of each step anew.
@@ -49,7 +51,7 @@ public:
 
     const PlainState& state() const { return registers_[old_register]; }
     const PlainState& attempted() const { return registers_[new_register]; }
-    const PlainState& error() const { return registers_[scheme_.error_register]; }
+    const PlainState& error() const { return registers_[*scheme_.error_register]; }
     double time() const { return time_; }
 
 private:
@@ -65,7 +67,7 @@ private:
             ++evaluations_;
         }
         std::vector<PlainState> inputs;
-        for (const std::uint32_t input : sweep.inputs) inputs.push_back(registers_[input]);
+        for (const RegisterId input : sweep.inputs) inputs.push_back(registers_[input]);
         std::vector<std::size_t> species;
         for (const SpeciesId id : form.species) species.push_back(id.index());
         if (species.empty()) {
@@ -98,7 +100,7 @@ private:
     Scheme scheme_;
     PlainRates rates_;
     double speed_;
-    std::vector<PlainState> registers_;
+    IdVector<RegisterId, PlainState> registers_;
     double time_ = 0, step_ = 0;
     bool knows_first_rate_ = false;
     int evaluations_ = 0;

@@ -62,7 +62,7 @@ TEST(Scheme, EvaluatesTheRatesAsOftenAsItMust) {
         EXPECT_EQ(scheme.evaluations(), expected) << name_of(solver);
         SchemeRunner runner(scheme, swing, {{0.0}, {1.0}});
         for (int n = 0; n < 10; ++n) runner.step(0.1);
-        const std::size_t first = scheme.first_rate_register != 0 ? 1 : 0;
+        const std::size_t first = scheme.rate_registers ? 1 : 0;
         EXPECT_EQ(runner.evaluations(), static_cast<int>(10 * expected + first)) << name_of(solver);
     }
     EXPECT_EQ(make_scheme(Solver::symplectic, 3, true).evaluations(), 3u);
@@ -98,20 +98,19 @@ TEST(Scheme, StepsWithoutAnErrorKeepFewPlanes) {
          {Solver::rk2, Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1, Solver::rkl2}) {
         const Scheme scheme = make_scheme(solver, 1, false, 9);
         for (const Sweep& sweep : scheme.sweeps) {
-            if (scheme.error_register == 0 && solver != Solver::rkl2) {
+            if (!scheme.error_register && solver != Solver::rkl2) {
                 EXPECT_EQ(sweep.outputs.size(), 1u) << name_of(solver);
             }
             if (solver == Solver::rkl1) {
                 EXPECT_LE(sweep.inputs.size(), 2u);
             }
-            for (const std::uint32_t output : sweep.outputs) {
+            for (const RegisterId output : sweep.outputs) {
                 EXPECT_NE(output, sweep.inputs[0]) << name_of(solver);
                 EXPECT_NE(output, old_register) << name_of(solver);
-                EXPECT_LT(output, scheme.registers) << name_of(solver);
+                EXPECT_LT(output.index(), scheme.registers) << name_of(solver);
             }
         }
-        EXPECT_EQ(scheme.sweeps.back().outputs[0],
-                  scheme.error_register != 0 ? scheme.error_register : new_register);
+        EXPECT_EQ(scheme.sweeps.back().outputs[0], scheme.error_register.value_or(new_register));
     }
 }
 

@@ -58,7 +58,7 @@ TEST(SteppingTest, PassesThatNeedAllCellsBeginATile) {
 
 TEST(SteppingTest, StepsThatMayBeTakenBackAreTakenOneByOne) {
     StepProblem problem = five_passes({});
-    problem.error_register = 2;
+    problem.error_register = first_scratch_register;
     const Stepping tiled = stepping_with(problem, levels(16), 16, 2);
     EXPECT_EQ(tiled.sweeps_at_once, 5);
     EXPECT_EQ(tiled.meetings, 2);

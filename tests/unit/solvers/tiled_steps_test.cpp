@@ -189,9 +189,10 @@ private:
     /// A plane that the step has written, one of the old step, or the fixed one.
     PlaneRef some_plane() {
         const std::int64_t choice = dice_.below(6);
-        if (choice == 0) return {Kind::fixed, 0, 0, &fixed_};
+        if (choice == 0) return {Kind::fixed, 0, {}, &fixed_};
         if (choice < 3 || written_.empty()) {
-            return {Kind::species, static_cast<std::uint32_t>(dice_.below(species_)), 0, nullptr};
+            return {Kind::species, static_cast<std::uint32_t>(dice_.below(species_)), old_register,
+                    nullptr};
         }
         return written_[static_cast<std::size_t>(
             dice_.below(static_cast<std::int64_t>(written_.size())))];
@@ -202,13 +203,13 @@ private:
     void add_pass(bool is_last) {
         StepProblem::Pass pass;
         const bool to_temporary = !is_last && problem_.temporaries > 0 && dice_.often();
-        const auto target = static_cast<std::uint32_t>(
+        const RegisterId target(
             is_last || problem_.registers == 2 ? 1 : 1 + dice_.below(problem_.registers - 1));
         const std::uint32_t results = to_temporary ? problem_.temporaries : species_;
         for (std::uint32_t k = 0; k < results; ++k) {
             StepProblem::Result result;
             result.plane = {to_temporary ? Kind::temporary : Kind::species, k,
-                            to_temporary ? 0 : target, nullptr};
+                            to_temporary ? RegisterId() : target, nullptr};
             result.needs_halo = true;
             result.boundary = problem_.grid.boundary;
             pass.results.push_back(result);
@@ -228,7 +229,7 @@ private:
             pass.changing = {{StepProblem::ChangingUniform::Kind::time, 0, 0, 0.5, false}};
         pass.kernel = std::make_shared<SumKernel<Number>>(own_only, problem_.grid.stencil());
         if (dice_.below(8) == 0) {
-            pass.reductions = {{ReductionKind::sum, {Kind::species, 0, 0, nullptr}, 0}};
+            pass.reductions = {{ReductionKind::sum, {Kind::species, 0, old_register, nullptr}, 0}};
             pass.changing = {{StepProblem::ChangingUniform::Kind::aggregate, 0, 0, 0, false}};
             problem_.aggregates = 1;
         }
