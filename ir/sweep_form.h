@@ -69,6 +69,9 @@ struct SweepForm {
     /// A value that is at a bound in input 0, and whose rate there would carry it beyond, stays at
     /// the bound whatever the terms are. For terms that were mixed with those of other cells.
     bool holds = false;
+    /// A rate that would carry a value beyond the bound that holds it counts as 0 in states, too.
+    /// For rates of negative weight, which would lift the value off its bound.
+    bool ignores_held_rates = false;
 
     /// Whether it evaluates the rates, instead of only combining earlier results.
     bool uses_rates() const {

@@ -192,6 +192,7 @@ private:
         const std::vector<double>& weights = row_after(stage);
         add_kept_rates(form, sweep, state, weights);
         state.terms.push_back(own_rate(form, sweep, weights.back()));
+        form.ignores_held_rates = weights.back() < 0;
         state.terms.push_back({Source::value, form.base_input});
         form.outputs.push_back(std::move(state));
         sweep.outputs = {is_last ? new_register : state_register(stage + 1)};

@@ -81,7 +81,7 @@ private:
                 value = plan.value(rates_[item])[0];
                 // Otherwise a method that combines or filters rates would let a cell at its bound
                 // affect others.
-                if (kind != SweepOutput::Kind::change) break;
+                if (kind != SweepOutput::Kind::change && !form_.ignores_held_rates) break;
                 if (const auto held = is_held(plan, item)) {
                     value = builder.select(*held, builder.number(0), value);
                 }

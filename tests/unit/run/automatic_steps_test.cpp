@@ -117,6 +117,24 @@ TEST(ChosenSteps, DoNotShrinkAsDiffusionBecomesFaster) {
     }
 }
 
+/// The formula of a stage of rk45 has a rate of negative weight. It must not lift values off the
+/// bound that holds them, or the error falls only with the first power of the step.
+TEST(Invariants, LeaveAdaptiveSolversTheirOrder) {
+    const auto steps = [](const char* tolerance) {
+        const Ran ran =
+            run_text(fmt::format("system s {{ a: 4; b: 4; beta: 12 + 0.4 * sin(2 * pi * x)\n"
+                                 "a' = 0.0125 * (16 - a * b) + 0.125 * lap(a)\n"
+                                 "b' = 0.0125 * (a * b - b - beta) + 0.03125 * lap(b)\n b >= 0 }}\n"
+                                 "domain {{ grid: 32, 1; precision: double }}\n"
+                                 "stage one: s {{ duration: 3000; solver: rk45; tolerance: {} }}",
+                                 tolerance));
+        EXPECT_EQ(ran.failure, "");
+        EXPECT_EQ(ran.state().species[1].number_at(8, 0), 0) << "a value is held";
+        return ran.state().steps;
+    };
+    EXPECT_LT(steps("0.00001"), 2 * steps("0.001"));
+}
+
 /// A value that leaves a bound a little later must not depend on the method: invariants hold in
 /// every stage.
 TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
