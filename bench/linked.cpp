@@ -84,12 +84,13 @@ public:
         const auto kernel = backend.compile(turing_kernel(), Stencil::linked);
         if (!kernel) std::abort();
         StepProblem::Pass& pass = problem_.passes.emplace_back();
-        using Kind = StepProblem::PlaneRef::Kind;
+        using SpeciesPlane = StepProblem::SpeciesPlane;
         pass.kernel = *kernel;
-        pass.fields = {{Kind::species, 0, old_register},
-                       {Kind::species, 1, old_register},
-                       {Kind::fixed, 0, {}, &beta_}};
-        pass.results = {{{Kind::species, 0, new_register}}, {{Kind::species, 1, new_register}}};
+        for (const SpeciesId k : ids_below<SpeciesId>(2)) {
+            pass.fields.push_back(SpeciesPlane{k, old_register});
+            pass.results.push_back({SpeciesPlane{k, new_register}});
+        }
+        pass.fields.push_back(&beta_);
         pass.uniforms = {double{parameters.step}, double{parameters.s},
                          double{parameters.diffusion_u}, double{parameters.diffusion_v}};
         problem_.grid = grid_;

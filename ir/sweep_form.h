@@ -16,6 +16,9 @@ namespace cascade {
 
 using SpeciesId = Id<struct SpeciesTag>;  ///< Of a system, counted from its first species.
 
+using TemporaryId = Id<struct TemporaryTag>;  ///< A plane that passes write for later ones.
+using AggregateId = Id<struct AggregateTag>;  ///< An aggregate of a plan.
+
 /// A register holds the planes of all species at one moment or intermediate point. The old step is
 /// in the first register, the second one gets the new step, and the others are scratch.
 using RegisterId = Id<struct RegisterTag>;

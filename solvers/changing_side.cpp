@@ -51,7 +51,7 @@ void set_values(const ChangingSide& side, SideMoment moment, const PlaneLayout& 
 
 }  // namespace
 
-void set_side_values(std::span<const ChangingSide> sides, std::size_t species, SideMoment moment,
+void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
                      const PlaneLayout& layout, RowRange rows, SideRules& rules) {
     for (const ChangingSide& side : sides) {
         if (side.species != species) continue;

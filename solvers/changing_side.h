@@ -10,6 +10,7 @@
 #include "core/precision.h"
 #include "core/side.h"
 #include "ir/backend.h"
+#include "ir/sweep_form.h"
 
 #include <cstdint>
 #include <optional>
@@ -25,7 +26,7 @@ struct SideMoment {
 };
 
 struct ChangingSide {
-    std::uint32_t species = 0;
+    SpeciesId species;
     Side side = Side::left;
     KernelPointer kernel;                     ///< One result; reads no neighbours and no places.
     Precision precision = Precision::single;  ///< The kernel's.
@@ -37,7 +38,7 @@ struct ChangingSide {
 
 /// Sets the rules of a species to a moment, for halo that is filled from these rows. Must run
 /// inside a FlushDenormals.
-void set_side_values(std::span<const ChangingSide> sides, std::size_t species, SideMoment moment,
+void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
                      const PlaneLayout& layout, RowRange rows, SideRules& rules);
 
 }  // namespace cascade

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/floating_point.h"
+#include "core/overloaded.h"
 #include "ir/draw_of_step.h"
 
 #include <algorithm>
@@ -42,7 +43,9 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
                        std::vector<double>(static_cast<std::size_t>(layout_.row_count())));
     if (problem.diffusion.empty()) return;
     std::vector<SideRules> sides;
-    for (std::size_t k = 0; k < problem.diffusion.size(); ++k) sides.push_back(problem.sides_of(k));
+    for (const SpeciesId id : ids_below<SpeciesId>(problem.diffusion.size())) {
+        sides.push_back(problem.sides_of(id));
+    }
     with_number(problem.precision, [&](auto zero) {
         std::get<std::optional<WaveFilter<decltype(zero)>>>(wave_filters_)
             .emplace(problem.grid, sides);
@@ -64,25 +67,22 @@ void PassRunner::prepare(Worker& worker, int number, int count) const {
     });
 }
 
-template <typename Number>
-const Number* PassRunner::read(const StepProblem::PlaneRef& ref, Registers registers) const {
-    switch (ref.kind) {
-        case StepProblem::PlaneRef::Kind::species:
-            return registers[ref.in_register.index()][ref.number].template origin<Number>();
-        case StepProblem::PlaneRef::Kind::temporary:
-            return temporaries_[ref.number].template origin<Number>();
-        case StepProblem::PlaneRef::Kind::fixed: break;
+const Field& PassRunner::read(const StepProblem::PlaneRef& ref, Registers registers) const {
+    if (const auto* const fixed = std::get_if<const Field*>(&ref)) return **fixed;
+    if (const auto* const temporary = std::get_if<TemporaryId>(&ref)) {
+        return temporaries_[*temporary];
     }
-    return ref.field->template origin<Number>();
+    const auto own = std::get<StepProblem::SpeciesPlane>(ref);
+    return registers[own.in_register.index()][own.species.index()];
 }
 
-template <typename Number>
-Number* PassRunner::written(const StepProblem::PlaneRef& ref, Registers registers) {
-    CHECK(ref.kind != StepProblem::PlaneRef::Kind::fixed, "no pass writes a fixed plane");
-    const bool is_species = ref.kind == StepProblem::PlaneRef::Kind::species;
-    Field& field =
-        is_species ? registers[ref.in_register.index()][ref.number] : temporaries_[ref.number];
-    return field.template origin<Number>();
+Field& PassRunner::written(const StepProblem::PlaneRef& ref, Registers registers) {
+    CHECK(!std::holds_alternative<const Field*>(ref), "no pass writes a fixed plane");
+    if (const auto* const temporary = std::get_if<TemporaryId>(&ref)) {
+        return temporaries_[*temporary];
+    }
+    const auto own = std::get<StepProblem::SpeciesPlane>(ref);
+    return registers[own.in_register.index()][own.species.index()];
 }
 
 void PassRunner::run(Worker& worker, Team& team, Registers registers, const StepMoment& moment) {
@@ -112,7 +112,7 @@ void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_
                         Team& team, Registers registers) {
     const StepProblem::Pass& pass = problem_.passes[pass_number];
     for (const StepProblem::Reduction& reduction : pass.reductions) {
-        const Number* cells = read<Number>(reduction.operand, registers);
+        const Number* cells = read(reduction.operand, registers).template origin<Number>();
         std::vector<double>& rows = row_values_[reduction.aggregate];
         for (std::int64_t row = worker.rows.begin; row < worker.rows.end; ++row) {
             rows[static_cast<std::size_t>(row)] =
@@ -128,9 +128,9 @@ void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_
         arguments.aggregates[reduction.aggregate] = value;
         for (std::size_t later = pass_number; later < problem_.passes.size(); ++later) {
             for (const StepProblem::ChangingUniform& uniform : problem_.passes[later].changing) {
-                if (uniform.kind != StepProblem::ChangingUniform::Kind::aggregate) continue;
-                if (uniform.number != reduction.aggregate) continue;
-                arguments.uniforms[later][uniform.slot] = value;
+                const auto* const id = std::get_if<AggregateId>(&uniform.value);
+                if (id == nullptr || *id != reduction.aggregate) continue;
+                arguments.uniforms[later][uniform.slot.index()] = value;
             }
         }
     }
@@ -145,7 +145,7 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
         for (std::size_t term = 0; term < diffusion_terms; ++term) {
             const StepProblem::DiffusionFactor& factor = problem_.diffusion[k][term];
             worker.symbols[k][term] =
-                factor.is_aggregate ? double{arguments.aggregates[factor.aggregate]} : factor.value;
+                factor.aggregate ? double{arguments.aggregates[*factor.aggregate]} : factor.value;
         }
     }
     std::vector<Number*> planes;
@@ -161,23 +161,19 @@ template <typename Number>
 void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::Pass& pass,
                               const StepMoment& moment) const {
     for (const StepProblem::ChangingUniform& uniform : pass.changing) {
-        Number& value = uniforms[uniform.slot];
-        switch (uniform.kind) {
-            case StepProblem::ChangingUniform::Kind::step:
-                value = static_cast<Number>(moment.complete);
-                break;
-            case StepProblem::ChangingUniform::Kind::draw:
-                value = draw_uniform<Number>(moment.complete);
-                break;
-            case StepProblem::ChangingUniform::Kind::time:
-                value = static_cast<Number>(moment.t + uniform.value * moment.length);
-                break;
-            case StepProblem::ChangingUniform::Kind::coefficient:
-                value = static_cast<Number>(uniform.times_step ? uniform.value * moment.length
-                                                               : uniform.value);
-                break;
-            case StepProblem::ChangingUniform::Kind::aggregate: break;  // Set by its reduction.
-        }
+        Number& value = uniforms[uniform.slot.index()];
+        const Overloaded set{
+            [&](StepProblem::CompleteSteps) { value = static_cast<Number>(moment.complete); },
+            [&](StepProblem::StepDraw) { value = draw_uniform<Number>(moment.complete); },
+            [&](StepProblem::MomentAt at) {
+                value = static_cast<Number>(moment.t + at.part * moment.length);
+            },
+            [&](Sweep::Coefficient by) {
+                value = static_cast<Number>(by.times_step ? by.value * moment.length : by.value);
+            },
+            [](AggregateId) {},  // Set by its reduction.
+        };
+        std::visit(set, uniform.value);
     }
 }
 
@@ -204,11 +200,11 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     set_uniforms(level.uniforms, pass, moment);
     level.fields.clear();
     for (const StepProblem::PlaneRef& ref : pass.fields) {
-        level.fields.push_back(read<Number>(ref, registers));
+        level.fields.push_back(read(ref, registers).template origin<Number>());
     }
     level.results.clear();
     for (const StepProblem::Result& result : pass.results) {
-        level.results.push_back(written<Number>(result.plane, registers));
+        level.results.push_back(written(result.plane, registers).template origin<Number>());
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
@@ -244,14 +240,14 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number, Ro
         fill_halo_from_rows(level.results[number], layout_, rules, rows.begin, rows.end);
     };
     const SideRules& rules = sides_[level.pass][number];
-    const bool is_species = result.plane.kind == StepProblem::PlaneRef::Kind::species;
-    if (!is_species || problem_.changing_sides.empty()) return fill(rules);
+    const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);
+    if (own == nullptr || problem_.changing_sides.empty()) return fill(rules);
     const StepMoment& moment = level.moment;
     const bool is_next = result.read_at == StepProblem::Result::next_step;
     const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
                           is_next ? moment.next_t : moment.t + result.read_at * moment.length};
     SideRules changed = rules;
-    set_side_values(problem_.changing_sides, result.plane.number, when, layout_, rows, changed);
+    set_side_values(problem_.changing_sides, own->species, when, layout_, rows, changed);
     fill(changed);
 }
 

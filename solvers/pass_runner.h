@@ -57,7 +57,7 @@ public:
         std::vector<Level<Number>> levels;
         std::vector<std::vector<Number>>
             uniforms;  ///< By pass; aggregates have their latest values.
-        std::vector<Number> aggregates;
+        IdVector<AggregateId, Number> aggregates;
     };
     /// The data of one thread.
     struct alignas(64) Worker {
@@ -96,10 +96,8 @@ public:
     const PlaneLayout& layout() const { return layout_; }
 
 private:
-    template <typename Number>
-    const Number* read(const StepProblem::PlaneRef& ref, Registers registers) const;
-    template <typename Number>
-    Number* written(const StepProblem::PlaneRef& ref, Registers registers);
+    const Field& read(const StepProblem::PlaneRef& ref, Registers registers) const;
+    Field& written(const StepProblem::PlaneRef& ref, Registers registers);
     template <typename Number>
     void reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number, Team& team,
                 Registers registers);
@@ -124,8 +122,8 @@ private:
     std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
     std::vector<std::vector<SideRules>>
         sides_;  ///< By pass and result, before any of them changes.
-    std::vector<Field> temporaries_;
-    std::vector<std::vector<double>> row_values_;  ///< By aggregate and row.
+    IdVector<TemporaryId, Field> temporaries_;
+    IdVector<AggregateId, std::vector<double>> row_values_;  ///< By aggregate and row.
 };
 
 }  // namespace cascade

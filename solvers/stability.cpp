@@ -163,7 +163,7 @@ private:
 
     void run_kernel() {
         for (std::size_t k = 0; k < moved_.size(); ++k) {
-            if (rates_.has_halo()) moved_[k].fill_halo(rates_.sides_of(k));
+            if (rates_.has_halo()) moved_[k].fill_halo(rates_.sides_of(SpeciesId(k)));
         }
         const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
         // White noise needs a step of some length; it cancels in differences.

@@ -14,44 +14,37 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace cascade {
 
 struct StepProblem {
-    /// A plane that a pass reads or writes.
-    struct PlaneRef {
-        enum class Kind : std::uint8_t {
-            species,    ///< Species `number` in register `in_register`.
-            temporary,  ///< Temporary `number`.
-            fixed,      ///< `field`, which does not change; of the problem's precision.
-        };
-        Kind kind = Kind::fixed;
-        std::uint32_t number = 0;
+    struct SpeciesPlane {
+        SpeciesId species;
         RegisterId in_register;
-        const Field* field = nullptr;
+        friend auto operator<=>(SpeciesPlane, SpeciesPlane) = default;
     };
+    /// A plane that a pass reads or writes. A field does not change, and is of the problem's
+    /// precision.
+    using PlaneRef = std::variant<SpeciesPlane, TemporaryId, const Field*>;
 
+    struct CompleteSteps {};  ///< When the step begins.
+    struct StepDraw {};       ///< The word of that step in draws (ir/draw_of_step.h).
+    /// t when the step begins, plus a part of its length.
+    struct MomentAt {
+        double part = 0;
+    };
     /// A uniform that is not the same in all steps.
     struct ChangingUniform {
-        enum class Kind : std::uint8_t {
-            step,         ///< Complete steps when the step begins.
-            draw,         ///< The word of that step in draws (ir/draw_of_step.h).
-            time,         ///< t when the step begins, plus `value` times its length.
-            aggregate,    ///< Aggregate `number`.
-            coefficient,  ///< `value`, times the length of the step if `times_step`.
-        };
-        Kind kind = Kind::step;
-        std::uint32_t slot = 0;
-        std::uint32_t number = 0;
-        double value = 0;
-        bool times_step = false;
+        UniformSlot slot;
+        std::variant<CompleteSteps, StepDraw, MomentAt, AggregateId, Sweep::Coefficient> value;
     };
 
     struct Reduction {
         ReductionKind kind = ReductionKind::sum;
         PlaneRef operand;
-        std::uint32_t aggregate = 0;
+        AggregateId aggregate;
     };
 
     struct Result {
@@ -66,8 +59,7 @@ struct StepProblem {
     /// A factor of a species' diffusion.
     struct DiffusionFactor {
         double value = 0;
-        bool is_aggregate = false;  ///< The factor is aggregate number `aggregate` instead.
-        std::uint32_t aggregate = 0;
+        std::optional<AggregateId> aggregate;  ///< The factor is this instead.
     };
 
     struct Pass {
@@ -121,11 +113,11 @@ struct StepProblem {
     }
     /// The rules at the sides of a plane that a pass writes.
     SideRules sides_of(const Result& result) const {
-        const bool is_species = result.plane.kind == PlaneRef::Kind::species;
-        return is_species ? sides_of(result.plane.number) : SideRules(result.boundary);
+        const auto* const own = std::get_if<SpeciesPlane>(&result.plane);
+        return own != nullptr ? sides_of(own->species) : SideRules(result.boundary);
     }
-    SideRules sides_of(std::size_t species) const {
-        return sides.empty() ? SideRules(grid.boundary) : sides[species];
+    SideRules sides_of(SpeciesId species) const {
+        return sides.empty() ? SideRules(grid.boundary) : sides[species.index()];
     }
 };
 

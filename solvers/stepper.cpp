@@ -16,7 +16,7 @@ namespace {
 std::vector<Field> with_halo(const StepProblem& problem, std::vector<Field> species) {
     CHECK(problem.species_needs_halo.size() == species.size(), "a flag for every species");
     for (std::size_t s = 0; problem.has_halo() && s < species.size(); ++s) {
-        species[s].fill_halo(problem.sides_of(s));
+        species[s].fill_halo(problem.sides_of(SpeciesId(s)));
     }
     return species;
 }

@@ -6,12 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <set>
-#include <utility>
 
 namespace cascade {
 namespace {
-
-using PlaneRef = StepProblem::PlaneRef;
 
 // A call of a kernel for fewer cells than this, halo included, costs more than it saves by keeping
 // them in a near cache. This gives three rows of 512 cells. For 1024 cells it gives one row: two
@@ -105,34 +102,23 @@ bool needs_all_rows(const StepProblem::Pass& pass) {
 }
 
 std::int64_t bytes_of_step(const StepProblem& problem) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> species, temporaries;
-    std::set<const Field*> fixed;
+    std::set<StepProblem::PlaneRef> planes;
     std::set<const std::uint8_t*> masks;
-    const auto add = [&](const PlaneRef& ref) {
-        switch (ref.kind) {
-            case PlaneRef::Kind::species:
-                species.emplace(ref.in_register.index(), ref.number);
-                break;
-            case PlaneRef::Kind::temporary: temporaries.emplace(0, ref.number); break;
-            case PlaneRef::Kind::fixed: fixed.insert(ref.field); break;
-        }
-    };
     for (const StepProblem::Pass& pass : problem.passes) {
-        for (const PlaneRef& ref : pass.fields) add(ref);
+        planes.insert(pass.fields.begin(), pass.fields.end());
         for (const StepProblem::Result& result : pass.results) {
-            add(result.plane);
+            planes.insert(result.plane);
             // A plane written as the new step is read as the old one.
-            if (result.plane.in_register == new_register) {
-                add({PlaneRef::Kind::species, result.plane.number, old_register, nullptr});
+            const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);
+            if (own != nullptr && own->in_register == new_register) {
+                planes.insert(StepProblem::SpeciesPlane{own->species, old_register});
             }
         }
         masks.insert(pass.masks.begin(), pass.masks.end());
     }
-    const std::int64_t planes =
-        static_cast<std::int64_t>(species.size() + temporaries.size() + fixed.size());
     const std::int64_t cells =
         PlaneLayout(problem.grid).stride * problem.grid.height * problem.grid.depth;
-    return cells * (planes * static_cast<std::int64_t>(bytes_of(problem.precision)) +
+    return cells * (static_cast<std::int64_t>(planes.size() * bytes_of(problem.precision)) +
                     static_cast<std::int64_t>(masks.size())) +
            (problem.links ? static_cast<std::int64_t>(problem.links->bytes()) : 0);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/id.h"
+#include "ir/sweep_form.h"
 #include "lang/program/program.h"
 
 #include <array>
@@ -12,8 +13,6 @@
 
 namespace cascade {
 
-using TemporaryId = Id<struct TemporaryTag>;          ///< A plane that passes write for later ones.
-using AggregateId = Id<struct AggregateTag>;          ///< An aggregate of the plan.
 using StepInvariantId = Id<struct StepInvariantTag>;  ///< A result of plan_step_invariants.
 using CoefficientId = Id<struct CoefficientTag>;      ///< A coefficient of a sweep.
 

@@ -2,6 +2,7 @@
 // statements from the bound slots.
 #include "run/emit_c/c_stage.h"
 
+#include "core/overloaded.h"
 #include "lang/lower/lower.h"
 #include "run/emit_c/c_tables.h"
 #include "run/emit_c/placeholders.h"
@@ -16,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-using PlaneRef = StepProblem::PlaneRef;
+using SpeciesPlane = StepProblem::SpeciesPlane;
 
 /// A C literal that reads back as the same number.
 std::string c_number(double value) {
@@ -67,13 +68,14 @@ public:
     }
 
 private:
-    std::string register_text(const PlaneRef& plane) const {
-        if (plane.in_register == old_register) return fmt::format("s->species[{}]", plane.number);
-        if (plane.in_register == new_register) return fmt::format("s->next[{}]", plane.number);
+    std::string register_text(SpeciesPlane plane) const {
+        const std::size_t species = plane.species.index();
+        if (plane.in_register == old_register) return fmt::format("s->species[{}]", species);
+        if (plane.in_register == new_register) return fmt::format("s->next[{}]", species);
         return fmt::format("s->scratch[{}]",
                            (plane.in_register.index() - first_scratch_register.index()) *
                                    system_.species_count() +
-                               plane.number);
+                               species);
     }
     /// The rules at the sides of a plane that is read at neighbours and is not a species of this
     /// step.
@@ -263,19 +265,21 @@ private:
         const StepProblem::Pass& bound = problem.passes[number];
         PassText lines;
         lines.kernel = tables_.kernel(pass.bound.kernel);
-        const auto plane = [&](const PlaneRef& ref, const PlaneSource& source) {
-            return ref.kind == PlaneRef::Kind::species ? register_text(ref) : tables_.plane(source);
+        const auto plane = [&](const StepProblem::PlaneRef& ref, const PlaneSource& source) {
+            const auto* const own = std::get_if<SpeciesPlane>(&ref);
+            return own != nullptr ? register_text(*own) : tables_.plane(source);
         };
         for (std::size_t k = 0; k < bound.reductions.size(); ++k) {
             lines.before.push_back(
-                reduction(bound.reductions[k].aggregate, bound.reductions[k].kind,
+                reduction(bound.reductions[k].aggregate.index(), bound.reductions[k].kind,
                           plane(bound.reductions[k].operand, pass.reductions[k].operand)));
         }
         for (const FieldSlot slot : pass.bound.fields.ids()) {
             const PlaneSource& source = pass.bound.fields[slot];
-            const PlaneRef& ref = bound.fields[slot.index()];
+            const StepProblem::PlaneRef& ref = bound.fields[slot.index()];
             lines.fields.push_back(plane(ref, source));
-            if (ref.kind == PlaneRef::Kind::fixed && pass.bound.kernel.reads_neighbours(slot)) {
+            if (std::holds_alternative<const Field*>(ref) &&
+                pass.bound.kernel.reads_neighbours(slot)) {
                 lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
             }
         }
@@ -284,17 +288,18 @@ private:
             lines.uniforms.push_back(step_uniform(bound, slot, pass.bound.uniforms[slot]));
         }
         for (const StepProblem::Result& result : bound.results) {
-            if (result.plane.kind == PlaneRef::Kind::temporary) {
-                lines.results.push_back(tables_.temporary(result.plane.number));
+            if (const auto* const temporary = std::get_if<TemporaryId>(&result.plane)) {
+                lines.results.push_back(tables_.temporary(temporary->index()));
                 if (result.needs_halo) {
                     lines.after.push_back(fill(lines.results.back(), request_.name + "_boundary"));
                 }
                 continue;
             }
-            lines.results.push_back(register_text(result.plane));
-            if (result.needs_halo && is_read_at_neighbours_later(problem, number, result.plane)) {
+            const auto own = std::get<SpeciesPlane>(result.plane);
+            lines.results.push_back(register_text(own));
+            if (result.needs_halo && is_read_at_neighbours_later(problem, number, own)) {
                 lines.after.push_back(
-                    fill(lines.results.back(), species_rules(result.plane.number)));
+                    fill(lines.results.back(), species_rules(own.species.index())));
             }
         }
         return write(lines);
@@ -303,37 +308,34 @@ private:
     /// True if a later sweep of the same step reads the plane at neighbours. The next step fills
     /// the halo of its old values itself.
     bool is_read_at_neighbours_later(const StepProblem& problem, std::size_t number,
-                                     const PlaneRef& plane) const {
+                                     SpeciesPlane plane) const {
         for (std::size_t later = number + 1; later < problem.passes.size(); ++later) {
-            for (const PlaneRef& field : problem.passes[later].fields) {
-                if (field.kind == PlaneRef::Kind::species && field.number == plane.number &&
-                    field.in_register == plane.in_register) {
-                    return true;
-                }
-            }
+            const auto& fields = problem.passes[later].fields;
+            if (std::ranges::find(fields, StepProblem::PlaneRef(plane)) != fields.end())
+                return true;
         }
         return false;
     }
 
     std::string step_uniform(const StepProblem::Pass& bound, UniformSlot slot,
                              const UniformSource& source) {
-        using Kind = StepProblem::ChangingUniform::Kind;
+        const Overloaded text{
+            [](StepProblem::CompleteSteps) -> std::string { return "(float)s->steps"; },
+            [&](StepProblem::StepDraw) { return fmt::format("{}_draw(s->steps)", request_.name); },
+            [](AggregateId id) { return fmt::format("aggregates[{}]", id.index()); },
+            [&](StepProblem::MomentAt at) -> std::string {
+                if (at.part == 0) return "(float)t";
+                return fmt::format("(float)(t + {}_rounded({} * length))", request_.name,
+                                   c_number(at.part));
+            },
+            [](Sweep::Coefficient by) {
+                const std::string value = c_number(by.value);
+                return by.times_step ? fmt::format("(float)({} * length)", value)
+                                     : fmt::format("(float){}", value);
+            },
+        };
         for (const StepProblem::ChangingUniform& changing : bound.changing) {
-            if (changing.slot != slot.index()) continue;
-            switch (changing.kind) {
-                case Kind::step: return "(float)s->steps";
-                case Kind::draw: return fmt::format("{}_draw(s->steps)", request_.name);
-                case Kind::aggregate: return fmt::format("aggregates[{}]", changing.number);
-                case Kind::time:
-                    if (changing.value == 0) return "(float)t";
-                    return fmt::format("(float)(t + {}_rounded({} * length))", request_.name,
-                                       c_number(changing.value));
-                case Kind::coefficient:
-                    if (changing.times_step) {
-                        return fmt::format("(float)({} * length)", c_number(changing.value));
-                    }
-                    return fmt::format("(float){}", c_number(changing.value));
-            }
+            if (changing.slot == slot) return std::visit(text, changing.value);
         }
         return tables_.number(std::get<StageItem>(source));
     }

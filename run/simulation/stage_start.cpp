@@ -74,7 +74,7 @@ Result<void> find_sides(const StageView& view, StageState& state) {
     std::vector<SideRules> found;
     std::vector<ChangingSide> changing_sides;
     for (const auto& settings : view.stage().sides) {
-        const auto species = static_cast<std::uint32_t>(found.size());
+        const SpeciesId species(found.size());
         SideRules rules;
         rules.spacing = here.grid.spacing;
         for (std::size_t side = 0; side < side_count; ++side)
@@ -88,7 +88,8 @@ Result<void> find_sides(const StageView& view, StageState& state) {
                 return failure(
                     fmt::format(
                         "stage '{}': {} has a flux at the side {}, where the surface is sheared",
-                        view.stage().name, species_name(view.system(), species), side_names[side]),
+                        view.stage().name, species_name(view.system(), species.index()),
+                        side_names[side]),
                     "a flux needs rows and columns that meet at right angles; fixed(…) does not");
             }
             if (value.changes) {

@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
-                       const Compile& compile, const BindingContext& context, Team& team) {
+ChangingSide bind_side(const SidePlans& plans, SpeciesId species, Side side, const Compile& compile,
+                       const BindingContext& context, Team& team) {
     const IdVector<StepInvariantId, Field> step_invariants(
         run_plan(plans.once, compile, context, context.grid, team));
     CHECK(plans.each.passes.size() == 1, "a side's value takes one pass");

@@ -11,7 +11,7 @@ namespace cascade {
 
 /// The value of a side of species number `species`, ready to be computed for any moment. The parts
 /// that do not depend on the moment are computed here, from the present state.
-ChangingSide bind_side(const SidePlans& plans, std::uint32_t species, Side side,
-                       const Compile& compile, const BindingContext& context, Team& team);
+ChangingSide bind_side(const SidePlans& plans, SpeciesId species, Side side, const Compile& compile,
+                       const BindingContext& context, Team& team);
 
 }  // namespace cascade

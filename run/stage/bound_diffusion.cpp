@@ -8,13 +8,12 @@ namespace cascade {
 
 namespace {
 
-/// Turns the plan's results into temporaries after its own; returns their numbers.
-std::vector<std::uint32_t> results_to_temporaries(StepPlan& plan) {
-    std::vector<std::uint32_t> planes;
+/// Turns the plan's results into temporaries after its own; returns them.
+std::vector<TemporaryId> results_to_temporaries(StepPlan& plan) {
+    std::vector<TemporaryId> planes;
     for (PassTarget& target : plan.passes.back().targets) {
         if (!std::holds_alternative<ResultId>(target.id)) continue;
-        planes.push_back(plan.temporaries);
-        target = {TemporaryId(plan.temporaries++)};
+        target = {planes.emplace_back(plan.temporaries++)};
     }
     plan.result_count = 0;
     return planes;
@@ -34,8 +33,7 @@ BoundDiffusion::BoundDiffusion(const Program& program, std::uint32_t stage,
             if (formula.nodes.empty()) continue;
             StepProblem::DiffusionFactor& factor = factors_[s][k];
             if (changes_in_time(program, stage, formula)) {
-                factor.is_aggregate = true;
-                factor.aggregate = static_cast<std::uint32_t>(changing.size());
+                factor.aggregate = AggregateId(changing.size());
                 changing.push_back(&formula);
             } else {
                 found_once.push_back(&factor);
@@ -58,17 +56,14 @@ void BoundDiffusion::add_to(StepProblem& problem) const {
     problem.diffusion = factors_;
     for (auto& species : problem.diffusion) {
         for (StepProblem::DiffusionFactor& factor : species) {
-            if (factor.is_aggregate) factor.aggregate += problem.aggregates;
+            if (!factor.aggregate) continue;
+            factor.aggregate = AggregateId(factor.aggregate->index() + problem.aggregates);
         }
     }
-    for (std::size_t n = 0; n < planes_.size(); ++n) {
-        StepProblem::PlaneRef plane;
-        plane.kind = StepProblem::PlaneRef::Kind::temporary;
-        plane.number = planes_[n];
+    for (const TemporaryId plane : planes_) {
         problem.passes[before_.passes.size()].reductions.push_back(
-            {ReductionKind::largest, plane, problem.aggregates + static_cast<std::uint32_t>(n)});
+            {ReductionKind::largest, plane, AggregateId(problem.aggregates++)});
     }
-    problem.aggregates += static_cast<std::uint32_t>(planes_.size());
 }
 
 }  // namespace cascade

@@ -31,7 +31,7 @@ public:
 private:
     std::vector<DiffusionTerms<StepProblem::DiffusionFactor>> factors_;
     StepPlan before_;
-    std::vector<std::uint32_t> planes_;  ///< The number of the temporary of each changing factor.
+    std::vector<TemporaryId> planes_;  ///< The temporary of each changing factor.
 };
 
 }  // namespace cascade

@@ -95,37 +95,30 @@ public:
 
 private:
     using PlaneRef = StepProblem::PlaneRef;
+    using SpeciesPlane = StepProblem::SpeciesPlane;
 
     bool is_species(StageItem item) const {
         return system_ != nullptr && item.stage == stage_ && system_->is_species(item.item);
     }
 
     PlaneRef bind_plane(const PlaneSource& source) const {
-        PlaneRef plane;
-        const auto set_species = [&](ItemId item) {
-            plane.kind = PlaneRef::Kind::species;
-            plane.number = context_.states[stage_].species_of_item[item]->index();
-        };
-        if (const auto* const temporary = std::get_if<TemporaryId>(&source)) {
-            plane.kind = PlaneRef::Kind::temporary;
-            plane.number = temporary->index();
-        } else if (const auto* const input = std::get_if<SweepInput>(&source)) {
-            set_species(input->item);
-            plane.in_register = sweep_->inputs[input->input];
-        } else if (const auto* const own = std::get_if<StageItem>(&source);
-                   own != nullptr && is_species(*own)) {
-            set_species(own->item);
-            plane.in_register = register_of(plane.number);
-        } else {
-            plane.field = &plane_of(source, context_);
+        const auto& species_of = context_.states[stage_].species_of_item;
+        if (const auto* const temporary = std::get_if<TemporaryId>(&source)) return *temporary;
+        if (const auto* const input = std::get_if<SweepInput>(&source)) {
+            return SpeciesPlane{*species_of[input->item], sweep_->inputs[input->input]};
         }
-        return plane;
+        if (const auto* const own = std::get_if<StageItem>(&source);
+            own != nullptr && is_species(*own)) {
+            const SpeciesId species = *species_of[own->item];
+            return SpeciesPlane{species, register_of(species)};
+        }
+        return &plane_of(source, context_);
     }
 
     /// The plane of a species that rates read.
-    RegisterId register_of(std::uint32_t species) const {
+    RegisterId register_of(SpeciesId species) const {
         if (sweep_ == nullptr) return old_register;
-        return species < sweep_->renewed ? new_register : sweep_->inputs[0];
+        return species.index() < sweep_->renewed ? new_register : sweep_->inputs[0];
     }
 
     /// The rules at the sides of a plane that is read at neighbours and does not change.
@@ -145,16 +138,12 @@ private:
         for (const FieldSlot slot : pass.bound.fields.ids()) {
             if (context_.grid.linked) continue;  // Links need no halo.
             if (!pass.bound.kernel.reads_neighbours(slot)) continue;
-            const PlaneRef plane = bind_plane(pass.bound.fields[slot]);
-            switch (plane.kind) {
-                case PlaneRef::Kind::species:
-                    problem_.species_needs_halo[plane.number] = true;
-                    break;
-                case PlaneRef::Kind::temporary: temporary_needs_halo_[plane.number] = true; break;
-                case PlaneRef::Kind::fixed:
-                    plane.field->fill_halo(sides_of(pass.bound.fields[slot]));
-                    break;
-            }
+            const Overloaded note{
+                [&](SpeciesPlane own) { problem_.species_needs_halo[own.species.index()] = true; },
+                [&](TemporaryId id) { temporary_needs_halo_[id] = true; },
+                [&](const Field* field) { field->fill_halo(sides_of(pass.bound.fields[slot])); },
+            };
+            std::visit(note, bind_plane(pass.bound.fields[slot]));
         }
     }
 
@@ -162,7 +151,7 @@ private:
         StepProblem::Pass bound;
         for (const Reduction& reduction : pass.reductions) {
             bound.reductions.push_back(
-                {reduction.kind, bind_plane(reduction.operand), reduction.aggregate.index()});
+                {reduction.kind, bind_plane(reduction.operand), reduction.aggregate});
         }
         for (const PlaneSource& source : pass.bound.fields) {
             bound.fields.push_back(bind_plane(source));
@@ -176,29 +165,23 @@ private:
     }
 
     void bind_uniform(const UniformSource& source, StepProblem::Pass& bound) const {
-        const auto slot = static_cast<std::uint32_t>(bound.uniforms.size());
-        using Kind = StepProblem::ChangingUniform::Kind;
+        const UniformSlot slot(bound.uniforms.size());
         double& value = bound.uniforms.emplace_back(0);
-        const auto change = [&](Kind kind, std::uint32_t number, double by, bool times_step) {
-            bound.changing.push_back({kind, slot, number, by, times_step});
-        };
+        const auto change = [&](auto to) { bound.changing.push_back({slot, to}); };
         const Overloaded bind{
             [&](StageItem each) { value = context_.states[each.stage].numbers[each.item]; },
             [&](StepInvariantId id) { value = (*context_.step_invariants)[id].number; },
-            [&](AggregateId id) { change(Kind::aggregate, id.index(), 0, false); },
-            [&](CoefficientId id) {
-                const Sweep::Coefficient& each = sweep_->coefficients[id.index()];
-                change(Kind::coefficient, 0, each.value, each.times_step);
-            },
+            [&](AggregateId id) { change(id); },
+            [&](CoefficientId id) { change(sweep_->coefficients[id.index()]); },
             [&](TimeValue which) {
                 switch (which) {
-                    case TimeValue::step: return change(Kind::step, 0, 0, false);
-                    case TimeValue::draw: return change(Kind::draw, 0, 0, false);
+                    case TimeValue::step: return change(StepProblem::CompleteSteps{});
+                    case TimeValue::draw: return change(StepProblem::StepDraw{});
                     case TimeValue::time:
-                        return change(Kind::time, 0, sweep_ ? sweep_->time : 0, false);
+                        return change(StepProblem::MomentAt{sweep_ ? sweep_->time : 0});
                     case TimeValue::length:
                         value = context_.states[stage_].time.clock.step;
-                        return change(Kind::coefficient, 0, 1, true);
+                        return change(Sweep::Coefficient{1, true});
                 }
             },
         };
@@ -208,30 +191,26 @@ private:
     StepProblem::Result bind_result(const PassTarget& target) const {
         StepProblem::Result result;
         if (const auto* const temporary = std::get_if<TemporaryId>(&target.id)) {
-            result.plane.kind = PlaneRef::Kind::temporary;
-            result.plane.number = temporary->index();
-            result.needs_halo = temporary_needs_halo_[temporary->index()];
+            result.plane = *temporary;
+            result.needs_halo = temporary_needs_halo_[*temporary];
             result.boundary = target.boundary;
             return result;
         }
         const std::uint32_t number = std::get<ResultId>(target.id).index();
-        result.plane.kind = PlaneRef::Kind::species;
-        result.plane.number = number;
-        result.plane.in_register = new_register;
+        SpeciesPlane own{SpeciesId(number), new_register};
         if (form_ != nullptr) {
             // Outputs in order, each for all species that are written.
             const std::size_t written =
                 form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
-            result.plane.in_register = sweep_->outputs[number / written];
+            own.in_register = sweep_->outputs[number / written];
             result.read_at = read_at_[number / written];
-            const auto position = static_cast<std::uint32_t>(number % written);
-            result.plane.number =
-                form_->species.empty() ? position : form_->species[position].index();
-            result.needs_halo = problem_.species_needs_halo[result.plane.number] &&
-                                halo_registers_[result.plane.in_register];
-            return result;
+            const std::size_t position = number % written;
+            own.species = form_->species.empty() ? SpeciesId(position) : form_->species[position];
         }
-        result.needs_halo = system_ != nullptr && problem_.species_needs_halo[number];
+        result.plane = own;
+        result.needs_halo = system_ != nullptr &&
+                            problem_.species_needs_halo[own.species.index()] &&
+                            (form_ == nullptr || halo_registers_[own.in_register]);
         return result;
     }
 
@@ -243,7 +222,7 @@ private:
     const Sweep* sweep_;
     std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
     StepProblem problem_;
-    std::vector<bool> temporary_needs_halo_;
+    IdVector<TemporaryId, bool> temporary_needs_halo_;
     IdVector<RegisterId, bool> halo_registers_;
 };
 

@@ -24,8 +24,9 @@ void StageState::go_to(std::int64_t complete, double time_then) {
     if (changing_sides.empty()) return;
     const FlushDenormals environment;
     const PlaneLayout& layout = species.front().layout();
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-        set_side_values(changing_sides, s, {steps, t}, layout, {0, layout.row_count()}, sides[s]);
+    for (const SpeciesId s : ids_below<SpeciesId>(sides.size())) {
+        set_side_values(changing_sides, s, {steps, t}, layout, {0, layout.row_count()},
+                        sides[s.index()]);
     }
 }
 

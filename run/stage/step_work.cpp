@@ -5,21 +5,10 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 namespace cascade {
 
 namespace {
-
-/// Which plane it is: its kind, its number, its register, or its field.
-using PlaneKey = std::tuple<int, std::uint32_t, std::uint32_t, const Field*>;
-
-PlaneKey key_of(const StepProblem::PlaneRef& plane) {
-    using Kind = StepProblem::PlaneRef::Kind;
-    const bool is_species = plane.kind == Kind::species, is_fixed = plane.kind == Kind::fixed;
-    return {static_cast<int>(plane.kind), is_fixed ? 0 : plane.number,
-            is_species ? plane.in_register.index() : 0, is_fixed ? plane.field : nullptr};
-}
 
 /// Links of a cell, on average.
 double links_of(const StepProblem& problem) {
@@ -60,10 +49,9 @@ private:
         const KernelCost cost = cost_of(known->second, problem_.grid.stencil(), work_.links);
         work_.cost += cost;
         // Two slots may refer to one plane.
-        std::set<PlaneKey> read;
-        for (const auto& field : pass.fields) read.insert(key_of(field));
+        const std::set<StepProblem::PlaneRef> read(pass.fields.begin(), pass.fields.end());
         touched_.insert(read.begin(), read.end());
-        for (const auto& result : pass.results) touched_.insert(key_of(result.plane));
+        for (const auto& result : pass.results) touched_.insert(result.plane);
         masks_.insert(pass.masks.begin(), pass.masks.end());
         work_.bytes += static_cast<double>(read.size() + pass.results.size()) * word_ +
                        static_cast<double>(pass.masks.size()) + cost.link_bytes;
@@ -76,14 +64,14 @@ private:
         work_.cost.loads += 1;
         work_.cost.load_bytes += word_;
         work_.bytes += word_;
-        touched_.insert(key_of(reduction.operand));
+        touched_.insert(reduction.operand);
     }
 
     const StepProblem& problem_;
     const KnownKernels& kernels_;
     double word_;            ///< Bytes of a number.
     double link_bytes_ = 0;  ///< Per cell, for the pass that reads most.
-    std::set<PlaneKey> touched_;
+    std::set<StepProblem::PlaneRef> touched_;
     std::set<const std::uint8_t*> masks_;
     StepWork work_;
 };

@@ -42,7 +42,7 @@ struct Mixture {
         problem.passes[0].fields.push_back(fixed_plane(parameter));
         problem.passes[0].masks = {frozen.origin()};
         problem.passes[0].uniforms = {7, -1};
-        problem.passes[0].changing = {{.slot = 1}};
+        problem.passes[0].changing = {{UniformSlot(1), StepProblem::CompleteSteps{}}};
     }
 
     std::vector<Field> start() const {

@@ -65,9 +65,7 @@ private:
 };
 
 /// The slot of a plane that does not change.
-inline StepProblem::PlaneRef fixed_plane(const Field& field) {
-    return {StepProblem::PlaneRef::Kind::fixed, 0, {}, &field};
-}
+inline StepProblem::PlaneRef fixed_plane(const Field& field) { return &field; }
 
 /// A step of one pass whose slot k is species k, all read at neighbours.
 inline StepProblem make_problem(const Grid& grid, int species, KernelPointer kernel) {
@@ -75,10 +73,10 @@ inline StepProblem make_problem(const Grid& grid, int species, KernelPointer ker
     StepProblem::Pass& pass = problem.passes.emplace_back();
     pass.kernel = std::move(kernel);
     problem.grid = grid;
-    using Kind = StepProblem::PlaneRef::Kind;
-    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(species); ++k) {
-        pass.fields.push_back({Kind::species, k, old_register, nullptr});
-        pass.results.push_back({{Kind::species, k, new_register, nullptr}, true});
+    using SpeciesPlane = StepProblem::SpeciesPlane;
+    for (const SpeciesId k : ids_below<SpeciesId>(static_cast<std::size_t>(species))) {
+        pass.fields.push_back(SpeciesPlane{k, old_register});
+        pass.results.push_back({SpeciesPlane{k, new_register}, true});
     }
     problem.species_needs_halo.assign(static_cast<std::size_t>(species), true);
     return problem;

@@ -19,7 +19,8 @@ StepProblem five_passes(const std::vector<std::size_t>& with_sums) {
     StepProblem problem = heat_problem(Grid{1024, 1024}, 0.1f);
     problem.passes.resize(5, problem.passes[0]);
     for (const std::size_t pass : with_sums) {
-        problem.passes[pass].reductions = {{ReductionKind::sum, problem.passes[pass].fields[0], 0}};
+        problem.passes[pass].reductions = {
+            {ReductionKind::sum, problem.passes[pass].fields[0], AggregateId(0)}};
     }
     return problem;
 }

@@ -150,7 +150,7 @@ public:
 
 private:
     using PlaneRef = StepProblem::PlaneRef;
-    using Kind = PlaneRef::Kind;
+    using SpeciesPlane = StepProblem::SpeciesPlane;
 
     void fill(Field& field, std::uint64_t number) const {
         for (std::int64_t row = 0; row < layout_.row_count(); ++row) {
@@ -189,16 +189,13 @@ private:
     /// A plane that the step has written, one of the old step, or the fixed one.
     PlaneRef some_plane() {
         const std::int64_t choice = dice_.below(6);
-        if (choice == 0) return {Kind::fixed, 0, {}, &fixed_};
+        if (choice == 0) return &fixed_;
         if (choice < 3 || written_.empty()) {
-            return {Kind::species, static_cast<std::uint32_t>(dice_.below(species_)), old_register,
-                    nullptr};
+            return SpeciesPlane{SpeciesId(static_cast<std::size_t>(dice_.below(species_))),
+                                old_register};
         }
         return written_[static_cast<std::size_t>(
             dice_.below(static_cast<std::int64_t>(written_.size())))];
-    }
-    static bool same(const PlaneRef& a, const PlaneRef& b) {
-        return a.kind == b.kind && a.number == b.number && a.in_register == b.in_register;
     }
     void add_pass(bool is_last) {
         StepProblem::Pass pass;
@@ -208,8 +205,11 @@ private:
         const std::uint32_t results = to_temporary ? problem_.temporaries : species_;
         for (std::uint32_t k = 0; k < results; ++k) {
             StepProblem::Result result;
-            result.plane = {to_temporary ? Kind::temporary : Kind::species, k,
-                            to_temporary ? RegisterId() : target, nullptr};
+            if (to_temporary) {
+                result.plane = TemporaryId(k);
+            } else {
+                result.plane = SpeciesPlane{SpeciesId(k), target};
+            }
             result.needs_halo = true;
             result.boundary = problem_.grid.boundary;
             pass.results.push_back(result);
@@ -219,18 +219,18 @@ private:
             const PlaneRef plane = some_plane();
             const bool is_result =
                 std::any_of(pass.results.begin(), pass.results.end(),
-                            [&](const auto& result) { return same(result.plane, plane); });
+                            [&](const auto& result) { return result.plane == plane; });
             pass.fields.push_back(plane);
             own_only.push_back(is_result || !dice_.often());
         }
         if (dice_.below(3) == 0) pass.masks = {mask_.origin()};
         pass.uniforms = {0.1};
-        if (dice_.often())
-            pass.changing = {{StepProblem::ChangingUniform::Kind::time, 0, 0, 0.5, false}};
+        if (dice_.often()) pass.changing = {{UniformSlot(0), StepProblem::MomentAt{0.5}}};
         pass.kernel = std::make_shared<SumKernel<Number>>(own_only, problem_.grid.stencil());
         if (dice_.below(8) == 0) {
-            pass.reductions = {{ReductionKind::sum, {Kind::species, 0, old_register, nullptr}, 0}};
-            pass.changing = {{StepProblem::ChangingUniform::Kind::aggregate, 0, 0, 0, false}};
+            pass.reductions = {
+                {ReductionKind::sum, SpeciesPlane{SpeciesId(0), old_register}, AggregateId(0)}};
+            pass.changing = {{UniformSlot(0), AggregateId(0)}};
             problem_.aggregates = 1;
         }
         for (const StepProblem::Result& result : pass.results) written_.push_back(result.plane);

@@ -42,7 +42,8 @@ TEST(Tiling, WideLayersTakeFewerSteps) {
 
 TEST(Tiling, StepsThatNeedAllCellsAreTakenOneByOne) {
     StepProblem problem = heat_problem(Grid{2048, 2048}, 0.1f);
-    problem.passes[0].reductions = {{ReductionKind::sum, problem.passes[0].fields[0], 0}};
+    problem.passes[0].reductions = {
+        {ReductionKind::sum, problem.passes[0].fields[0], AggregateId(0)}};
     EXPECT_EQ(choose_tiling(problem, 1, caches).levels, 1);
 }
 
