@@ -60,11 +60,13 @@ bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool
 bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
     // Where only a few steps are judged, the others are measured.
     if (!schedule_.judges_all) return take();
-    const bool is_native = !stepper_.problem().is_provisional();
+    const StepProblem& problem = stepper_.problem();
+    const bool is_native = !problem.is_provisional();
     const Clock::time_point before = Clock::now();
     if (!take()) return false;
     const Seconds duration = Clock::now() - before;
-    if (!renew_tile_tuner() && is_native && !thread_tuner_.is_trying())
+    const bool is_same = &stepper_.problem() == &problem || !renew_tile_tuner();
+    if (is_same && is_native && !thread_tuner_.is_trying())
         tile_tuner_.took(sweeps_of_step(), duration, time_left(duration));
     return true;
 }

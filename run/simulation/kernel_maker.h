@@ -37,7 +37,7 @@ public:
     /// Announces kernels that will be needed later.
     void expect(const CellKernel& kernel) const { stepper_->expect(kernel, grid_.stencil()); }
 
-    /// Evaluating a small grid takes less time than compiling, or than waking a second thread.
+    /// Evaluating a small grid takes less time than waking a second thread.
     bool is_small() const { return grid_.cell_count() < 65536; }
 
 private:
