@@ -124,28 +124,31 @@ TEST(GraphPasses, AggregatesCountAreasAndTheMask) {
 TEST(GraphPasses, TheVerifierFindsWhatIsWrong) {
     const auto checked = check_text("system s { u: x; u' = u }\nstage only: s {}\n");
     const PassContext context{*checked->program, 0};
-    const auto fault = [&](const auto& make, std::string_view pass = "flatten") {
+    const auto message_of = [&](const auto& make, std::string_view pass = "flatten") {
         Expressions expressions;
         expressions.roots.push_back(make(expressions.graph));
         return verify(expressions, context, pass);
     };
     using Graph = ExpressionGraph;
-    EXPECT_EQ(fault([](Graph& graph) { return graph.number(1); }), "");
-    EXPECT_THAT(fault([](Graph& graph) { return graph.leaf(Rate()); }),
+    EXPECT_EQ(message_of([](Graph& graph) { return graph.number(1); }), "");
+    EXPECT_THAT(message_of([](Graph& graph) { return graph.leaf(Rate()); }),
                 HasSubstr("do not exist here"));
-    EXPECT_THAT(fault([](Graph& graph) { return graph.leaf(MetricPlane::area); }),
+    EXPECT_THAT(message_of([](Graph& graph) { return graph.leaf(MetricPlane::area); }),
                 HasSubstr("do not exist here"));
-    EXPECT_THAT(fault([](Graph& graph) { return graph.call(Function::add, {graph.number(1)}); }),
+    EXPECT_THAT(message_of(
+                    [](Graph& graph) { return graph.call(Function::add, {graph.number(1)}); }),
                 HasSubstr("number of operands"));
-    EXPECT_THAT(fault([](Graph& graph) { return graph.call(Function::div, {graph.number(1)}); }),
+    EXPECT_THAT(message_of(
+                    [](Graph& graph) { return graph.call(Function::div, {graph.number(1)}); }),
                 HasSubstr("wrong type"));
-    EXPECT_THAT(fault([](Graph& graph) { return graph.call(Function::grad, {graph.number(1)}); }),
+    EXPECT_THAT(message_of(
+                    [](Graph& graph) { return graph.call(Function::grad, {graph.number(1)}); }),
                 HasSubstr("its type"));
-    EXPECT_THAT(fault([](Graph& graph) {
+    EXPECT_THAT(message_of([](Graph& graph) {
                     return graph.call(Function::lap, {graph.number(1), graph.number(2)});
                 }),
                 HasSubstr("number of operands"));
-    EXPECT_THAT(fault([](Graph& graph) {
+    EXPECT_THAT(message_of([](Graph& graph) {
                     Node forwards{Call()};
                     forwards.function = Function::sin;
                     forwards.operands[0] = NodeId(0);

@@ -97,6 +97,17 @@ inline void expect_symmetric_edges(const SurfaceCells& cells) {
     }
 }
 
+/// The standard deviation divided by the mean.
+inline double relative_deviation(const std::vector<double>& values) {
+    double sum = 0, squares = 0;
+    for (const double value : values) {
+        sum += value;
+        squares += value * value;
+    }
+    const auto count = static_cast<double>(values.size());
+    return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
+}
+
 /// Are all cells of a piece reached from each other over edges? Counts the parts that are not.
 inline std::size_t parts_of(const SurfaceCells& cells) {
     std::vector<bool> seen(cells.places.size());

@@ -73,16 +73,6 @@ TEST(Scatter, PlacesAreAsDenseEverywhere) {
     for (const auto& [triangle, count] : on_triangle) EXPECT_NEAR(count, 1000, 1) << triangle;
 }
 
-double unevenness_of(const std::vector<double>& nearest) {
-    double sum = 0, squares = 0;
-    for (const double distance : nearest) {
-        sum += distance;
-        squares += distance * distance;
-    }
-    const auto count = static_cast<double>(nearest.size());
-    return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
-}
-
 /// The same of points on a periodic square of side 1 that S. Lloyd's method ("Least squares
 /// quantization in PCM", 1982) has moved to the centroids of their Voronoi regions.
 double unevenness_by_lloyd(std::size_t count, int rounds) {
@@ -118,7 +108,7 @@ double unevenness_by_lloyd(std::size_t count, int rounds) {
         }
         points = moved;
     }
-    return unevenness_of(nearest);
+    return test::relative_deviation(nearest);
 }
 
 TEST(Relax, PlacesBecomeAsEvenAsByLloydsMethod) {

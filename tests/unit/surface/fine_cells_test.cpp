@@ -46,17 +46,6 @@ void expect_fine(const SurfaceMesh& mesh, const SurfaceCells& cells, std::size_t
     }
 }
 
-/// Standard deviation over mean.
-double spread_of(const std::vector<double>& values) {
-    double sum = 0, squares = 0;
-    for (const double value : values) {
-        sum += value;
-        squares += value * value;
-    }
-    const auto count = static_cast<double>(values.size());
-    return std::sqrt(squares / count - sum / count * (sum / count)) / (sum / count);
-}
-
 /// A sphere whose points are off it by some part of the triangles' edges, as those of a scan are.
 SurfaceMesh rough_sphere(int n, double off) {
     SurfaceMesh mesh = test::sphere(n);
@@ -73,7 +62,8 @@ TEST(FineCells, SphericalHarmonicsDecayAsOnTheSurfaceItself) {
     const SurfaceCells itself = cells_on_the_surface_itself(mesh, 1000);
     expect_fine(mesh, by_copy, 1000);
     EXPECT_NEAR(test::harmonics_error(mesh, by_copy), test::harmonics_error(mesh, itself), 1e-3);
-    EXPECT_LT(spread_of(by_copy.areas), 1.1 * spread_of(itself.areas));
+    EXPECT_LT(test::relative_deviation(by_copy.areas),
+              1.1 * test::relative_deviation(itself.areas));
     EXPECT_LT(test::unevenness(mesh, by_copy.places), 1.1 * test::unevenness(mesh, itself.places));
 }
 
@@ -92,7 +82,7 @@ TEST(FineCells, RoughnessOfAScanDoesNotMatter) {
     const SurfaceCells cells = cells_by_copy_of(mesh, 1000);
     expect_fine(mesh, cells, 1000);
     EXPECT_NEAR(static_cast<double>(cells.edges.size()) / 1000, 6, 0.1);
-    EXPECT_LT(spread_of(cells.areas), 0.08);
+    EXPECT_LT(test::relative_deviation(cells.areas), 0.08);
 }
 
 TEST(FineCells, SheetsThatAreNearInSpaceAloneStayApart) {
