@@ -16,8 +16,8 @@ namespace cascade {
 
 namespace {
 
-/// A surface with so many triangles per cell is fine: relaxation, which unfolds a patch of some
-/// twenty cells around each, would spend most of its time on triangles.
+/// A surface with at least this many triangles per cell is fine: relaxation, which unfolds a patch
+/// of about twenty cells around each cell, would spend most of its time on triangles.
 constexpr std::size_t fine_triangles = 12;
 /// The copy has about this many triangles per cell.
 constexpr double coarse_triangles = 3;

@@ -87,6 +87,7 @@ Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& opti
         Result<void> fine = check_anisotropy(mesh, *options.anisotropy);
         if (!fine) return tl::unexpected(fine.error());
     }
+    // A surface that cannot be copied may still be unfolded as it is.
     if (is_fine(mesh, options)) {
         Result<SurfaceCells> cells = cells_by_copy(mesh, options, team, cancel);
         if (cells) return cells;
