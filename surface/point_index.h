@@ -59,11 +59,14 @@ private:
         Vector3d point;
     };
     Box box_of(Vector3d p) const;
+    /// Boxes of a block of 4 × 4 × 4 have adjacent slots, so that a search reads few cache lines.
     std::size_t slot_of(const Box& box) const {
-        std::uint32_t hash = static_cast<std::uint32_t>(box.x) * 0x9e3779b1u;
-        hash = (hash ^ static_cast<std::uint32_t>(box.y)) * 0x85ebca77u;
-        hash = (hash ^ (hash >> 15) ^ static_cast<std::uint32_t>(box.z)) * 0xc2b2ae3du;
-        return (hash ^ (hash >> 16)) & mask_;
+        std::uint32_t hash = static_cast<std::uint32_t>(box.x >> 2) * 0x9e3779b1u;
+        hash = (hash ^ static_cast<std::uint32_t>(box.y >> 2)) * 0x85ebca77u;
+        hash = (hash ^ (hash >> 15) ^ static_cast<std::uint32_t>(box.z >> 2)) * 0xc2b2ae3du;
+        const auto within =
+            static_cast<std::uint32_t>((box.z & 3) << 4 | (box.y & 3) << 2 | (box.x & 3));
+        return ((hash ^ (hash >> 16)) << 6 | within) & mask_;
     }
 
     Vector3d low_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace cascade {
 
@@ -64,8 +65,12 @@ public:
           turns_(places.size()),
           moved_(places.size()),
           moving_(places.size()),
+          positions_(places.size()),
+          active_(places.size()),
           ends_(places.size()),
-          parts_(static_cast<std::size_t>(team.size())) {}
+          parts_(static_cast<std::size_t>(team.size())) {
+        std::iota(active_.begin(), active_.end(), std::uint32_t{0});
+    }
 
     void run(int rounds) {
         std::size_t far_moved = places_.size();
@@ -73,10 +78,10 @@ public:
         for (int round = 0; round < rounds && !cancel_; ++round) {
             if (far_moved > places_.size() / places_per_far_one &&
                 round - made > round / rounds_per_age) {
-                find_others();
+                find_others(index_places());
                 made = round;
             }
-            team_.run([&](int thread) { push(part_of(thread)); });
+            push_all();
             moved_.swap(moving_);
             far_moved = 0;
             for (const Part& part : parts_) far_moved += part.far_moved;
@@ -87,14 +92,15 @@ public:
 private:
     /// The data of one thread.
     struct Part {
-        RowRange range;
+        RowRange range;             ///< In `active_`.
         std::vector<Other> others;  ///< Place after place.
         std::size_t far_moved = 0;  ///< Places that have moved half the skin or more since.
+        std::vector<std::uint32_t> crowded;  ///< Unsorted, with repetitions.
     };
 
     Part& part_of(int thread) {
         Part& part = parts_[static_cast<std::size_t>(thread)];
-        part.range = split_rows(static_cast<std::int64_t>(places_.size()), thread, team_.size());
+        part.range = split_rows(static_cast<std::int64_t>(active_.size()), thread, team_.size());
         return part;
     }
 
@@ -104,79 +110,97 @@ private:
 
     /// Separates places that outdated lists let collide; the others stay.
     void settle() {
+        // Lists are new in each round, so nothing has moved since they were made.
+        std::fill(moved_.begin(), moved_.end(), Vector2f{});
         for (int round = 0; round < settling_rounds && !cancel_; ++round) {
-            find_others(true);
-            team_.run([&](int thread) { push(part_of(thread)); });
-            moved_.swap(moving_);
+            const PointIndex index = index_places();
+            active_ = crowded_places(index);
+            if (active_.empty()) return;
+            find_others(index);
+            push_all();
         }
     }
 
-    /// Whether another place is nearer than evenly spread places ever are.
-    bool is_crowded(std::size_t k, std::span<const Vector3d> positions,
-                    const PointIndex& index) const {
-        bool crowded = false;
-        index.near(positions[k], crowd * radius_,
-                   [&](std::uint32_t other) { crowded |= other != k; });
+    /// All places nearer to another one than evenly spread places ever are, in ascending order, if
+    /// only active places may have moved since the last call.
+    std::vector<std::uint32_t> crowded_places(const PointIndex& index) {
+        team_.run([&](int thread) {
+            Part& part = part_of(thread);
+            part.crowded.clear();
+            for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
+                const std::uint32_t k = active_[static_cast<std::size_t>(row)];
+                index.near(positions_[k], crowd * radius_, [&](std::uint32_t other) {
+                    if (other != k) part.crowded.insert(part.crowded.end(), {k, other});
+                });
+            }
+        });
+        std::vector<std::uint32_t> crowded;
+        for (const Part& part : parts_) {
+            crowded.insert(crowded.end(), part.crowded.begin(), part.crowded.end());
+        }
+        std::sort(crowded.begin(), crowded.end());
+        crowded.erase(std::unique(crowded.begin(), crowded.end()), crowded.end());
         return crowded;
     }
 
-    /// Rebuilds the lists; with `only_crowded`, makes those of all other places empty.
-    void find_others(bool only_crowded = false) {
-        std::vector<Vector3d> positions;
-        positions.reserve(places_.size());
-        for (const SurfacePlace& place : places_) positions.push_back(position_of(mesh_, place));
-        const double reach = (1 + skin) * radius_;
-        const PointIndex index(positions, reach);
+    /// The list of all places reaches this far.
+    double reach() const { return (1 + skin) * radius_; }
+
+    /// Updates the positions of the active places and sorts all of them.
+    PointIndex index_places() {
+        for (const std::uint32_t k : active_) positions_[k] = position_of(mesh_, places_[k]);
+        return {positions_, reach()};
+    }
+
+    /// Rebuilds the lists of the active places.
+    void find_others(const PointIndex& index) {
         team_.run([&](int thread) {
             Part& part = part_of(thread);
             part.others.clear();
             Unfolding unfolding(mesh_, shapes_);
             for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
-                const auto k = static_cast<std::size_t>(row);
-                if (only_crowded && !is_crowded(k, positions, index)) {
-                    stand_still(k, part);
-                    continue;
-                }
+                const auto n = static_cast<std::size_t>(row);
+                const std::uint32_t k = active_[n];
                 const double ratio = anisotropy_ ? anisotropy_->ratio_of(places_[k].triangle) : 1;
-                find_others_of(k, positions, index, reach * std::sqrt(ratio), unfolding, part);
+                find_others_of(k, index, reach() * std::sqrt(ratio), unfolding, part);
+                ends_[n] = part.others.size();
+                turns_[k] = {1, 0};
+                moved_[k] = {};
             }
         });
     }
 
-    void find_others_of(std::size_t k, std::span<const Vector3d> positions, const PointIndex& index,
-                        double reach, Unfolding& unfolding, Part& part) {
+    void find_others_of(std::uint32_t k, const PointIndex& index, double reach,
+                        Unfolding& unfolding, Part& part) const {
         unfolding.around(places_[k], reach);
-        index.near(positions[k], reach, [&](std::uint32_t number) {
+        index.near(positions_[k], reach, [&](std::uint32_t number) {
             const FlatTriangle* flat = unfolding.flat_of(places_[number].triangle);
             if (number == k || !flat) return;
             const Vector2d stood = position_of(*flat, places_[number].weights);
             const double square = dot(stood, stood);
-            const Vector3d apart = positions[number] - positions[k];
+            const Vector3d apart = positions_[number] - positions_[k];
             if (square > reach * reach || !Unfolding::is_image(square, dot(apart, apart))) return;
             const Vector2d base = (*flat)[1] - (*flat)[0];
             part.others.push_back(
                 {number, in_float(stood * (1 / radius_)), in_float(base * (1 / length(base)))});
         });
-        stand_still(k, part);
-    }
-
-    /// Resets the movement of a place whose list has been made.
-    void stand_still(std::size_t k, const Part& part) {
-        ends_[k] = part.others.size();
-        turns_[k] = {1, 0};
-        moved_[k] = {};
     }
 
     static Vector2f in_float(Vector2d v) {
         return {static_cast<float>(v.x), static_cast<float>(v.y)};
     }
 
+    void push_all() {
+        team_.run([&](int thread) { push(part_of(thread)); });
+    }
+
     void push(Part& part) {
         part.far_moved = 0;
         const Other* other = part.others.data();
         for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
-            const auto k = static_cast<std::size_t>(row);
-            const Other* end = part.others.data() + ends_[k];
+            const auto n = static_cast<std::size_t>(row);
+            const std::uint32_t k = active_[n];
+            const Other* end = part.others.data() + ends_[n];
             const Stretch stretch = stretch_at(places_[k]).in_frame({turns_[k].x, -turns_[k].y});
             Vector2d pushed = push_on(k, {other, end}, stretch) * strength;
             const double size = length(pushed);
@@ -193,7 +217,7 @@ private:
     }
 
     /// The sum of the forces on a place in the anisotropic metric, in radii.
-    Vector2d push_on(std::size_t k, std::span<const Other> others, const Stretch& stretch) const {
+    Vector2d push_on(std::uint32_t k, std::span<const Other> others, const Stretch& stretch) const {
         const Vector2f here = moved_[k];
         const auto xx = static_cast<float>(stretch.xx), xy = static_cast<float>(stretch.xy),
                    yy = static_cast<float>(stretch.yy);
@@ -207,7 +231,7 @@ private:
             if (square >= 1) continue;
             const float distance = std::sqrt(square);
             Vector2f away = {-u / distance, -v / distance};
-            if (distance < 1e-7F) away = in_float(own_direction(static_cast<std::uint32_t>(k)));
+            if (distance < 1e-7F) away = in_float(own_direction(k));
             const float size = 1 - distance + core_strength * std::max(0.0F, core - distance);
             push.x += away.x * size;
             push.y += away.y * size;
@@ -227,7 +251,9 @@ private:
     /// `moving_`.
     std::vector<Vector2d> turns_;
     std::vector<Vector2f> moved_, moving_;
-    std::vector<std::size_t> ends_;  ///< The ends of the places' lists in those of their threads.
+    std::vector<Vector3d> positions_;    ///< When the lists were made.
+    std::vector<std::uint32_t> active_;  ///< The places that move, in ascending order.
+    std::vector<std::size_t> ends_;      ///< Of the active places' lists in those of their threads.
     std::vector<Part> parts_;
 };
 
