@@ -2,13 +2,12 @@
 // rebuilt when places have moved too far.
 #include "surface/relax.h"
 
-#include "core/hash.h"
 #include "surface/point_index.h"
+#include "surface/repulsion.h"
 #include "surface/unfolding.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace cascade {
@@ -21,9 +20,6 @@ constexpr double skin = 0.25;
 /// The longest move of a place in a round, in radii. On folded surfaces, places have many
 /// neighbours and would oscillate without this limit.
 constexpr double longest_step = 0.06;
-/// Two places nearer than this, in radii, are pushed apart harder: by a force that only grows
-/// linearly towards 0, other places could press them together for good. Even places are 0.54 apart.
-constexpr float core = 0.35F, core_strength = 4;
 /// Lists are rebuilt when more than one in this many places has moved half the skin. A few places
 /// always move far, and exact lists for them do not improve evenness.
 constexpr std::size_t places_per_far_one = 100;
@@ -32,24 +28,6 @@ constexpr int rounds_per_age = 4;
 /// At the end, places with another one nearer than `crowd` radii are pushed in separate rounds.
 constexpr int settling_rounds = 12;
 constexpr double crowd = 0.4;
-
-struct Vector2f {
-    float x = 0, y = 0;
-};
-
-/// A neighbour of a place: its position when the list was made, in radii and in the frame of the
-/// place at that time, and the rotation of its own frame relative to that.
-struct Other {
-    std::uint32_t number = 0;
-    Vector2f stood;
-    Vector2f turn;
-};
-
-/// The direction in which a place is pushed apart from one that coincides with it.
-Vector2d own_direction(std::uint32_t number) {
-    const double angle = 2 * std::numbers::pi / 4294967296.0 * pcg4d({number, 0, 0, 0})[0];
-    return {std::cos(angle), std::sin(angle)};
-}
 
 class Relaxation {
 public:
@@ -92,8 +70,9 @@ public:
 private:
     /// The data of one thread.
     struct Part {
-        RowRange range;             ///< In `active_`.
-        std::vector<Other> others;  ///< Place after place.
+        RowRange range;            ///< In `active_`.
+        NeighbourList neighbours;  ///< Place after place.
+        Repulsion repulsion;
         std::size_t far_moved = 0;  ///< Places that have moved half the skin or more since.
         std::vector<std::uint32_t> crowded;  ///< Unsorted, with repetitions.
     };
@@ -156,14 +135,14 @@ private:
     void find_others(const PointIndex& index) {
         team_.run([&](int thread) {
             Part& part = part_of(thread);
-            part.others.clear();
+            part.neighbours.clear();
             Unfolding unfolding(mesh_, shapes_);
             for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
                 const auto n = static_cast<std::size_t>(row);
                 const std::uint32_t k = active_[n];
                 const double ratio = anisotropy_ ? anisotropy_->ratio_of(places_[k].triangle) : 1;
                 find_others_of(k, index, reach() * std::sqrt(ratio), unfolding, part);
-                ends_[n] = part.others.size();
+                ends_[n] = part.neighbours.size();
                 turns_[k] = {1, 0};
                 moved_[k] = {};
             }
@@ -181,8 +160,7 @@ private:
             const Vector3d apart = positions_[number] - positions_[k];
             if (square > reach * reach || !Unfolding::is_image(square, dot(apart, apart))) return;
             const Vector2d base = (*flat)[1] - (*flat)[0];
-            part.others.push_back(
-                {number, in_float(stood * (1 / radius_)), in_float(base * (1 / length(base)))});
+            part.neighbours.add(number, stood * (1 / radius_), base * (1 / length(base)));
         });
     }
 
@@ -196,13 +174,18 @@ private:
 
     void push(Part& part) {
         part.far_moved = 0;
-        const Other* other = part.others.data();
+        std::size_t first = 0;
         for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
             const auto n = static_cast<std::size_t>(row);
             const std::uint32_t k = active_[n];
-            const Other* end = part.others.data() + ends_[n];
             const Stretch stretch = stretch_at(places_[k]).in_frame({turns_[k].x, -turns_[k].y});
-            Vector2d pushed = push_on(k, {other, end}, stretch) * strength;
+            const Repulsion::Pushed place = {k, static_cast<float>(stretch.xx),
+                                             static_cast<float>(stretch.xy),
+                                             static_cast<float>(stretch.yy), moved_[k]};
+            const Vector2f push =
+                part.repulsion.push_on(place, part.neighbours, first, ends_[n], moved_);
+            Vector2d pushed = Vector2d{push.x, push.y} * strength;
+            first = ends_[n];
             const double size = length(pushed);
             if (size > longest_step) pushed = pushed * (longest_step / size);
             const Vector2d step = stretch.inverse()(pushed);
@@ -212,31 +195,7 @@ private:
             part.far_moved += 2 * length(stretch(now)) > skin;
             places_[k] = walked.place;
             turns_[k] = product(turns_[k], walked.turn);
-            other = end;
         }
-    }
-
-    /// The sum of the forces on a place in the anisotropic metric, in radii.
-    Vector2d push_on(std::uint32_t k, std::span<const Other> others, const Stretch& stretch) const {
-        const Vector2f here = moved_[k];
-        const auto xx = static_cast<float>(stretch.xx), xy = static_cast<float>(stretch.xy),
-                   yy = static_cast<float>(stretch.yy);
-        Vector2f push;
-        for (const Other& other : others) {
-            const Vector2f by = moved_[other.number], turn = other.turn;
-            const float x = other.stood.x + turn.x * by.x - turn.y * by.y - here.x;
-            const float y = other.stood.y + turn.y * by.x + turn.x * by.y - here.y;
-            const float u = xx * x + xy * y, v = xy * x + yy * y;
-            const float square = u * u + v * v;
-            if (square >= 1) continue;
-            const float distance = std::sqrt(square);
-            Vector2f away = {-u / distance, -v / distance};
-            if (distance < 1e-7F) away = in_float(own_direction(k));
-            const float size = 1 - distance + core_strength * std::max(0.0F, core - distance);
-            push.x += away.x * size;
-            push.y += away.y * size;
-        }
-        return {push.x, push.y};
     }
 
     const SurfaceMesh& mesh_;
