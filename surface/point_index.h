@@ -30,15 +30,16 @@ public:
             for (const Entry& entry : entries_) look_at(entry);
             return;
         }
-        const Box middle = box_of(centre);
-        const auto half = static_cast<std::int32_t>(side) / 2;
-        for (std::int32_t dz = -half; dz <= half; ++dz) {
-            for (std::int32_t dy = -half; dy <= half; ++dy) {
-                for (std::int32_t dx = -half; dx <= half; ++dx) {
-                    const Box box = {middle.x + dx, middle.y + dy, middle.z + dz};
-                    const std::size_t slot = slot_of(box);
+        // A margin covers the rounding of box_of().
+        const double wide = radius + 1e-6 * reach_;
+        const Box first = box_of(centre - Vector3d{wide, wide, wide});
+        const Box last = box_of(centre + Vector3d{wide, wide, wide});
+        for (std::int32_t z = first.z; z <= last.z; ++z) {
+            for (std::int32_t y = first.y; y <= last.y; ++y) {
+                for (std::int32_t x = first.x; x <= last.x; ++x) {
+                    const std::size_t slot = slot_of({x, y, z});
                     for (std::uint32_t k = starts_[slot]; k < starts_[slot + 1]; ++k) {
-                        if (entries_[k].box == box) look_at(entries_[k]);
+                        if (entries_[k].box == Box{x, y, z}) look_at(entries_[k]);
                     }
                 }
             }
