@@ -1,18 +1,15 @@
 // Filters planes wave by wave, for solvers that take diffusion implicitly.
 //
-// Waves are eigenvectors of the discrete Laplacian on a grid whose sides are periodic or have a
-// given flux or value: sines and cosines along each axis, whose phase depends on the sides. The
-// change of a species obeys the same rules at the sides with the value 0. So FFTW transforms each
-// plane into waves, each wave is multiplied by a factor, and the result is transformed back.
+// Each plane is transformed into waves (solvers/wave_transforms.h), each wave is multiplied by a
+// factor, and the result is transformed back.
 #pragma once
 
 #include "core/parallel.h"
 #include "core/side.h"
 #include "ir/diffusion.h"
 #include "ir/sweep_form.h"
+#include "solvers/wave_transforms.h"
 
-#include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,22 +25,17 @@ template <typename Number>
 class WaveFilter {
 public:
     /// `sides` are by species. Throws std::bad_alloc.
-    WaveFilter(const Grid& grid, const std::vector<SideRules>& sides);
-    WaveFilter(WaveFilter&&) noexcept;
-    ~WaveFilter();
+    WaveFilter(const Grid& grid, const std::vector<SideRules>& sides) : transforms_(grid, sides) {}
 
     /// Multiplies every wave of every plane by its response. Planes are given by the addresses of
     /// their cells (0, 0, 0), one for each species. `length` is the h of the response. Called by
-    /// the first `threads` threads of the team, each with its number and otherwise the same
-    /// arguments. Each thread reads its rows, as of split_rows(), before the first barrier of the
-    /// team, and writes them after the last. Bits do not depend on `threads`.
+    /// the first `threads` threads of the team, as WaveTransforms::apply().
     void apply(Team& team, int thread, int threads, std::span<Number* const> planes,
                std::span<const DiffusionSymbol> symbols, WaveResponse response,
                double length) const;
 
 private:
-    struct Implementation;
-    std::unique_ptr<Implementation> self_;
+    WaveTransforms<Number> transforms_;
 };
 
 extern template class WaveFilter<float>;

@@ -1,0 +1,281 @@
+// Each call of FFTW transforms one row or sixteen neighbouring columns, whatever the number of
+// threads, so bits do not depend on it. Plans are estimated and not measured: measuring would
+// choose differently from run to run. The last axis is transformed from the plane to a buffer in
+// which its lines are contiguous, where even estimated plans are fast.
+//
+// Along periodic rows the transform is that of real numbers to complex ones. From then on columns
+// are complex and take FFTW's complex transforms, which use vectors, while its transforms of real
+// numbers to real ones do not.
+#include "solvers/wave_transforms.h"
+
+#include "core/plane.h"
+#include "solvers/fftw_transform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+/// The waves along an axis, which depend on the rules at its two sides.
+struct AxisWaves {
+    int forward = FFTW_R2HC;
+    int backward = FFTW_HC2R;
+    double shift = 0;          ///< Wave n makes (n + shift) / 2 periods over the axis.
+    bool is_periodic = false;  ///< Waves are whole periods, in the order of FFTW_R2HC.
+
+    friend bool operator==(const AxisWaves&, const AxisWaves&) = default;
+};
+
+AxisWaves waves_between(SideKind first, SideKind last) {
+    if (first == SideKind::periodic) return {FFTW_R2HC, FFTW_HC2R, 0, true};
+    const bool first_is_held = first == SideKind::fixed, last_is_held = last == SideKind::fixed;
+    if (first_is_held && last_is_held) return {FFTW_RODFT10, FFTW_RODFT01, 1, false};
+    if (first_is_held) return {FFTW_RODFT11, FFTW_RODFT11, 0.5, false};
+    if (last_is_held) return {FFTW_REDFT11, FFTW_REDFT11, 0.5, false};
+    return {FFTW_REDFT10, FFTW_REDFT01, 0, false};
+}
+
+using WavesOfAxes = std::array<AxisWaves, 3>;
+
+WavesOfAxes waves_between(const SideRules& rules) {
+    WavesOfAxes waves;
+    for (std::size_t axis = 0; axis < waves.size(); ++axis) {
+        waves[axis] = waves_between(rules.at[2 * axis].kind, rules.at[2 * axis + 1].kind);
+    }
+    return waves;
+}
+
+/// −4/h² sin²(half the phase from cell to cell): the factor by which the second difference
+/// multiplies each wave.
+template <typename Number>
+std::vector<Number> second_differences(const AxisWaves& waves, std::int64_t cells, double spacing) {
+    std::vector<Number> values(static_cast<std::size_t>(cells), Number{0});
+    if (cells == 1) return values;
+    const auto count = static_cast<double>(cells);
+    for (std::int64_t n = 0; n < cells; ++n) {
+        const double half_periods = waves.is_periodic
+                                        ? 2 * static_cast<double>(std::min(n, cells - n))
+                                        : static_cast<double>(n) + waves.shift;
+        const double sine = std::sin(std::numbers::pi * half_periods / (2 * count));
+        values[static_cast<std::size_t>(n)] =
+            static_cast<Number>(-4 * sine * sine / (spacing * spacing));
+    }
+    return values;
+}
+
+/// The factor by which a transform and its inverse together multiply.
+double gain_of(const AxisWaves& waves, std::int64_t cells) {
+    return static_cast<double>(cells) * (waves.is_periodic ? 1 : 2);
+}
+
+}  // namespace
+
+template <typename Number>
+struct WaveTransforms<Number>::Implementation {
+    using Block = WaveBlock<Number>;
+    using Lines = typename FftwTransform<Number>::Lines;
+    enum Axis : std::uint8_t { x, y, z };
+
+    /// The transforms of species with the same kinds of sides.
+    struct Shape {
+        WavesOfAxes waves;
+        std::int64_t columns = 0;    ///< Elements of a row of waves.
+        bool lines_complex = false;  ///< Of the buffer.
+        double gain = 1;
+        std::array<FftwTransform<Number>, 3> forward, backward;
+        std::array<std::vector<Number>, 3> differences;  ///< Along x by line of the buffer.
+    };
+    struct Free {
+        void operator()(Number* data) const { free_plane(data); }
+    };
+    using Buffer = std::unique_ptr<Number[], Free>;
+
+    Implementation(const Grid& its_grid, const std::vector<SideRules>& sides)
+        : layout(its_grid), grid(its_grid) {
+        for (std::uint8_t axis = x; axis <= z; ++axis) {
+            if (cells(axis) > 1) axes.push_back(static_cast<Axis>(axis));
+        }
+        for (const SideRules& rules : sides) {
+            const WavesOfAxes waves = waves_between(rules);
+            std::size_t same = 0;
+            while (same < shapes.size() && !(shapes[same].waves == waves)) ++same;
+            if (same == shapes.size()) shapes.push_back(shape(waves));
+            shape_of.push_back(same);
+        }
+    }
+
+    std::int64_t cells(std::uint8_t axis) const {
+        return axis == x ? layout.width : axis == y ? layout.height : layout.depth;
+    }
+    std::int64_t stride(Axis axis) const {
+        return axis == x ? 1 : axis == y ? layout.stride : layout.slice_stride;
+    }
+    /// Of one block.
+    std::int64_t buffer_size() const {
+        return axes.back() == x ? layout.width + 2 : Block::columns * cells(axes.back());
+    }
+    Buffer buffer(std::size_t blocks) const {
+        const std::size_t bytes = blocks * static_cast<std::size_t>(buffer_size()) * sizeof(Number);
+        return Buffer(static_cast<Number*>(allocate_plane(bytes)));
+    }
+
+    Shape shape(const WavesOfAxes& waves) const {
+        Shape made;
+        made.waves = waves;
+        const bool rows_complex = axes.front() == x && waves[x].is_periodic;
+        const Axis last = axes.back();
+        made.columns = rows_complex ? (layout.width / 2 + 1) * 2 : layout.width;
+        made.lines_complex = rows_complex && waves[last].is_periodic;
+        // Estimating reads no values; these are aligned like the planes to come.
+        Plane<Number> plane(layout);
+        const Buffer block = buffer(1);
+        for (const Axis axis : axes) {
+            made.gain *= gain_of(waves[axis], cells(axis));
+            using Kind = typename FftwTransform<Number>::Kind;
+            const bool is_complex = rows_complex && waves[axis].is_periodic;
+            const Kind there = !is_complex ? FftwTransform<Number>::real
+                               : axis == x ? FftwTransform<Number>::there
+                                           : FftwTransform<Number>::complex;
+            const Kind back =
+                there == FftwTransform<Number>::there ? FftwTransform<Number>::back : there;
+            const std::int64_t part = is_complex && axis != x ? 2 : 1;
+            const std::int64_t count = axis == x ? 1 : Block::columns / part;
+            const Lines in_plane{plane.origin(), stride(axis), part};
+            const Lines inside =
+                axis == last ? Lines{block.get(), part, part * cells(axis)} : in_plane;
+            const auto make = [&](Kind kind, int direction, const Lines& from, const Lines& to) {
+                return FftwTransform<Number>(kind, direction, cells(axis), count, from, to);
+            };
+            made.forward[axis] =
+                make(there, is_complex ? FFTW_FORWARD : waves[axis].forward, in_plane, inside);
+            made.backward[axis] =
+                make(back, is_complex ? FFTW_BACKWARD : waves[axis].backward, inside, in_plane);
+        }
+        for (std::uint8_t axis = x; axis <= z; ++axis) {
+            made.differences[axis] =
+                second_differences<Number>(waves[axis], cells(axis), grid.spacing);
+        }
+        if (rows_complex && !made.lines_complex) {
+            // The real and the imaginary part of a wave are columns of their own.
+            std::vector<Number>& along_x = made.differences[x];
+            const std::vector<Number> of_waves = std::exchange(along_x, {});
+            for (std::int64_t n = 0; n < made.columns; ++n) {
+                along_x.push_back(of_waves[static_cast<std::size_t>(n / 2)]);
+            }
+        }
+        return made;
+    }
+
+    std::int64_t blocks(const Shape& one) const {
+        return (one.columns + Block::columns - 1) / Block::columns;
+    }
+    /// Independent parts of a transform along an axis. Rows are numbered as everywhere, so that
+    /// threads share them as they do for kernels.
+    std::int64_t pieces(const Shape& one, Axis axis) const {
+        if (axis == x) return layout.row_count();
+        return blocks(one) * (axis == y ? layout.depth : layout.height);
+    }
+    /// Elements from cell (0, 0, 0) to the first one of a piece.
+    std::int64_t start(const Shape& one, Axis axis, std::int64_t piece) const {
+        if (axis == x) return layout.row_start(piece);
+        const std::int64_t other = piece / blocks(one);
+        return piece % blocks(one) * Block::columns +
+               other * (axis == y ? layout.slice_stride : layout.stride);
+    }
+    Block block(const Shape& one, std::int64_t piece, std::span<Number* const> waves) const {
+        const Axis last = axes.back();
+        const std::int64_t part = one.lines_complex ? 2 : 1;
+        const std::int64_t first = last == x ? 0 : piece % blocks(one) * Block::columns;
+        Block made;
+        made.number = piece;
+        made.axis = last;
+        made.is_complex = one.lines_complex;
+        made.lines = last == x ? 1 : std::min(Block::columns, one.columns - first) / part;
+        made.count = last == x ? one.columns / part : cells(last);
+        made.differences[x] = one.differences[x].data() + first / part;
+        const std::int64_t row = last == z ? piece / blocks(one) : 0;
+        made.differences[y] = one.differences[y].data() + row;
+        made.differences[z] = one.differences[z].data();
+        made.gain = one.gain;
+        made.waves = waves;
+        return made;
+    }
+
+    PlaneLayout layout;
+    Grid grid;
+    std::vector<Axis> axes;  ///< The axes of more than one cell, in the order of transforms.
+    std::vector<Shape> shapes;
+    std::vector<std::size_t> shape_of;  ///< By species.
+};
+
+template <typename Number>
+WaveTransforms<Number>::WaveTransforms(const Grid& grid, const std::vector<SideRules>& sides)
+    : self_(std::make_unique<Implementation>(grid, sides)) {}
+template <typename Number>
+WaveTransforms<Number>::WaveTransforms(WaveTransforms&&) noexcept = default;
+template <typename Number>
+WaveTransforms<Number>::~WaveTransforms() = default;
+
+template <typename Number>
+void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
+                                   std::span<Number* const> from,
+                                   std::span<const std::span<Number* const>> to,
+                                   const Visit& visit) const {
+    using Axis = typename Implementation::Axis;
+    const Implementation& self = *self_;
+    const auto for_pieces = [&](Axis axis, const auto& act) {
+        for (std::size_t s = 0; s < from.size(); ++s) {
+            if (from[s] == nullptr) continue;
+            const auto& shape = self.shapes[self.shape_of[s]];
+            const RowRange own = split_rows(self.pieces(shape, axis), thread, threads);
+            for (std::int64_t piece = own.begin; piece < own.end; ++piece) {
+                act(shape, s, piece, self.start(shape, axis, piece));
+            }
+        }
+    };
+    // Rows are shared as for kernels, columns are not.
+    const bool begins_with_rows = self.axes.front() == Axis::x;
+    if (!begins_with_rows) team.barrier();
+    for (std::size_t n = 0; n + 1 < self.axes.size(); ++n) {
+        const Axis axis = self.axes[n];
+        for_pieces(axis, [&](const auto& shape, std::size_t s, std::int64_t, std::int64_t start) {
+            shape.forward[axis].run(from[s] + start, from[s] + start);
+        });
+        team.barrier();
+    }
+    // After the last axis the transform is complete.
+    const Axis last = self.axes.back();
+    const auto buffer = self.buffer(to.size());
+    std::vector<Number*> waves;
+    for (std::size_t k = 0; k < to.size(); ++k) {
+        waves.push_back(buffer.get() + static_cast<std::int64_t>(k) * self.buffer_size());
+    }
+    for_pieces(last, [&](const auto& shape, std::size_t s, std::int64_t piece, std::int64_t start) {
+        shape.forward[last].run(from[s] + start, waves[0]);
+        WaveBlock<Number> block = self.block(shape, piece, waves);
+        block.species = s;
+        visit(block);
+        for (std::size_t k = 0; k < to.size(); ++k) {
+            shape.backward[last].run(waves[k], to[k][s] + start);
+        }
+    });
+    for (std::size_t n = self.axes.size() - 1; n-- > 0;) {
+        const Axis axis = self.axes[n];
+        team.barrier();
+        for_pieces(axis, [&](const auto& shape, std::size_t s, std::int64_t, std::int64_t start) {
+            for (const auto& planes : to) {
+                shape.backward[axis].run(planes[s] + start, planes[s] + start);
+            }
+        });
+    }
+    if (!begins_with_rows) team.barrier();
+}
+
+template class WaveTransforms<float>;
+template class WaveTransforms<double>;
+
+}  // namespace cascade
