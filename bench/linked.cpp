@@ -74,7 +74,13 @@ public:
         : grid_(grid_of(cells, choices.width)),
           layout_(grid_),
           links_(cells.links, layout_, Precision::single),
+          targets_(links_.table<float>().starts[grid_.cell_count() / 16] * 16),
           beta_(plane([](std::size_t cell) { return beta_value(cell); })) {
+        const LinkTable<float> table = links_.table<float>();
+        for (std::size_t k = 0; k < targets_.bytes() / sizeof(std::int32_t); ++k) {
+            const std::int64_t target = table.target(static_cast<std::int64_t>(k));
+            targets_.data()[k] = static_cast<std::int32_t>(target);
+        }
         for (int which = 0; which < 2; ++which) {
             const auto value = [&](std::size_t cell) { return start_value(cell, which); };
             theirs_.push_back(plane(value));
@@ -111,8 +117,8 @@ public:
     }
     void advance(decltype(&sliced_by_loads) step, std::int64_t count) {
         const LinkTable<float> table = links_.table<float>();
-        const SlicedLinks links{table.starts, table.targets, table.weights,
-                                grid_.width,  grid_.height,  layout_.stride};
+        const SlicedLinks links{table.starts, targets_.data(), table.weights,
+                                grid_.width,  grid_.height,    layout_.stride};
         for (; count > 0; --count) {
             step(parameters, links,
                  {{theirs_[0].origin(), theirs_[1].origin()},
@@ -155,6 +161,7 @@ private:
     Grid grid_;
     PlaneLayout layout_;
     Links links_;
+    AlignedArray<std::int32_t> targets_;  ///< For the others, in 32 bits.
     Field beta_;
     std::vector<Plane<float>> theirs_, theirs_next_;
     std::vector<Field> ours_;

@@ -9,10 +9,16 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t slice_cells = LinkTable<float>::slice_cells;
+constexpr std::size_t slice_cells = LinkTable<float>::slice_cells;
+
+constexpr bool fits_offset(std::int64_t elements) {
+    return elements == static_cast<std::int16_t>(elements);
+}
+
+}  // namespace
 
 /// The positions of a list's cells in the rows of a plane. The links of cell i end before ends[i].
-class Placing {
+class Links::Placing {
 public:
     Placing(std::span<const std::size_t> ends, const PlaneLayout& layout,
             std::span<const std::uint32_t> order)
@@ -22,6 +28,10 @@ public:
 
     struct Range {
         std::size_t first = 0, count = 0;
+        std::size_t drop_first() {
+            --count;
+            return first++;
+        }
     };
     /// The links of the cell at this position; none in the padding of a row.
     Range links_at(std::int64_t row, std::int64_t column) const {
@@ -34,7 +44,7 @@ public:
     }
 
     /// For each cell of the list, its element counted from cell (0, 0).
-    std::vector<std::int32_t> offsets() const {
+    std::vector<std::int32_t> elements() const {
         std::vector<std::int32_t> result(ends_.size());
         for (std::size_t k = 0; k < result.size(); ++k) {
             const auto place = static_cast<std::int64_t>(k);
@@ -44,27 +54,33 @@ public:
         return result;
     }
 
-    std::int64_t slices_of_row() const { return (layout_.width + slice_cells - 1) / slice_cells; }
+    struct Slice {
+        std::int64_t first = 0;  ///< The element of its first cell.
+        std::array<Range, slice_cells> links;
+        std::array<std::int64_t, slice_cells> own{};
 
-    /// Calls `use(at, link)` for each link and `fill_up(at, row, column)` for each padding element.
-    /// `at` is the index of the element, with slices that begin at the entries `starts`.
-    void for_each(const std::vector<std::uint32_t>& starts, const auto& use,
-                  const auto& fill_up) const {
+        /// Null if no links are left.
+        const Range* longest() const {
+            const auto most =
+                std::max_element(links.begin(), links.end(),
+                                 [](const Range& a, const Range& b) { return a.count < b.count; });
+            return most->count > 0 ? &*most : nullptr;
+        }
+    };
+    /// Calls `use(slice)` for each slice, row after row.
+    void for_each_slice(auto use) const {
+        constexpr auto lanes = static_cast<std::int64_t>(slice_cells);
         for (std::int64_t row = 0; row < layout_.height; ++row) {
-            for (std::int64_t column = 0; column < slices_of_row() * slice_cells; ++column) {
-                const auto slice =
-                    static_cast<std::size_t>(row * slices_of_row() + column / slice_cells);
-                const auto lane = static_cast<std::size_t>(column % slice_cells);
-                const Range links = links_at(row, column);
-                for (std::uint32_t entry = starts[slice]; entry < starts[slice + 1]; ++entry) {
-                    const std::size_t at = std::size_t{entry} * slice_cells + lane;
-                    const std::size_t k = entry - starts[slice];
-                    if (k < links.count) {
-                        use(at, links.first + k);
-                    } else {
-                        fill_up(at, row, column);
-                    }
+            for (std::int64_t column = 0; column < layout_.width; column += lanes) {
+                Slice slice;
+                slice.first = layout_.row_start(row) + column;
+                for (std::int64_t lane = 0; lane < lanes; ++lane) {
+                    const auto k = static_cast<std::size_t>(lane);
+                    slice.links[k] = links_at(row, column + lane);
+                    slice.own[k] =
+                        layout_.row_start(row) + std::min(column + lane, layout_.width - 1);
                 }
+                use(slice);
             }
         }
     }
@@ -75,54 +91,85 @@ private:
     std::span<const std::uint32_t> order_;
 };
 
-}  // namespace
-
 Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
              std::span<const std::uint32_t> order) {
     const Placing placing(list.ends, layout, order);
+    const std::vector<std::int32_t> elements = placing.elements();
+    const auto target = [&](std::size_t link) { return elements[list.neighbours[link]]; };
     starts_.assign(1, 0);
-    for (std::int64_t row = 0; row < layout.height; ++row) {
-        for (std::int64_t slice = 0; slice < placing.slices_of_row(); ++slice) {
-            std::size_t most = 0;
-            for (std::int64_t lane = 0; lane < slice_cells; ++lane) {
-                most = std::max(most, placing.links_at(row, slice * slice_cells + lane).count);
+    placing.for_each_slice([&](Placing::Slice& slice) {
+        while (const Placing::Range* const some = slice.longest()) {
+            const auto fits = [&](std::int64_t base, std::size_t link) {
+                return fits_offset(target(link) - base);
+            };
+            const bool all_fit =
+                std::all_of(slice.links.begin(), slice.links.end(),
+                            [&](const Placing::Range& links) {
+                                return links.count == 0 || fits(slice.first, links.first);
+                            });
+            const std::int64_t base = all_fit ? slice.first : target(some->first);
+            unsigned filled = 0;
+            for (std::size_t lane = 0; lane < slice_cells; ++lane) {
+                Placing::Range& links = slice.links[lane];
+                if (links.count > 0 && fits(base, links.first)) {
+                    filled |= 1U << lane;
+                    links.drop_first();
+                }
             }
-            starts_.push_back(starts_.back() + static_cast<std::uint32_t>(most));
+            bases_.push_back(static_cast<std::int32_t>(base));
+            filled_.push_back(static_cast<std::uint16_t>(filled));
         }
-    }
-    const std::size_t size = std::size_t{starts_.back()} * static_cast<std::size_t>(slice_cells);
-    targets_ = AlignedArray<std::int32_t>(size);
-    const std::vector<std::int32_t> offsets = placing.offsets();
-    const auto make = [&]<typename Number>(Weights<Number> weights) {
-        weights.laplacian = AlignedArray<Number>(size);
+        starts_.push_back(static_cast<std::uint32_t>(bases_.size()));
+    });
+    offsets_ = AlignedArray<std::int16_t>(bases_.size() * slice_cells);
+    with_number(precision, [&](auto zero) {
+        Weights<decltype(zero)> weights;
+        weights.laplacian = AlignedArray<decltype(zero)>(bases_.size() * slice_cells);
+        const auto set_offset = [&](std::size_t at, std::int64_t element) {
+            const std::int64_t offset = element - bases_[at / slice_cells];
+            if (fits_offset(offset)) offsets_.data()[at] = static_cast<std::int16_t>(offset);
+        };
         const auto put = [&](std::size_t at, std::size_t link) {
-            targets_.data()[at] = offsets[list.neighbours[link]];
-            weights.laplacian.data()[at] = static_cast<Number>(list.weights[link]);
+            set_offset(at, target(link));
+            weights.laplacian.data()[at] = static_cast<decltype(zero)>(list.weights[link]);
         };
-        const auto put_itself = [&](std::size_t at, std::int64_t row, std::int64_t column) {
-            targets_.data()[at] = static_cast<std::int32_t>(layout.row_start(row) +
-                                                            std::min(column, layout.width - 1));
-        };
-        placing.for_each(starts_, put, put_itself);
+        for_each_element(placing, put, set_offset);
         weights_ = std::move(weights);
-    };
-    with_number(precision, [&](auto zero) { make(Weights<decltype(zero)>{}); });
+    });
     if (!list.gradients.empty()) *this = with_gradients(list.gradients, list.ends, layout, order);
+}
+
+/// Calls `use(at, link)` for each link and `fill_up(at, own)` for each padding link, where `at` is
+/// its place in the arrays and `own` the element of its cell.
+void Links::for_each_element(const Placing& placing, const auto& use, const auto& fill_up) const {
+    std::size_t entry = 0, slices = 0;
+    placing.for_each_slice([&](Placing::Slice& slice) {
+        for (const std::size_t end = starts_[++slices]; entry < end; ++entry) {
+            for (std::size_t lane = 0; lane < slice_cells; ++lane) {
+                const std::size_t at = entry * slice_cells + lane;
+                if ((filled_[entry] >> lane & 1U) != 0) {
+                    use(at, slice.links[lane].drop_first());
+                } else {
+                    fill_up(at, slice.own[lane]);
+                }
+            }
+        }
+    });
 }
 
 Links Links::with_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
                             const PlaneLayout& layout, std::span<const std::uint32_t> order) const {
     Links links = *this;
-    const Placing placing(ends, layout, order);
-    const std::size_t size = std::size_t{starts_.back()} * static_cast<std::size_t>(slice_cells);
     const auto add = [&]<typename Number>(Weights<Number>& weights) {
-        for (auto& component : weights.gradients) component = AlignedArray<Number>(size);
+        for (auto& component : weights.gradients) {
+            component = AlignedArray<Number>(bases_.size() * slice_cells);
+        }
         const auto put = [&](std::size_t at, std::size_t link) {
             weights.gradients[0].data()[at] = static_cast<Number>(gradients[link].x);
             weights.gradients[1].data()[at] = static_cast<Number>(gradients[link].y);
             weights.gradients[2].data()[at] = static_cast<Number>(gradients[link].z);
         };
-        placing.for_each(starts_, put, [](auto...) {});
+        for_each_element(Placing(ends, layout, order), put, [](auto...) {});
     };
     std::visit(add, links.weights_);
     return links;
@@ -131,7 +178,8 @@ Links Links::with_gradients(std::span<const Vector3d> gradients, std::span<const
 template <typename Number>
 LinkTable<Number> Links::table() const {
     const auto& weights = *std::get_if<Weights<Number>>(&weights_);
-    LinkTable<Number> table{starts_.data(), targets_.data(), weights.laplacian.data(), {}};
+    LinkTable<Number> table{
+        starts_.data(), bases_.data(), offsets_.data(), weights.laplacian.data(), {}};
     for (std::size_t k = 0; k < 3; ++k) table.gradients[k] = weights.gradients[k].data();
     return table;
 }
@@ -147,7 +195,7 @@ std::size_t Links::bytes() const {
             return sum;
         },
         weights_);
-    return starts_.size() * sizeof(std::uint32_t) + targets_.bytes() + weights;
+    return (starts_.size() + bases_.size()) * sizeof(std::uint32_t) + offsets_.bytes() + weights;
 }
 
 }  // namespace cascade

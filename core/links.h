@@ -1,10 +1,15 @@
 // The neighbours of cells that lie on no grid, stored as sliced ELLPACK (Monakov et al. 2010).
 //
 // Cells are numbered in rows as on a grid (PlaneLayout). Sixteen adjacent cells of a row form a
-// slice. A slice has as many entries as its cell with the most neighbours has links; an entry holds
-// one link of each of the sixteen cells. A vector of cells thus loads the indices and weights of
-// its neighbours as vectors and gathers their values. Padding links have weight 0 and lead to the
-// cell itself.
+// slice. An entry of a slice holds one link of each of the sixteen cells, so a slice has as many
+// entries as its cell with the most neighbours has links. A vector of cells thus loads the
+// positions and weights of its neighbours as vectors and gathers their values. Padding links have
+// weight 0 and lead to the cell itself.
+//
+// Neighbours are near each other in memory, so an entry holds 16-bit offsets from one element: the
+// first cell of the slice or, if some link leads too far for that, the target of some link. Links
+// that are still too far wait for a later entry; the offset of a padding link that is too far from
+// its own cell is 0.
 #pragma once
 
 #include "core/grid.h"
@@ -29,10 +34,16 @@ struct LinkTable {
     static constexpr std::int64_t slice_cells = PlaneLayout::row_pad;
 
     const std::uint32_t* starts = nullptr;
-    const std::int32_t* targets = nullptr;  ///< Elements from cell (0, 0) to the neighbour.
+    const std::int32_t* bases = nullptr;    ///< By entry: elements from cell (0, 0) to its base.
+    const std::int16_t* offsets = nullptr;  ///< Elements from the base to the neighbour.
     const Number* weights = nullptr;        ///< Factor of (neighbour − cell) in a Laplacian.
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
+
+    /// Elements from cell (0, 0) to the neighbour to which a link leads.
+    std::int64_t target(std::int64_t link) const {
+        return std::int64_t{bases[link / slice_cells]} + offsets[link];
+    }
 };
 
 /// The links of all cells, in the order of the cells: those of cell i end before ends[i].
@@ -85,14 +96,19 @@ public:
     std::size_t bytes() const;
 
 private:
+    class Placing;
     template <typename Number>
     struct Weights {
         AlignedArray<Number> laplacian;
         std::array<AlignedArray<Number>, 3> gradients;
     };
 
+    void for_each_element(const Placing& placing, const auto& use, const auto& fill_up) const;
+
     std::vector<std::uint32_t> starts_;
-    AlignedArray<std::int32_t> targets_;
+    std::vector<std::int32_t> bases_;
+    std::vector<std::uint16_t> filled_;  ///< By entry: the lanes whose links are no padding.
+    AlignedArray<std::int16_t> offsets_;
     std::variant<Weights<float>, Weights<double>> weights_;
 };
 

@@ -337,7 +337,7 @@ private:
                 for (std::int64_t entry = links.starts[slice]; entry < links.starts[slice + 1];
                      ++entry) {
                     const std::int64_t link = entry * slice_cells + lane;
-                    const std::int64_t j = links.targets[link];
+                    const std::int64_t j = links.target(link);
                     sum += term(link, f[j] - f[i], i, j);
                 }
                 out[first + lane] = sum;

@@ -33,9 +33,10 @@ template <typename Number>
 using LinkedFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results, std::int64_t width,
                             std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
-                            const std::uint32_t* starts, const std::int32_t* targets,
-                            const Number* weights, const Number* gradient_x,
-                            const Number* gradient_y, const Number* gradient_z);
+                            const std::uint32_t* starts, const std::int32_t* bases,
+                            const std::int16_t* offsets, const Number* weights,
+                            const Number* gradient_x, const Number* gradient_y,
+                            const Number* gradient_z);
 
 /// Code and constants of one function.
 struct CodeImage {

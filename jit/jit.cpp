@@ -78,8 +78,8 @@ private:
         function_->template as<LinkedFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
             arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end,
-            links.starts, links.targets, links.weights, links.gradients[0], links.gradients[1],
-            links.gradients[2]);
+            links.starts, links.bases, links.offsets, links.weights, links.gradients[0],
+            links.gradients[1], links.gradients[2]);
     }
 
     Stencil stencil_;

@@ -14,6 +14,7 @@ struct KernelShape {
     // What the processor has and is fast at: see tuned() in jit/target_machine.h.
     bool has_multiply_add = false;  ///< Of one rounding, in one instruction.
     bool is_short_of_loads = false;
+    bool has_fast_gathers = false;
     bool has_rounding = false;  ///< To whole numbers, in one instruction.
     bool has_scaling = false;   ///< Of vectors of 64 bytes by powers of two, in one instruction.
 };

@@ -1,7 +1,7 @@
 // Sums over links.
 //
 // For each vector of cells one loop over the entries of its slice computes all sums of the kernel
-// together: targets and weights are loaded once, and what a field holds at the targets is read
+// together: offsets and weights are loaded once, and what a field holds at the targets is read
 // once, however many sums ask for it.
 #include "jit/skeleton_linked.h"
 
@@ -22,7 +22,16 @@ using SumKey = std::pair<Op, std::uint64_t>;
 SumKey key_of(const Instruction& instruction) { return {instruction.op, instruction.payload}; }
 
 /// Where the arrays of a LinkTable stand among the extra arguments.
-enum Array : unsigned { starts, targets, weights, gradient_x, gradient_y, gradient_z, array_count };
+enum Array : unsigned {
+    starts,
+    bases,
+    offsets,
+    weights,
+    gradient_x,
+    gradient_y,
+    gradient_z,
+    array_count
+};
 
 /// What a sum multiplies the differences by.
 Array weights_of(Op op) {
@@ -45,15 +54,22 @@ public:
 
     /// What it adds to a sum.
     Value* term(SumKey sum);
-    /// Asks for targets and weights of later entries.
+    /// Asks for offsets and weights of later entries.
     void prefetch_ahead();
 
 private:
     /// f_j − f_i.
     Value* difference(FieldSlot slot);
     Value* at_targets(FieldSlot slot);
-    void load_targets();
+    Value* gathered(Value* plane);
+    Value* loaded(Value* plane);
+    void load_offsets();
+    Value* base();
     Value* numbers(unsigned array);
+    template <typename Load>
+    Load* mark(Load* load) {
+        return frame_.aliases().mark(load, 0);
+    }
     Value* address(unsigned array, llvm::Type* element, int lane = 0) {
         Value* link = builder_.CreateAdd(link_, builder_.getInt64(lane));
         return builder_.CreateInBoundsGEP(element, frame_.extra_argument(array), link);
@@ -65,7 +81,8 @@ private:
     CellSources& cells_;
     std::map<unsigned, Value*> numbers_;                ///< By array.
     std::map<FieldSlot, Value*> fields_, differences_;  ///< By slot.
-    std::vector<Value*> targets_;                       ///< By lane.
+    Value* base_ = nullptr;
+    std::vector<Value*> offsets_;  ///< By lane, or one vector of all lanes if they are gathered.
 };
 
 Value* LinkEntry::term(SumKey sum) {
@@ -86,34 +103,69 @@ Value* LinkEntry::difference(FieldSlot slot) {
     return value;
 }
 
-// Loads of 64 bits hold two targets, since it is loads that bound the loop: on a Zen 4 this takes
-// 0.95 of the time of a load for each target, and 0.52 of that of the processor's gathers, which
-// are slower with vectors of 8 and 4 cells as well. Targets are not negative.
-void LinkEntry::load_targets() {
+/// The number of the element from which the offsets of the entry count.
+Value* LinkEntry::base() {
+    if (base_) return base_;
+    llvm::Type* index = builder_.getInt32Ty();
+    Value* entry = builder_.CreateUDiv(link_, builder_.getInt64(slice_cells));
+    Value* address = builder_.CreateInBoundsGEP(index, frame_.extra_argument(bases), entry);
+    base_ = builder_.CreateSExt(mark(builder_.CreateAlignedLoad(index, address, alignment(4))),
+                                builder_.getInt64Ty());
+    return base_;
+}
+
+// Where loads bound the loop, one load of 64 bits holds four offsets, which shifts take apart.
+void LinkEntry::load_offsets() {
+    llvm::Type* half = builder_.getInt16Ty();
+    llvm::Type* word = builder_.getInt64Ty();
+    if (frame_.shape().has_fast_gathers) {
+        llvm::LoadInst* all =
+            builder_.CreateAlignedLoad(frame_.vector_of(half), address(offsets, half),
+                                       alignment(2 * frame_.lanes()));
+        offsets_ = {builder_.CreateSExt(mark(all), frame_.vector_of(builder_.getInt32Ty()))};
+        return;
+    }
+    Value* four = nullptr;
+    const int together = frame_.shape().is_short_of_loads ? 4 : 1;
     const bool low_is_first = frame_.function().getDataLayout().isLittleEndian();
-    for (int lane = 0; lane < frame_.lanes(); lane += 2) {
-        llvm::LoadInst* load =
-            builder_.CreateAlignedLoad(builder_.getInt64Ty(),
-                                       address(targets, builder_.getInt32Ty(), lane), alignment(8));
-        Value* both = frame_.aliases().mark(load, 0);
-        Value* low = builder_.CreateAnd(both, builder_.getInt64(0xffffffff));
-        Value* high = builder_.CreateLShr(both, 32);
-        targets_.push_back(low_is_first ? low : high);
-        targets_.push_back(low_is_first ? high : low);
+    for (int lane = 0; lane < frame_.lanes(); ++lane) {
+        if (together == 1) {
+            llvm::LoadInst* one =
+                builder_.CreateAlignedLoad(half, address(offsets, half, lane), alignment(2));
+            offsets_.push_back(builder_.CreateSExt(mark(one), word));
+            continue;
+        }
+        if (lane % together == 0) {
+            four =
+                mark(builder_.CreateAlignedLoad(word, address(offsets, half, lane), alignment(8)));
+        }
+        const int place = low_is_first ? lane % together : together - 1 - lane % together;
+        offsets_.push_back(builder_.CreateAShr(builder_.CreateShl(four, 48 - 16 * place), 48));
     }
 }
 
 Value* LinkEntry::at_targets(FieldSlot slot) {
     Value*& value = fields_[slot];
     if (value) return value;
-    if (targets_.empty()) load_targets();
-    value = llvm::PoisonValue::get(frame_.vector_of(frame_.number()));
-    for (std::size_t lane = 0; lane < targets_.size(); ++lane) {
-        Value* address =
-            builder_.CreateInBoundsGEP(frame_.number(), frame_.field_plane(slot), targets_[lane]);
+    if (offsets_.empty()) load_offsets();
+    Value* plane = builder_.CreateInBoundsGEP(frame_.number(), frame_.field_plane(slot), base());
+    value = frame_.shape().has_fast_gathers ? gathered(plane) : loaded(plane);
+    return value;
+}
+
+Value* LinkEntry::gathered(Value* plane) {
+    Value* addresses = builder_.CreateInBoundsGEP(frame_.number(), plane, offsets_[0]);
+    return mark(builder_.CreateMaskedGather(frame_.vector_of(frame_.number()), addresses,
+                                            alignment(frame_.number_bytes())));
+}
+
+Value* LinkEntry::loaded(Value* plane) {
+    Value* value = llvm::PoisonValue::get(frame_.vector_of(frame_.number()));
+    for (std::size_t lane = 0; lane < offsets_.size(); ++lane) {
+        Value* address = builder_.CreateInBoundsGEP(frame_.number(), plane, offsets_[lane]);
         llvm::LoadInst* load =
             builder_.CreateAlignedLoad(frame_.number(), address, alignment(frame_.number_bytes()));
-        value = builder_.CreateInsertElement(value, frame_.aliases().mark(load, 0), lane);
+        value = builder_.CreateInsertElement(value, mark(load), lane);
     }
     return value;
 }
@@ -121,14 +173,14 @@ Value* LinkEntry::at_targets(FieldSlot slot) {
 // Most of what a step reads are links: with prefetches a million cells take 0.91 to 0.96 of the
 // time, cells that fit into the cache the same. The addresses may lie beyond the arrays.
 void LinkEntry::prefetch_ahead() {
-    constexpr int entries = 16;
+    constexpr int entries = 32;
     const auto prefetch = [&](unsigned array, llvm::Type* element) {
         Value* link =
             builder_.CreateAdd(link_,
                                builder_.getInt64(entries * static_cast<std::int64_t>(slice_cells)));
         frame_.prefetch(builder_, builder_.CreateGEP(element, frame_.extra_argument(array), link));
     };
-    prefetch(targets, builder_.getInt32Ty());
+    prefetch(offsets, builder_.getInt16Ty());
     for (const auto& [array, value] : numbers_) prefetch(array, frame_.number());
 }
 
@@ -138,7 +190,7 @@ Value* LinkEntry::numbers(unsigned array) {
         llvm::LoadInst* load = builder_.CreateAlignedLoad(frame_.vector_of(frame_.number()),
                                                           address(array, frame_.number()),
                                                           alignment(frame_.vector_bytes()));
-        value = frame_.aliases().mark(load, 0);
+        value = mark(load);
     }
     return value;
 }
@@ -211,7 +263,7 @@ void LinkedSources::add_up() {
     for (auto& [key, value] : sums_) {
         value = builder_.CreateFAdd(sums_before[key], entry.term(key));
     }
-    if (frame_.vector_bytes() == cache_line) entry.prefetch_ahead();
+    entry.prefetch_ahead();
     Value* next = builder_.CreateAdd(link, count(slice_cells));
     builder_.CreateCondBr(builder_.CreateICmpULT(next, end), entries, after);
     link->addIncoming(first, before);

@@ -3,8 +3,9 @@
 // Internal to jit/. The arguments of the function are those of jit/skeleton.h and those of a
 // LinkTable:
 //
-//     const uint32_t *starts, const int32_t *targets, const float *weights,
-//     const float *gradient_x, const float *gradient_y, const float *gradient_z
+//     const uint32_t *starts, const int32_t *bases, const int16_t *offsets,
+//     const float *weights, const float *gradient_x, const float *gradient_y, const float
+//     *gradient_z
 //
 // of which those that no sum of the kernel asks for are not read.
 #pragma once

@@ -104,6 +104,11 @@ bool is_short_of_loads(const llvm::TargetMachine& machine) {
     return machine.getTargetCPU() == "znver4" && widest_lanes(machine) == 16;
 }
 
+bool has_fast_gathers(const llvm::TargetMachine& machine) {
+    return machine.getTargetTriple().isX86() &&
+           machine.getMCSubtargetInfo()->checkFeatures("+avx2,+serialize");
+}
+
 bool has_rounding(const llvm::TargetMachine& machine) {
     const llvm::Triple& triple = machine.getTargetTriple();
     if (!triple.isX86()) return triple.isAArch64();
@@ -113,6 +118,7 @@ bool has_rounding(const llvm::TargetMachine& machine) {
 KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine) {
     shape.has_multiply_add = has_multiply_add(machine);
     shape.is_short_of_loads = is_short_of_loads(machine);
+    shape.has_fast_gathers = has_fast_gathers(machine) && shape.lanes >= 8;
     shape.has_rounding = has_rounding(machine);
     shape.has_scaling = widest_lanes(machine) == 16;
     return shape;

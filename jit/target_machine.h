@@ -36,6 +36,11 @@ bool has_multiply_add(const llvm::TargetMachine& machine);
 /// Zen 4 loads 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
+/// Whether gathering a vector takes less time than a load for each of its numbers: on Intel's
+/// processors since 2021. AMD's take about as long, and older ones of Intel are slowed down by the
+/// mitigation of "gather data sampling"; neither has the instruction that this looks for.
+bool has_fast_gathers(const llvm::TargetMachine& machine);
+
 /// Whether rounding to whole numbers, ties to even, is an instruction.
 bool has_rounding(const llvm::TargetMachine& machine);
 

@@ -178,7 +178,7 @@ private:
                 const std::int64_t link = entry * lanes + i % lanes;
                 if (table.weights[link] == 0) continue;  // Padding of the slice.
                 pairs.add(plane_.row(row)[i] - level.mean,
-                          plane_.origin()[table.targets[link]] - level.mean);
+                          plane_.origin()[table.target(link)] - level.mean);
             }
         }
         if (pairs.alternate(link_limit)) alternating_ += level.cells;

@@ -132,12 +132,10 @@ std::int64_t rows_reached(const StepProblem& problem) {
         const auto links = problem.links->template table<decltype(zero)>();
         std::int64_t reached = 1;
         for (std::int64_t row = 0; row < layout.height; ++row) {
-            const std::int32_t* first = links.targets + lanes * links.starts[row * slices];
-            const std::int32_t* last = links.targets + lanes * links.starts[(row + 1) * slices];
-            if (first == last) continue;
-            const auto [least, most] = std::minmax_element(first, last);
-            reached =
-                std::max({reached, row - *least / layout.stride, *most / layout.stride - row});
+            const std::int64_t last = lanes * links.starts[(row + 1) * slices];
+            for (std::int64_t link = lanes * links.starts[row * slices]; link < last; ++link) {
+                reached = std::max(reached, std::abs(links.target(link) / layout.stride - row));
+            }
         }
         return reached;
     });

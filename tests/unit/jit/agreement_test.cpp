@@ -151,6 +151,20 @@ TEST(JitAgreement, EveryShapeOfRowsOfLinkedCells) {
     }
 }
 
+// Most links lead farther than an offset of 16 bits, and entries of a slice have bases of their
+// own.
+TEST(JitAgreement, LinksThatLeadFar) {
+    Backends backends;
+    for (const Precision precision : {Precision::single, Precision::binary64}) {
+        const CellKernel kernel = kernel_of_links(precision);
+        Grid grid{40, 1000};
+        grid.linked = true;
+        for (const auto& backend : backends.optimised) {
+            ASSERT_EQ(difference(*backend, kernel, grid, 1), "");
+        }
+    }
+}
+
 TEST(JitAgreement, LargeKernels) {
     Backends backends;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {

@@ -85,7 +85,7 @@ private:
             for (std::uint32_t e = given.links.starts[slice]; e < given.links.starts[slice + 1];
                  ++e) {
                 const std::int64_t link = 16 * static_cast<std::int64_t>(e) + column % 16;
-                sum += given.links.weights[link] * cells[given.links.targets[link]];
+                sum += given.links.weights[link] * cells[given.links.target(link)];
             }
             return sum;
         }
