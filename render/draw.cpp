@@ -2,7 +2,9 @@
 //
 // Every pixel begins with four rays, each of which tests the sun and the sky once.
 // - Where the rays or the neighbouring pixels hit different things there is an edge, and the pixel
-//   sends all its rays.
+//   sends all its rays, each of which tests both lights.
+// - Where only their colours differ, the pixel sends all its rays, but tests the lights as if they
+//   agreed.
 // - Where a light is partly hidden around a pixel, the pixel tests it more often.
 // - The visible part of the sky varies slowly along a surface. Pixels away from edges use the mean
 //   over their neighbours on the same surface.
@@ -34,6 +36,8 @@ constexpr int first_rays = 4;  ///< Of every pixel.
 constexpr std::uint32_t sun_rounds = 16;
 constexpr std::uint32_t sky_rounds = 2;
 constexpr std::uint32_t edge_rounds = 2;  ///< For both lights, at an edge.
+/// Two hits whose normals have a smaller cosine are not on one piece of a surface.
+constexpr float least_cosine = 0.9F;
 // Contrasts of light above which all rays are sent.
 constexpr float contrast_in_pixel = 0.12F;  ///< Between the first rays of a pixel.
 constexpr float contrast_beside = 0.3F;     ///< Between a pixel and its neighbours.
@@ -123,8 +127,9 @@ struct Pixel {
     std::int64_t x = 0, y = 0;
     Shifts shifts;
     std::array<Seen, first_rays> seen;
-    Colour light{0, 0, 0};  ///< The mean of the rays, were nothing hidden.
-    bool is_mixed = false;  ///< The rays differ.
+    Colour light{0, 0, 0};   ///< The mean of the rays, were nothing hidden.
+    bool is_mixed = false;   ///< The first rays hit different things.
+    bool is_varied = false;  ///< The first rays, or the pixels beside, hit different colours.
     Tally sun, sky;
     Tally more_sky;  ///< All answers, where it was asked for more often.
     bool is_edge = false;
@@ -145,7 +150,7 @@ public:
         begin(left, top);
         visit(filter_reach + 1, [&](Pixel& pixel) { send_first(pixel); });
         visit(filter_reach, [&](Pixel& pixel) {
-            pixel.is_edge = is_edge(pixel);
+            look_beside(pixel);
             pixel.more_sky = pixel.sky;
             if (!pixel.is_edge && around(pixel, &Pixel::sky).is_partial()) ask_sky(pixel);
         });
@@ -220,12 +225,23 @@ private:
                 tracer_.sees_sky(from, on_disc(even_point(number, shift[0], shift[1]))) ? 1u : 0u};
     }
 
+    /// Whether two hits, in a pixel or in neighbouring ones, are on one piece of a surface.
+    bool is_one_piece(const Seen& a, const Seen& b) const {
+        if (a.kind != b.kind) return false;
+        if (a.kind == Seen::Kind::background) return true;
+        const float near = 3 * tracer_.pixel_at(a.place);
+        return dot(a.normal, b.normal) >= least_cosine &&
+               std::abs(dot(a.normal, b.place - a.place)) <= near;
+    }
+
     void send_first(Pixel& pixel) const {
+        bool is_torn = false;
         Colour low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
         for (std::uint32_t k = 0; k < first_; ++k) {
             Seen& seen = pixel.seen[k];
             seen = trace(k, pixel, first_width_);
             if (seen.kind != pixel.seen[0].kind) pixel.is_mixed = true;
+            is_torn = is_torn || !is_one_piece(pixel.seen[0], seen);
             const Colour light = full_light(seen);
             add(light, 1 / static_cast<float>(first_), pixel.light);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -236,16 +252,21 @@ private:
             pixel.sun += asked_sun(seen, k, pixel);
             pixel.sky += asked_sky(seen, k, pixel);
         }
-        if (contrast(low, high) > contrast_in_pixel) pixel.is_mixed = true;
+        if (contrast(low, high) > contrast_in_pixel) {
+            (is_torn ? pixel.is_mixed : pixel.is_varied) = true;
+        }
     }
 
-    bool is_edge(const Pixel& pixel) {
-        bool found = pixel.is_mixed;
+    void look_beside(Pixel& pixel) {
+        pixel.is_edge = pixel.is_mixed;
         visit_around(pixel, 1, [&](const Pixel& other) {
-            found = found || other.seen[0].kind != pixel.seen[0].kind ||
-                    contrast(other.light, pixel.light) > contrast_beside;
+            const Seen &own = pixel.seen[0], &there = other.seen[0];
+            if (own.kind != there.kind) {
+                pixel.is_edge = true;
+            } else if (contrast(other.light, pixel.light) > contrast_beside) {
+                (is_one_piece(own, there) ? pixel.is_varied : pixel.is_edge) = true;
+            }
         });
-        return found;
     }
 
     void ask_sky(Pixel& pixel) const {
@@ -254,7 +275,14 @@ private:
         }
     }
 
-    /// Of a pixel whose rays meet the same thing.
+    /// Puts `count` rays of a pixel into `all_`.
+    void send_all(const Pixel& pixel, std::uint32_t count) {
+        all_.assign(pixel.seen.begin(), pixel.seen.begin() + first_);
+        const float width = 1 / static_cast<float>(options_.samples);
+        for (std::uint32_t k = first_; k < count; ++k) all_.push_back(trace(k, pixel, width));
+    }
+
+    /// Of a pixel whose rays hit the same thing.
     Colour even_light(const Pixel& pixel) {
         if (pixel.seen[0].kind == Seen::Kind::background) return pixel.light;
         Tally sun = pixel.sun;
@@ -264,31 +292,25 @@ private:
             }
         }
         const Seen& own = pixel.seen[0];
-        const float near = 3 * tracer_.pixel_at(own.place);
         Tally sky;
         visit_around(pixel, filter_reach, [&](const Pixel& other) {
             const Seen& there = other.seen[0];
-            if (other.is_edge || dot(own.normal, there.normal) < 0.9F ||
-                std::abs(dot(own.normal, there.place - own.place)) > near) {
-                return;
-            }
-            sky += other.more_sky;
+            if (!other.is_edge && is_one_piece(own, there)) sky += other.more_sky;
         });
+        send_all(pixel, pixel.is_varied ? rays_ : first_);
         Colour light{0, 0, 0};
-        for (std::uint32_t k = 0; k < first_; ++k) {
-            const float part = 1 / static_cast<float>(first_);
-            add(pixel.seen[k].always, part, light);
-            add(pixel.seen[k].of_sun, part * sun.share(), light);
-            add(pixel.seen[k].of_sky, part * sky.share(), light);
+        const float part = 1 / static_cast<float>(all_.size());
+        for (const Seen& each : all_) {
+            add(each.always, part, light);
+            add(each.of_sun, part * sun.share(), light);
+            add(each.of_sky, part * sky.share(), light);
         }
         return light;
     }
 
     /// Of all rays that a pixel may have.
     Colour edge_light(const Pixel& pixel) {
-        all_.assign(pixel.seen.begin(), pixel.seen.begin() + first_);
-        const float width = 1 / static_cast<float>(options_.samples);
-        for (std::uint32_t k = first_; k < rays_; ++k) all_.push_back(trace(k, pixel, width));
+        send_all(pixel, rays_);
         Colour sum{0, 0, 0};
         for (const Seen& each : all_) add(each.always, 1, sum);
         add_light(&Seen::of_sun, sum, [&](const Seen& from, std::uint32_t number) {
