@@ -1,3 +1,4 @@
+// Computes the factors of a line of waves, then multiplies the line by them.
 #include "solvers/wave_filter.h"
 
 #include <algorithm>
