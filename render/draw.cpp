@@ -1,6 +1,6 @@
 // Adaptive sampling: few rays where the picture is smooth, more where they differ.
 //
-// Every pixel begins with four rays, each of which tests the sun and the sky once.
+// Every pixel begins with four rays; two of them test the sun, the others the sky.
 // - Where the rays or the neighbouring pixels hit different things there is an edge, and the pixel
 //   sends all its rays, each of which tests both lights.
 // - Where only their colours differ, the pixel sends all its rays, but tests the lights as if they
@@ -144,6 +144,7 @@ public:
           rays_(static_cast<std::uint32_t>(options.samples) *
                 static_cast<std::uint32_t>(options.samples)),
           first_(std::min<std::uint32_t>(first_rays, rays_)),
+          first_tests_(std::max(1u, first_ / 2)),
           first_width_(1 / std::sqrt(static_cast<float>(first_))) {}
 
     void draw(std::int64_t left, std::int64_t top, Image& image) {
@@ -249,8 +250,8 @@ private:
                 high[c] = std::max(high[c], light[c]);
             }
             if (seen.kind == Seen::Kind::background) continue;
-            pixel.sun += asked_sun(seen, k, pixel);
-            pixel.sky += asked_sky(seen, k, pixel);
+            if (k % 2 == 0) pixel.sun += asked_sun(seen, k / 2, pixel);
+            if (k % 2 == 1 || first_ == 1) pixel.sky += asked_sky(seen, k / 2, pixel);
         }
         if (contrast(low, high) > contrast_in_pixel) {
             (is_torn ? pixel.is_mixed : pixel.is_varied) = true;
@@ -270,7 +271,7 @@ private:
     }
 
     void ask_sky(Pixel& pixel) const {
-        for (std::uint32_t number = first_; number < sky_rounds * first_; ++number) {
+        for (std::uint32_t number = first_tests_; number < sky_rounds * first_; ++number) {
             pixel.more_sky += asked_sky(pixel.seen[number % first_], number, pixel);
         }
     }
@@ -287,7 +288,7 @@ private:
         if (pixel.seen[0].kind == Seen::Kind::background) return pixel.light;
         Tally sun = pixel.sun;
         if (around(pixel, &Pixel::sun).is_partial()) {
-            for (std::uint32_t number = first_; number < sun_rounds * first_; ++number) {
+            for (std::uint32_t number = first_tests_; number < sun_rounds * first_; ++number) {
                 sun += asked_sun(pixel.seen[number % first_], number, pixel);
             }
         }
@@ -348,7 +349,8 @@ private:
     const Tracer& tracer_;
     const DrawOptions& options_;
     std::uint32_t rays_, first_;
-    float first_width_;  ///< Of what a first ray stands for, in pixels.
+    std::uint32_t first_tests_;  ///< Of each light by the first rays, which take turns.
+    float first_width_;          ///< Of what a first ray stands for, in pixels.
     std::int64_t left_ = 0, top_ = 0;
     std::vector<Pixel> room_;  ///< The tile and the pixels around it.
     std::vector<Seen> all_;    ///< The rays of one pixel.
