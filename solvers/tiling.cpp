@@ -14,6 +14,8 @@ namespace {
 // them in a near cache. This gives three rows of 512 cells. For 1024 cells it gives one row: two
 // are 7 % slower, because the levels fill more of the cache.
 constexpr std::int64_t cells_of_a_layer = 1632;
+// That is measured with kernels of few results. With more, fewer cells are as much work.
+constexpr std::size_t few_results = 8;
 // The part of a cache that levels share; the rest is for data that they do not use again.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
 // Layers in use besides one for each level: those that are read around it.
@@ -43,8 +45,12 @@ bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
 }
 
 /// The number of rows or slices in a layer, out of `count`.
-std::int64_t height_of_layer(std::int64_t cells_of_each, std::int64_t count) {
-    return std::clamp<std::int64_t>(cells_of_a_layer / cells_of_each, 1, count);
+std::int64_t height_of_layer(const StepProblem& problem, std::int64_t cells_of_each,
+                             std::int64_t count) {
+    std::size_t results = few_results;
+    for (const auto& pass : problem.passes) results = std::max(results, pass.results.size());
+    const auto cells = cells_of_a_layer * few_results / results;
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(cells) / cells_of_each, 1, count);
 }
 
 /// Layers of this height, for `count` rows or slices of `bytes` in all.
@@ -61,10 +67,11 @@ Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t by
 
 /// Whole slices; the same rows of all slices, if there are few; or bands of the rows of slices, if
 /// neither fits.
-Tiling tiling_of_slices(const Grid& grid, std::int64_t bytes, const CacheSizes& caches) {
+Tiling tiling_of_slices(const StepProblem& problem, std::int64_t bytes, const CacheSizes& caches) {
+    const Grid& grid = problem.grid;
     const std::int64_t stride = PlaneLayout(grid).stride;
-    const std::int64_t slices = height_of_layer(stride * grid.height, grid.depth);
-    const std::int64_t rows = height_of_layer(stride * grid.depth, grid.height);
+    const std::int64_t slices = height_of_layer(problem, stride * grid.height, grid.depth);
+    const std::int64_t rows = height_of_layer(problem, stride * grid.depth, grid.height);
     const Tiling of_slices = tiling_of_layers(slices, grid.depth, bytes, caches);
     // If an axis wraps, levels shrink by a layer at both ends of it.
     const bool is_flat = grid.depth / slices < 2 * enough_levels;
@@ -89,8 +96,8 @@ Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach,
     const Grid& grid = problem.grid;
     if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return {};
     const std::int64_t bytes = bytes_of_step(problem);
-    if (grid.depth > 1) return tiling_of_slices(grid, bytes, caches);
-    std::int64_t rows = height_of_layer(PlaneLayout(grid).stride, grid.height);
+    if (grid.depth > 1) return tiling_of_slices(problem, bytes, caches);
+    std::int64_t rows = height_of_layer(problem, PlaneLayout(grid).stride, grid.height);
     if (grid.linked) rows = std::max(rows, reach);
     return tiling_of_layers(rows, grid.height, bytes, caches);
 }
@@ -173,6 +180,11 @@ std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reac
     add(tiled);
     Tiling fewer = tiled;
     fewer.levels = std::max(2, tiled.levels / 2);
+    add(fewer);
+    const double layer = bytes_in_use(problem, tiled, 1) / (1 + layers_besides);
+    fewer.levels = std::clamp(levels_in(part_of_second * static_cast<double>(caches.second),
+                                        static_cast<std::int64_t>(layer)),
+                              2, fewer.levels);
     add(fewer);
     add({});
     return tilings;

@@ -64,6 +64,25 @@ TEST(Tiling, LayersOfThinGridsHaveWhatACallIsWorth) {
     }
 }
 
+TEST(Tiling, LayersOfManyResultsHaveFewerRows) {
+    StepProblem problem = heat_problem(Grid{256, 256}, 0.1f);
+    problem.passes[0].results.resize(8, problem.passes[0].results[0]);
+    const auto rows_of = [&] { return choose_tiling(problem, 1, {1 << 16, 1 << 18}).outer_layer; };
+    EXPECT_EQ(rows_of(), 5);
+    problem.passes[0].results.resize(16, problem.passes[0].results[0]);
+    EXPECT_EQ(rows_of(), 2);
+    problem.passes[0].results.resize(64, problem.passes[0].results[0]);
+    EXPECT_EQ(rows_of(), 1);
+}
+
+TEST(Tiling, TriesLevelsThatFitIntoTheSecondCache) {
+    // A row of both copies has 65 KiB: 6 levels and what lies around them are 0.6 MiB.
+    const StepProblem problem = heat_problem(Grid{8192, 512}, 0.1f);
+    const std::vector<Tiling> tilings = tilings_to_try(problem, 1, caches, 1);
+    EXPECT_TRUE(std::any_of(tilings.begin(), tilings.end(),
+                            [&](const Tiling& tiling) { return tiling.levels == 6; }));
+}
+
 TEST(Tiling, ARowAloneIsNoTile) {
     const StepProblem problem = heat_problem(Grid{10000019, 1}, 0.1f);
     EXPECT_EQ(choose_tiling(problem, 1, caches), Tiling());
