@@ -21,8 +21,8 @@
 namespace cascade {
 
 /// The inputs and outputs of a kernel. Pointers are to cell (0, 0, 0) of planes of one layout; a
-/// field read by `laplacian` or `neighbour` has its halo filled. An output may be a field that the
-/// kernel reads only in the cell that it computes; otherwise it overlaps nothing. A kernel may
+/// field read by `laplacian` or `neighbour` has its halo filled. An output may be a field that no
+/// other output is computed from (sole_results()); otherwise it overlaps nothing. A kernel may
 /// write any values into an output row after its last cell, up to the next multiple of
 /// PlaneLayout::row_pad (so halo column `width` is undefined afterwards), but never cells of other
 /// rows or columns < 0.

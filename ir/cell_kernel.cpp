@@ -152,6 +152,38 @@ IdVector<ValueId, bool> varying(const CellKernel& kernel) {
     return varies;
 }
 
+IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& kernel) {
+    const std::size_t none = kernel.results.size(), several = none + 1;
+    IdVector<ValueId, std::size_t> users(kernel.code.size(), none);
+    IdVector<FieldSlot, std::size_t> readers(kernel.field_names.size(), none);
+    const auto add = [&](std::size_t& known, std::size_t user) {
+        known = known == none || known == user ? user : several;
+    };
+    for (std::size_t k = 0; k < none; ++k) add(users[kernel.results[k]], k);
+    for (const ValueId id : kernel.code.ids_backwards()) {
+        if (users[id] == none) continue;
+        const Instruction& instruction = kernel.code[id];
+        for (int k = 0; k < info(instruction.op).arity; ++k) {
+            add(users[instruction.operands[static_cast<std::size_t>(k)]], users[id]);
+        }
+        if (instruction.op == Op::field) {
+            add(readers[instruction.field()], users[id]);
+        } else if (instruction.op == Op::neighbour) {
+            readers[Neighbour::of(instruction.slot()).slot] = several;
+        } else if (is_link_sum(instruction.op)) {
+            readers[instruction.field()] = several;
+            if (instruction.op == Op::link_flow) {
+                readers[Flow::with(instruction.payload).factor] = several;
+            }
+        }
+    }
+    IdVector<FieldSlot, std::optional<std::size_t>> sole;
+    for (const std::size_t reader : readers) {
+        sole.push_back(reader < none ? std::optional(reader) : std::nullopt);
+    }
+    return sole;
+}
+
 std::uint64_t hash(const CellKernel& kernel) {
     std::uint64_t result = mix(kernel.code.size(), kernel.results.size());
     if (kernel.precision != Precision::single) result = mix(result, bytes_of(kernel.precision));

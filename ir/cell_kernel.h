@@ -11,7 +11,9 @@
 #include "ir/word_format.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -131,6 +133,10 @@ struct CellKernel {
 /// For each value, whether it can differ between cells, that is, is not computed from uniforms
 /// only.
 IdVector<ValueId, bool> varying(const CellKernel& kernel);
+
+/// For each field, the only result that is computed from it, and none if several are or if it is
+/// read in other cells. That result may overwrite the field.
+IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& kernel);
 
 /// A hash of everything that determines the generated code, which excludes names.
 std::uint64_t hash(const CellKernel& kernel);

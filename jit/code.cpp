@@ -2,6 +2,7 @@
 #include "jit/code.h"
 
 #include "ir/multiply_add.h"
+#include "jit/kernel_parts.h"
 #include "jit/skeleton_grid.h"
 #include "jit/skeleton_linked.h"
 #include "jit/target_machine.h"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <llvm/IR/DiagnosticInfo.h>
 #include <llvm/IR/DiagnosticPrinter.h>
+#include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/IR/Verifier.h>
 #include <llvm/Support/raw_ostream.h>
@@ -34,15 +36,18 @@ private:
     std::string& text_;
 };
 
-std::size_t size_of(const CellKernel& kernel) {
-    constexpr std::size_t loads_of_laplacian = 10;  // By the time that they take.
-    constexpr std::size_t loads_of_neighbour = 2;
-    std::size_t size = kernel.code.size();
-    for (const Instruction& instruction : kernel.code) {
-        if (is_link_sum(instruction.op)) size += loads_of_laplacian;
-        if (instruction.op == Op::neighbour) size += loads_of_neighbour;
-    }
-    return size;
+/// A function that calls others, which have its own arguments, one after the other.
+llvm::Function* build_calls(llvm::Module& module, const std::vector<llvm::Function*>& functions,
+                            const std::string& name) {
+    auto* function = llvm::Function::Create(functions[0]->getFunctionType(),
+                                            llvm::GlobalValue::ExternalLinkage, name, module);
+    function->setDoesNotThrow();
+    llvm::IRBuilder<> builder(llvm::BasicBlock::Create(module.getContext(), "entry", function));
+    std::vector<llvm::Value*> arguments;
+    for (llvm::Argument& argument : function->args()) arguments.push_back(&argument);
+    for (llvm::Function* each : functions) builder.CreateCall(each, arguments);
+    builder.CreateRetVoid();
+    return function;
 }
 
 /// Sets a machine's optimisation level, and restores it at its end.
@@ -86,15 +91,26 @@ Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const Kernel
                                    machine.getTargetCPU().str()),
                        "x86-64-v3 does; without --fast every operation is rounded");
     }
-    code.is_large = code.is_large || size > largest_optimised_kernel;
     const auto build = shape.stencil.links ? build_linked_function : build_grid_function;
-    llvm::Function* function = build(*code.module, kernel, tuned(shape, machine), name);
-    set_target(*function, machine, shape.lanes * static_cast<int>(bytes_of(kernel.precision)));
-
-    std::string fault;
-    llvm::raw_string_ostream stream(fault);
-    if (llvm::verifyFunction(*function, &stream)) {
-        return failure("the code of a kernel is not valid: " + stream.str());
+    const std::vector<KernelPart> parts = parts_of(kernel);
+    std::vector<llvm::Function*> functions;
+    for (const KernelPart& part : parts) {
+        code.is_large = code.is_large || size_of(part.kernel) > largest_optimised_kernel;
+        const std::string own_name =
+            parts.size() == 1 ? name : fmt::format("{}_part{}", name, functions.size() + 1);
+        functions.push_back(build(*code.module, part, tuned(shape, machine), own_name));
+    }
+    if (parts.size() > 1) {
+        for (llvm::Function* each : functions) each->setLinkage(llvm::Function::InternalLinkage);
+        functions.push_back(build_calls(*code.module, functions, name));
+    }
+    for (llvm::Function* each : functions) {
+        set_target(*each, machine, shape.lanes * static_cast<int>(bytes_of(kernel.precision)));
+        std::string fault;
+        llvm::raw_string_ostream stream(fault);
+        if (llvm::verifyFunction(*each, &stream)) {
+            return failure("the code of a kernel is not valid: " + stream.str());
+        }
     }
     return {};
 }

@@ -282,11 +282,13 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
 
 }  // namespace
 
-void emit_body(BodyScope& scope) {
+void emit_body(BodyScope& scope, llvm::function_ref<void(ValueId)> after) {
     const Body& body = scope.body();
     BodyEmitter emitter(scope);
     for (const ValueId id : body.kernel.code.ids()) {
-        if (body.levels[id] == scope.level()) scope.define(id, emitter.emit(body.kernel.code[id]));
+        if (body.levels[id] != scope.level()) continue;
+        scope.define(id, emitter.emit(body.kernel.code[id]));
+        after(id);
     }
 }
 

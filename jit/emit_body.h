@@ -13,6 +13,8 @@
 namespace cascade {
 
 /// Writes all instructions of the scope's loop level, after those of the levels around it.
-void emit_body(BodyScope& scope);
+/// Calls `after` after each.
+void emit_body(
+    BodyScope& scope, llvm::function_ref<void(ValueId)> after = [](ValueId) {});
 
 }  // namespace cascade

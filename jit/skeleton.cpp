@@ -14,7 +14,7 @@ Value* KernelFrame::uniform(UniformSlot slot) {
 
 Value* KernelFrame::hidden(std::uint64_t word) {
     llvm::Constant* value =
-        llvm::ConstantFP::get(number(), number_constant(word, kernel_.precision));
+        llvm::ConstantFP::get(number(), number_constant(word, kernel().precision));
     auto* variable = new llvm::GlobalVariable(*function_.getParent(), number(), false,
                                               llvm::GlobalValue::PrivateLinkage, value,
                                               "hidden");  // The module owns it.
@@ -169,14 +169,22 @@ void KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
 
 void KernelLoops::body(CellSources& cells, Builder& builder, BodyScope& row_scope) {
     BodyScope scope(body_, LoopLevel::cell, builder, cells, &row_scope);
-    emit_body(scope);
     const std::vector<ValueId>& results = body_.kernel.results;
-    for (std::size_t k = 0; k < results.size(); ++k) cells.store(k, scope.number(results[k]));
+    std::size_t stored = 0;
+    const auto store_next = [&] {
+        cells.store(stored, scope.number(results[stored]));
+        ++stored;
+    };
+    emit_body(scope, [&](ValueId done) {
+        if (!frame_.part().is_in_order) return;
+        while (stored < results.size() && results[stored] <= done) store_next();
+    });
+    while (stored < results.size()) store_next();
 }
 
 llvm::Function* build_function(
-    llvm::Module& module, const CellKernel& kernel, const KernelShape& shape,
-    const std::string& name, llvm::ArrayRef<llvm::Type*> extra,
+    llvm::Module& module, const KernelPart& part, const KernelShape& shape, const std::string& name,
+    llvm::ArrayRef<llvm::Type*> extra,
     llvm::function_ref<void(KernelFrame& frame, KernelLoops& loops, Builder& builder)>
         write_loops) {
     llvm::LLVMContext& context = module.getContext();
@@ -195,7 +203,7 @@ llvm::Function* build_function(
     llvm::BasicBlock* begin = llvm::BasicBlock::Create(context, "begin", function);
     const llvm::InstSimplifyFolder folder(module.getDataLayout());
     Builder entry_builder(entry, folder);
-    KernelFrame frame(*function, kernel, shape, entry_builder);
+    KernelFrame frame(*function, part, shape, entry_builder);
     KernelLoops loops(frame);
 
     Builder builder(begin, folder);

@@ -17,6 +17,7 @@
 #include "jit/alias_scopes.h"
 #include "jit/carried_vectors.h"
 #include "jit/emit_body.h"
+#include "jit/kernel_parts.h"
 #include "jit/kernel_shape.h"
 
 #include <llvm/ADT/STLFunctionalExtras.h>
@@ -37,23 +38,24 @@ constexpr int cache_line = 64;  ///< Bytes.
 class KernelFrame {
 public:
     /// `builder` writes to the block before the loops.
-    KernelFrame(llvm::Function& function, const CellKernel& kernel, const KernelShape& shape,
+    KernelFrame(llvm::Function& function, const KernelPart& part, const KernelShape& shape,
                 Builder& builder)
         : function_(function),
-          kernel_(kernel),
+          part_(part),
           shape_(shape),
           builder_(builder),
-          aliases_(function.getContext(), kernel.results.size()) {}
+          aliases_(function.getContext(), part.results.size()) {}
 
     llvm::Function& function() { return function_; }
-    const CellKernel& kernel() const { return kernel_; }
+    const CellKernel& kernel() const { return part_.kernel; }
+    const KernelPart& part() const { return part_; }
     Stencil stencil() const { return shape_.stencil; }
     const KernelShape& shape() const { return shape_; }
     int lanes() const { return shape_.lanes; }
-    int number_bytes() const { return static_cast<int>(bytes_of(kernel_.precision)); }
+    int number_bytes() const { return static_cast<int>(bytes_of(kernel().precision)); }
     int vector_bytes() const { return lanes() * number_bytes(); }
-    llvm::Type* number() const { return number_type(builder_, kernel_.precision); }
-    llvm::Type* word() const { return word_type(builder_, kernel_.precision); }
+    llvm::Type* number() const { return number_type(builder_, kernel().precision); }
+    llvm::Type* word() const { return word_type(builder_, kernel().precision); }
     Builder& builder() { return builder_; }
     const AliasScopes& aliases() const { return aliases_; }
 
@@ -74,7 +76,7 @@ public:
     // Addresses of planes, loaded once.
     llvm::Value* field_plane(FieldSlot slot) { return plane(0, slot.index()); }
     llvm::Value* mask_plane(MaskSlot slot) { return plane(1, slot.index()); }
-    llvm::Value* result_plane(std::size_t slot) { return plane(3, slot); }
+    llvm::Value* result_plane(std::size_t slot) { return plane(3, part_.results[slot]); }
 
     llvm::Type* vector_of(llvm::Type* element) const {
         return llvm::FixedVectorType::get(element, static_cast<unsigned>(lanes()));
@@ -86,7 +88,7 @@ public:
     /// Tells LLVM that no result is written to the field that is read, where that is so.
     template <typename Load>
     Load* mark(Load* load, FieldSlot slot) const {
-        return kernel_.reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
+        return kernel().reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
     }
 
     llvm::Value* uniform(UniformSlot slot);
@@ -109,7 +111,7 @@ private:
     llvm::Value* plane(unsigned table, std::size_t slot);
 
     llvm::Function& function_;
-    const CellKernel& kernel_;
+    const KernelPart& part_;
     KernelShape shape_;
     Builder& builder_;
     AliasScopes aliases_;
@@ -199,8 +201,8 @@ private:
 /// arguments that all functions have, those of the types `extra`, and what `write_loops` writes,
 /// which ends with a return.
 llvm::Function* build_function(
-    llvm::Module& module, const CellKernel& kernel, const KernelShape& shape,
-    const std::string& name, llvm::ArrayRef<llvm::Type*> extra,
+    llvm::Module& module, const KernelPart& part, const KernelShape& shape, const std::string& name,
+    llvm::ArrayRef<llvm::Type*> extra,
     llvm::function_ref<void(KernelFrame& frame, KernelLoops& loops, Builder& builder)> write_loops);
 
 }  // namespace cascade

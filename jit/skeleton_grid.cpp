@@ -266,14 +266,15 @@ void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
 /// cells, or, of fields that are read at neighbours, those below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
                 const std::set<FieldSlot>& shifted, Fetching fetching, Builder& builder) {
-    const CellKernel& kernel = frame.kernel();
+    std::map<FieldSlot, int> rows_ahead;
+    for (const auto& [slot, row, column, slice] : readings_of(frame.kernel(), frame.stencil())) {
+        rows_ahead[slot] = frame.kernel().reads_neighbours(slot) ? 2 : 1;
+    }
     loops.rows(builder, [&](const CellVector& vector, Builder& inner, BodyScope& row_scope) {
         GridSources cells(frame, inner, vector, offsets, shifted);
         loops.body(cells, inner, row_scope);
         if (fetching == Fetching::nothing) return;
-        for (const FieldSlot slot : kernel.field_names.ids()) {
-            cells.prefetch(slot, kernel.reads_neighbours(slot) ? 2 : 1, fetching);
-        }
+        for (const auto& [slot, rows] : rows_ahead) cells.prefetch(slot, rows, fetching);
     });
     builder.CreateRetVoid();
 }
@@ -305,11 +306,11 @@ void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& builder) {
 
 }  // namespace
 
-llvm::Function* build_grid_function(llvm::Module& module, const CellKernel& kernel,
+llvm::Function* build_grid_function(llvm::Module& module, const KernelPart& part,
                                     const KernelShape& shape, const std::string& name) {
     const std::vector<llvm::Type*> extra(shape.stencil.z ? 3 : 1,
                                          llvm::Type::getInt64Ty(module.getContext()));
-    return build_function(module, kernel, shape, name, extra, build_loops);
+    return build_function(module, part, shape, name, extra, build_loops);
 }
 
 }  // namespace cascade

@@ -7,6 +7,7 @@
 // Neighbours are read up to one vector beside the cells that are computed.
 #pragma once
 
+#include "jit/kernel_parts.h"
 #include "jit/kernel_shape.h"
 
 #include <llvm/IR/Module.h>
@@ -16,7 +17,7 @@
 namespace cascade {
 
 /// Adds the function to `module`, whose data layout is already that of the target.
-llvm::Function* build_grid_function(llvm::Module& module, const CellKernel& kernel,
+llvm::Function* build_grid_function(llvm::Module& module, const KernelPart& part,
                                     const KernelShape& shape, const std::string& name);
 
 }  // namespace cascade

@@ -283,11 +283,11 @@ void LinkedSources::add_up() {
 
 }  // namespace
 
-llvm::Function* build_linked_function(llvm::Module& module, const CellKernel& kernel,
+llvm::Function* build_linked_function(llvm::Module& module, const KernelPart& part,
                                       const KernelShape& shape, const std::string& name) {
     const std::vector<llvm::Type*> extra(array_count,
                                          llvm::PointerType::getUnqual(module.getContext()));
-    return build_function(module, kernel, shape, name, extra,
+    return build_function(module, part, shape, name, extra,
                           [](KernelFrame& frame, KernelLoops& loops, Builder& builder) {
                               loops.rows(builder, [&](const CellVector& vector, Builder& inner,
                                                       BodyScope& row_scope) {

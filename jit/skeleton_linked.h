@@ -10,6 +10,7 @@
 // of which those that no sum of the kernel asks for are not read.
 #pragma once
 
+#include "jit/kernel_parts.h"
 #include "jit/kernel_shape.h"
 
 #include <llvm/IR/Module.h>
@@ -19,7 +20,7 @@
 namespace cascade {
 
 /// Adds the function to `module`, whose data layout is already that of the target.
-llvm::Function* build_linked_function(llvm::Module& module, const CellKernel& kernel,
+llvm::Function* build_linked_function(llvm::Module& module, const KernelPart& part,
                                       const KernelShape& shape, const std::string& name);
 
 }  // namespace cascade

@@ -6,6 +6,7 @@
 #include "core/overloaded.h"
 
 #include <algorithm>
+#include <map>
 
 namespace cascade {
 
@@ -161,7 +162,21 @@ private:
         }
         for (const UniformSource& source : pass.bound.uniforms) bind_uniform(source, bound);
         for (const PassTarget& target : pass.targets) bound.results.push_back(bind_result(target));
+        check_overwritten(pass.bound.kernel, bound);
         return bound;
+    }
+
+    /// Checks what kernels ask of the planes that they overwrite (KernelArgumentsOf).
+    static void check_overwritten(const CellKernel& kernel, const StepProblem::Pass& bound) {
+        std::map<PlaneRef, std::size_t> written;
+        for (std::size_t k = 0; k < bound.results.size(); ++k) written[bound.results[k].plane] = k;
+        std::optional<IdVector<FieldSlot, std::optional<std::size_t>>> sole;
+        for (const FieldSlot slot : ids_below<FieldSlot>(bound.fields.size())) {
+            const auto result = written.find(bound.fields[slot.index()]);
+            if (result == written.end()) continue;
+            if (!sole) sole = sole_results(kernel);
+            CHECK((*sole)[slot] == result->second, "a result overwrites what it alone reads");
+        }
     }
 
     void bind_uniform(const UniformSource& source, StepProblem::Pass& bound) const {

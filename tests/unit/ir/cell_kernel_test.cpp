@@ -67,6 +67,23 @@ TEST(ReadsNeighbours, OfLaplaciansOnly) {
     EXPECT_TRUE(kernel.reads_neighbours(FieldSlot(1)));
 }
 
+TEST(SoleResults, OfFieldsReadForOneResultInTheCellItself) {
+    KernelBuilder builder;
+    const auto field = [&](const char* name) { return builder.field_slot(name); };
+    const ValueId own = builder.field(field("own")), shared = builder.field(field("shared"));
+    const ValueId both = builder.field(field("both"));
+    builder.result("a", builder.add(builder.add(own, shared), builder.laplacian(field("both"))));
+    builder.result("b", builder.add(builder.multiply(shared, shared), both));
+    builder.field(field("unread"));
+    const CellKernel kernel = std::move(builder).finish();
+    const auto sole = sole_results(kernel);
+    for (const FieldSlot slot : kernel.field_names.ids()) {
+        const bool is_own = kernel.field_names[slot] == "own";
+        EXPECT_EQ(sole[slot], is_own ? std::optional<std::size_t>(0) : std::nullopt)
+            << kernel.field_names[slot];
+    }
+}
+
 TEST(Hash, IgnoresNames) {
     CellKernel renamed = heat_kernel();
     renamed.field_names[FieldSlot(0)] = "other";

@@ -1,0 +1,143 @@
+// Results are ordered so that those with common operations are neighbours, and cut into parts of
+// equal numbers.
+#include "jit/kernel_parts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+namespace cascade {
+namespace {
+
+// A kernel stays whole if its parts would be larger by this factor, in tenths.
+constexpr std::size_t most_growth = 12;
+
+/// Calls `visit` with what results are computed from, each value once.
+class Walk {
+public:
+    explicit Walk(const CellKernel& kernel) : kernel_(kernel), is_met_(kernel.code.size(), false) {}
+
+    /// Visits what `root` is computed from and no earlier root was, in no particular order, and
+    /// calls `meet` with the values of earlier roots at which the walk ends.
+    template <typename Visit, typename Meet>
+    void from(ValueId root, Visit visit, Meet meet) {
+        open_.push_back(root);
+        while (!open_.empty()) {
+            const ValueId id = open_.back();
+            open_.pop_back();
+            if (is_met_[id]) {
+                meet(id);
+                continue;
+            }
+            is_met_[id] = true;
+            visit(id);
+            const Instruction& instruction = kernel_.code[id];
+            for (int k = info(instruction.op).arity; k-- > 0;) {
+                open_.push_back(instruction.operands[static_cast<std::size_t>(k)]);
+            }
+        }
+    }
+
+private:
+    const CellKernel& kernel_;
+    IdVector<ValueId, bool> is_met_;
+    std::vector<ValueId> open_;
+};
+
+/// The results, with each after the earlier one that it has the last operation in common with, such
+/// as a rate that is stored besides the new value.
+std::vector<std::size_t> in_families(const CellKernel& kernel) {
+    const std::size_t count = kernel.results.size();
+    Walk walk(kernel);
+    IdVector<ValueId, std::size_t> owner(kernel.code.size());
+    std::vector<std::vector<std::size_t>> later(count);
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < count; ++k) {
+        std::optional<ValueId> common;
+        walk.from(
+            kernel.results[k], [&](ValueId id) { owner[id] = k; },
+            [&](ValueId id) {
+                const bool is_operation = info(kernel.code[id].op).arity > 0;
+                if (is_operation && owner[id] != k) common = std::max(common, std::optional(id));
+            });
+        (common ? later[owner[*common]] : open).push_back(k);
+    }
+    std::vector<std::size_t> order;
+    std::reverse(open.begin(), open.end());
+    while (!open.empty()) {
+        const std::size_t k = open.back();
+        open.pop_back();
+        order.push_back(k);
+        open.insert(open.end(), later[k].rbegin(), later[k].rend());
+    }
+    return order;
+}
+
+/// The part with these results of a kernel.
+KernelPart part_of(const CellKernel& kernel, std::vector<std::size_t> results) {
+    KernelPart part{{}, std::move(results), true};
+    part.kernel.precision = kernel.precision;
+    part.kernel.field_names.resize(kernel.field_names.size());
+    part.kernel.mask_names.resize(kernel.mask_names.size());
+    part.kernel.uniform_names.resize(kernel.uniform_names.size());
+    part.kernel.result_names.resize(part.results.size());
+    Walk walk(kernel);
+    IdVector<ValueId, ValueId> place(kernel.code.size());
+    std::vector<ValueId> values;
+    for (const std::size_t result : part.results) {
+        values.clear();
+        walk.from(
+            kernel.results[result], [&](ValueId id) { values.push_back(id); }, [](ValueId) {});
+        std::sort(values.begin(), values.end());
+        for (const ValueId id : values) {
+            Instruction instruction = kernel.code[id];
+            for (int k = 0; k < info(instruction.op).arity; ++k) {
+                ValueId& operand = instruction.operands[static_cast<std::size_t>(k)];
+                operand = place[operand];
+            }
+            place[id] = part.kernel.code.next();
+            part.kernel.code.push_back(instruction);
+        }
+        part.kernel.results.push_back(place[kernel.results[result]]);
+    }
+    return part;
+}
+
+}  // namespace
+
+std::size_t size_of(const CellKernel& kernel) {
+    constexpr std::size_t loads_of_laplacian = 10;  // By the time that they take.
+    constexpr std::size_t loads_of_neighbour = 2;
+    std::size_t size = kernel.code.size();
+    for (const Instruction& instruction : kernel.code) {
+        if (is_link_sum(instruction.op)) size += loads_of_laplacian;
+        if (instruction.op == Op::neighbour) size += loads_of_neighbour;
+    }
+    return size;
+}
+
+std::vector<KernelPart> parts_of(const CellKernel& kernel) {
+    const std::size_t count = kernel.results.size();
+    if (count <= most_results_of_a_part) {
+        std::vector<std::size_t> results(count);
+        std::iota(results.begin(), results.end(), std::size_t{0});
+        return {{kernel, std::move(results)}};
+    }
+    const std::vector<std::size_t> order = in_families(kernel);
+    const KernelPart whole = part_of(kernel, order);
+    const std::size_t most_size = size_of(whole.kernel) * most_growth / 10;
+    const std::size_t parts = (count + most_results_of_a_part - 1) / most_results_of_a_part;
+    std::vector<KernelPart> divided;
+    std::size_t size = 0;
+    for (std::size_t k = 0; k < parts; ++k) {
+        const auto at = [&](std::size_t part) {
+            return order.begin() + static_cast<std::ptrdiff_t>(part * count / parts);
+        };
+        divided.push_back(part_of(kernel, {at(k), at(k + 1)}));
+        size += size_of(divided.back().kernel);
+        if (size > most_size) return {whole};
+    }
+    return divided;
+}
+
+}  // namespace cascade
