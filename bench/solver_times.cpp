@@ -4,7 +4,7 @@
 //                             [SIDE…]
 //        all solvers, large and small spots, 256 and 1024 without them
 //
-// Every solver of the language grows the same spots from the same noise for the same time, as
+// Every solver of the language grows the same pattern from the same noise for the same time, as
 // `cascade run --solver NAME` does. Each pattern is compared with Euler's by correlation,
 // wavelength and number of spots, so that a fast solver with another pattern is noticed. For quiet
 // machines only; times are wall times and include compiling.
@@ -42,15 +42,25 @@ namespace {
 struct Pattern {
     const char* name;
     const char* text;
+    StraightStep StraightSteps::*straight;  ///< The opponent's step.
+    const char* varying;                    ///< The parameter that varies, or empty.
 };
 
 /// Turk's spots with the two sizes of his leopard, and larger ones: the larger, the less does
-/// reaction limit the step.
+/// reaction limit the step. Then two systems with lap of lap.
 constexpr Pattern known_patterns[] = {
-    {"large", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n"},
-    {"small", "stage s: turing_spots { iterations: 7000; ka: 0.2/16 }\n"},
-    {"larger", "stage s: turing_spots { iterations: 56000; ka: 0.05/32 }\n"},
-    {"largest", "stage s: turing_spots { iterations: 112000; ka: 0.05/64 }\n"},
+    {"large", "stage s: turing_spots { iterations: 28000; ka: 0.05/16 }\n",
+     &StraightSteps::turing_without_mask, "beta"},
+    {"small", "stage s: turing_spots { iterations: 7000; ka: 0.2/16 }\n",
+     &StraightSteps::turing_without_mask, "beta"},
+    {"larger", "stage s: turing_spots { iterations: 56000; ka: 0.05/32 }\n",
+     &StraightSteps::turing_without_mask, "beta"},
+    {"largest", "stage s: turing_spots { iterations: 112000; ka: 0.05/64 }\n",
+     &StraightSteps::turing_without_mask, "beta"},
+    {"mixture", "stage s: cahn_hilliard { iterations: 12000 }\n", &StraightSteps::cahn_hilliard,
+     ""},
+    {"rolls", "stage s: swift_hohenberg { iterations: 5000 }\n", &StraightSteps::swift_hohenberg,
+     ""},
 };
 
 struct Choice {
@@ -136,9 +146,10 @@ double correlation(const Field& a, const Field& b) {
 class StraightEuler {
 public:
     StraightEuler(const Pattern& pattern, std::int64_t side, Backend& backend)
-        : side_(CascadeSide(text_of(pattern, side), backend), "beta") {
+        : side_(CascadeSide(text_of(pattern, side), backend), pattern.varying),
+          step_(pattern.straight) {
         // So many steps take a tenth of a second.
-        side_.advance(straight_wide().turing_without_mask, 4);
+        side_.advance(straight_wide().*step_, 4);
         const double four = time(straight_wide(), 4);
         steps_ = std::max<std::int64_t>(4, static_cast<std::int64_t>(0.4 / four));
     }
@@ -158,19 +169,20 @@ public:
 private:
     double time(const StraightSteps& steps, std::int64_t count) {
         const auto before = std::chrono::steady_clock::now();
-        side_.advance(steps.turing_without_mask, count);
+        side_.advance(steps.*step_, count);
         return seconds_since(before);
     }
 
     StraightSide side_;
+    StraightStep StraightSteps::*step_;
     std::int64_t steps_ = 0;
     double least_ = 0;
 };
 
 void compare(const Pattern& pattern, std::int64_t side, const Choice& choice, Backend& backend) {
-    fmt::print("\n{} spots, {} × {}\n{:<14}{:>8}{:>9}{:>10}{:>9}{:>8}{:>13}{:>12}{:>8}\n",
-               pattern.name, side, side, "solver", "steps", "t", "seconds", "Euler's", "C++'s",
-               "correlation", "wavelength", "spots");
+    fmt::print("\n{}, {} × {}\n{:<14}{:>8}{:>9}{:>10}{:>9}{:>8}{:>13}{:>12}{:>8}\n", pattern.name,
+               side, side, "solver", "steps", "t", "seconds", "Euler's", "C++'s", "correlation",
+               "wavelength", "spots");
     StraightEuler straight(pattern, side, backend);
     straight.look();
     std::vector<std::pair<std::string, Outcome>> all;
@@ -242,7 +254,7 @@ int main(int argc, char** argv) {
     if (!choice) {
         std::fprintf(stderr,
                      "usage: cascade_solver_times [--threads=N] [--solver=NAME...] "
-                     "[--pattern=small|large|larger|largest...] "
+                     "[--pattern=small|large|larger|largest|mixture|rolls...] "
                      "[--tolerance=E] [SIDE...]\n");
         return 64;
     }

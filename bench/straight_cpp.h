@@ -14,7 +14,8 @@ struct StraightFields {
     const float* varying;        ///< beta of Turing's system, ai of the stripes.
     const std::uint8_t* frozen;  ///< Turing's system only, unless it is that without a mask.
     float* scratch;              ///< Between two passes: Cahn-Hilliard's chemical potential, how
-                                 ///< well heat goes with Perona and Malik.
+                                 ///< well heat goes with Perona and Malik, Swift-Hohenberg's
+                                 ///< inner operator.
     std::int64_t width, height, depth, stride, slice_stride;
 };
 
@@ -31,6 +32,7 @@ struct StraightConstants {
     float diffusion = 1, wall_speed = 0.1F;                                  // Allen-Cahn.
     float growth = 1, defeat = 1, mobility = 0.5F, game_speed = 0.1F;        // Three in a ring.
     float edge = 0.08F, cleaning_speed = 0.15F;                              // Perona-Malik.
+    float above = 0.3F, kc2 = 0.49F, peaks = 0, roll_speed = 0.02F;          // Swift-Hohenberg.
 };
 
 /// One step of a system, halo of the new fields included (periodic).
@@ -38,7 +40,7 @@ using StraightStep = void (*)(const StraightFields&, const StraightConstants&);
 
 struct StraightSteps {
     StraightStep turing, gray_scott, stripes, cahn_hilliard, chemotaxis, tensor, allen_cahn,
-        rock_scissors_paper, perona_malik;
+        rock_scissors_paper, perona_malik, swift_hohenberg;
     StraightStep turing_in_space, gray_scott_in_space;
     StraightStep turing_without_mask;
 };
