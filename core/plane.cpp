@@ -47,26 +47,32 @@ Number beyond(const SideRule& rule, Number cell, Number value, Number spacing) {
     return rule.kind == SideKind::fixed ? 2 * value - cell : cell + spacing * value;
 }
 
-/// Fills the halo cells that depend on some rows of a slice.
+/// Fills the halo cells that depend on some columns of some rows of a slice.
 template <typename Number>
 class HaloFill {
 public:
-    HaloFill(Number* origin, const PlaneLayout& layout, const SideRules& sides)
+    /// `has_rows`: are the rows above and below each slice filled, too?
+    HaloFill(Number* origin, const PlaneLayout& layout, const SideRules& sides, ColumnRange columns,
+             bool has_rows)
         : origin_(origin),
           layout_(layout),
           sides_(sides),
-          spacing_(static_cast<Number>(sides.spacing)) {
+          spacing_(static_cast<Number>(sides.spacing)),
+          columns_(columns.within(layout.width)),
+          has_rows_(has_rows) {
         const std::int64_t cells[3] = {layout.width, layout.height, layout.depth};
         for (std::size_t side = 0; side < side_count; ++side) {
             sources_[side] = source_of(sides.at[side], static_cast<Side>(side), cells[side / 2]);
         }
+        is_left_given_ = columns_.contains(source(Side::left));
+        is_right_given_ = columns_.contains(source(Side::right));
     }
 
     /// Each row of the halo depends on one row of cells and is filled together with it.
     void from_rows(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
         fill_columns(slice, begin, end);
         const auto is_given = [&](Side side) {
-            return begin <= source(side) && source(side) < end;
+            return has_rows_ && begin <= source(side) && source(side) < end;
         };
         if (is_given(Side::top)) fill_row(Side::top, {source(Side::top), slice}, {-1, slice});
         if (is_given(Side::bottom)) {
@@ -99,24 +105,24 @@ private:
     }
 
     void fill_columns(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
-        const SideRule& left = sides_[Side::left];
-        const SideRule& right = sides_[Side::right];
-        const std::int64_t after = layout_.width;
-        for (std::int64_t j = begin; j < end; ++j) {
-            Number* cells = origin_ + start({j, slice});
-            cells[-1] = cells[source(Side::left)];
-            cells[after] = cells[source(Side::right)];
+        if (is_left_given_) fill_column(Side::left, -1, slice, begin, end);
+        if (is_right_given_) fill_column(Side::right, layout_.width, slice, begin, end);
+    }
+
+    void fill_column(Side side, std::int64_t to, std::int64_t slice, std::int64_t begin,
+                     std::int64_t end) const {
+        const SideRule& rule = sides_[side];
+        const std::int64_t from = source(side);
+        Number* cells = origin_ + start({begin, slice});
+        if (!rule.has_value()) {
+            for (std::int64_t j = begin; j < end; ++j, cells += layout_.stride) {
+                cells[to] = cells[from];
+            }
+            return;
         }
-        if (!left.has_value() && !right.has_value()) return;
-        for (std::int64_t j = begin; j < end; ++j) {
-            const std::int64_t row = slice * layout_.height + j;
-            Number* cells = origin_ + start({j, slice});
-            if (left.has_value()) {
-                cells[-1] = beyond(left, cells[0], value_at(left, row), spacing_);
-            }
-            if (right.has_value()) {
-                cells[after] = beyond(right, cells[after - 1], value_at(right, row), spacing_);
-            }
+        for (std::int64_t j = begin; j < end; ++j, cells += layout_.stride) {
+            const Number value = value_at(rule, slice * layout_.height + j);
+            cells[to] = beyond(rule, cells[from], value, spacing_);
         }
     }
 
@@ -130,27 +136,33 @@ private:
         return SideCells::of_rows(layout_, side, {row, row + 1}).first;
     }
 
-    /// Fills a row of the halo beyond a side, with its halo columns.
+    /// Fills the columns of a row of the halo beyond a side, with the halo columns that depend on
+    /// them.
     void fill_row(Side side, RowPlace from, RowPlace to) const {
         const SideRule& rule = sides_[side];
-        const Number* cells = origin_ + start(from) - 1;
-        Number* halo = origin_ + start(to) - 1;
-        const std::int64_t count = layout_.width + 2;
+        const Number* cells = origin_ + start(from);
+        Number* halo = origin_ + start(to);
+        // `set` fills a column, with the value of the side at another one.
+        const auto fill = [&](const auto& set) {
+            if (is_left_given_) set(-1, source(Side::left));
+            for (std::int64_t i = columns_.begin; i < columns_.end; ++i) set(i, i);
+            if (is_right_given_) set(layout_.width, source(Side::right));
+        };
         if (!rule.has_value()) {
-            std::memcpy(halo, cells, static_cast<std::size_t>(count) * sizeof(Number));
+            std::memcpy(halo + columns_.begin, cells + columns_.begin,
+                        static_cast<std::size_t>(columns_.count()) * sizeof(Number));
+            if (is_left_given_) halo[-1] = cells[-1];
+            if (is_right_given_) halo[layout_.width] = cells[layout_.width];
         } else if (rule.values) {
             const std::int64_t first = first_beside(side, from);
-            const auto fill = [&](std::int64_t i, std::int64_t column) {
+            fill([&](std::int64_t i, std::int64_t column) {
                 halo[i] = beyond(rule, cells[i], value_at(rule, first + column), spacing_);
-            };
-            fill(0, source(Side::left));
-            for (std::int64_t i = 0; i < layout_.width; ++i) fill(i + 1, i);
-            fill(count - 1, source(Side::right));
+            });
         } else {
             const auto value = static_cast<Number>(rule.value);
-            for (std::int64_t i = 0; i < count; ++i) {
+            fill([&](std::int64_t i, std::int64_t) {
                 halo[i] = beyond(rule, cells[i], value, spacing_);
-            }
+            });
         }
     }
 
@@ -158,8 +170,22 @@ private:
     const PlaneLayout& layout_;
     const SideRules& sides_;
     Number spacing_;
+    ColumnRange columns_;
+    bool has_rows_, is_left_given_ = false, is_right_given_ = false;
     std::array<std::int64_t, side_count> sources_{};
 };
+
+template <typename Number>
+void fill_slices(const HaloFill<Number>& fill, const PlaneLayout& layout, RowRange rows) {
+    CHECK(0 <= rows.begin && rows.end <= layout.row_count(), "a halo comes from rows of the plane");
+    while (rows.begin < rows.end) {
+        const std::int64_t slice = rows.begin / layout.height;
+        const std::int64_t first = rows.begin - slice * layout.height;
+        const std::int64_t last = std::min(layout.height, first + rows.end - rows.begin);
+        fill.from_rows(slice, first, last);
+        rows.begin += last - first;
+    }
+}
 
 }  // namespace
 
@@ -202,21 +228,14 @@ Field Field::converted(Precision precision) const {
 
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides) {
-    fill_halo_from_rows(origin, layout, sides, 0, layout.row_count());
+    fill_slices(HaloFill<Number>(origin, layout, sides, {}, true), layout, {0, layout.row_count()});
 }
 
 template <typename Number>
-void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
-                         std::int64_t begin, std::int64_t end) {
-    CHECK(0 <= begin && end <= layout.row_count(), "a halo comes from rows of the plane");
-    const HaloFill<Number> fill(origin, layout, sides);
-    while (begin < end) {
-        const std::int64_t slice = begin / layout.height;
-        const std::int64_t first = begin - slice * layout.height;
-        const std::int64_t last = std::min(layout.height, first + end - begin);
-        fill.from_rows(slice, first, last);
-        begin += last - first;
-    }
+void fill_halo_from(Number* origin, const PlaneLayout& layout, const SideRules& sides,
+                    const Patch& patch) {
+    fill_slices(HaloFill<Number>(origin, layout, sides, patch.columns, layout.height > 1), layout,
+                patch.rows);
 }
 
 void Field::fill_halo(const SideRules& sides) const {
@@ -225,9 +244,7 @@ void Field::fill_halo(const SideRules& sides) const {
 
 template void fill_halo<float>(float*, const PlaneLayout&, const SideRules&);
 template void fill_halo<double>(double*, const PlaneLayout&, const SideRules&);
-template void fill_halo_from_rows<float>(float*, const PlaneLayout&, const SideRules&, std::int64_t,
-                                         std::int64_t);
-template void fill_halo_from_rows<double>(double*, const PlaneLayout&, const SideRules&,
-                                          std::int64_t, std::int64_t);
+template void fill_halo_from<float>(float*, const PlaneLayout&, const SideRules&, const Patch&);
+template void fill_halo_from<double>(double*, const PlaneLayout&, const SideRules&, const Patch&);
 
 }  // namespace cascade

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/check.h"
+#include "core/patch.h"
 #include "core/precision.h"
 #include "core/side.h"
 
@@ -26,11 +27,12 @@ void free_plane(void* plane);
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
 
-/// Fills all halo cells whose values come from rows [begin, end), numbered through all slices.
-/// Threads with disjoint parts of the rows fill the whole halo without reading each other's rows.
+/// Fills all halo cells that kernels read and whose values come from these cells. Rows above and
+/// below a single row are left out, because no stencil reads them. Threads with disjoint patches
+/// fill the whole halo without reading each other's cells.
 template <typename Number>
-void fill_halo_from_rows(Number* origin, const PlaneLayout& layout, const SideRules& sides,
-                         std::int64_t begin, std::int64_t end);
+void fill_halo_from(Number* origin, const PlaneLayout& layout, const SideRules& sides,
+                    const Patch& patch);
 
 /// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and initially zero.
 /// Movable; copied only where that is written: by clone(), or together with what owns it.

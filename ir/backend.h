@@ -8,7 +8,7 @@
 #include "core/check.h"
 #include "core/grid.h"
 #include "core/links.h"
-#include "core/parallel.h"
+#include "core/patch.h"
 #include "core/result.h"
 #include "ir/cell_kernel.h"
 
@@ -22,10 +22,10 @@ namespace cascade {
 
 /// The inputs and outputs of a kernel. Pointers are to cell (0, 0, 0) of planes of one layout; a
 /// field read by `laplacian` or `neighbour` has its halo filled. An output may be a field that no
-/// other output is computed from (sole_results()); otherwise it overlaps nothing. A kernel may
-/// write any values into an output row after its last cell, up to the next multiple of
-/// PlaneLayout::row_pad (so halo column `width` is undefined afterwards), but never cells of other
-/// rows or columns < 0.
+/// other output is computed from (sole_results()); otherwise it overlaps nothing. A kernel that
+/// computes the last cell of a row may write any values into the output row after it, up to the
+/// next multiple of PlaneLayout::row_pad (so halo column `width` is undefined afterwards), but
+/// never other cells that it is not told to compute.
 template <typename Number>
 struct KernelArgumentsOf {
     std::span<const Number* const> fields;       ///< One per field slot.
@@ -40,13 +40,15 @@ struct KernelArgumentsOf {
 using KernelArguments = KernelArgumentsOf<float>;
 
 /// An executable kernel. Its results never change. It may run on several threads at once, each on
-/// its own rows and inside a FlushDenormals.
+/// its own cells and inside a FlushDenormals.
 class Kernel {
 public:
     virtual ~Kernel() = default;
-    /// Computes rows, numbered through all slices, in the kernel's precision.
-    virtual void run(const KernelArgumentsOf<float>&, RowRange) const { wrong_precision(); }
-    virtual void run(const KernelArgumentsOf<double>&, RowRange) const { wrong_precision(); }
+    /// Computes the cells of a patch in the kernel's precision. Its columns begin, and end if not
+    /// at the end of the rows, at multiples of PlaneLayout::row_pad. Linked cells are computed in
+    /// whole rows.
+    virtual void run(const KernelArgumentsOf<float>&, const Patch&) const { wrong_precision(); }
+    virtual void run(const KernelArgumentsOf<double>&, const Patch&) const { wrong_precision(); }
 
     /// Whether the kernel may become many times faster later, because its code is still being
     /// compiled. Its present speed then says nothing about later runs.

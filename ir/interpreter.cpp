@@ -166,13 +166,14 @@ public:
         }
     }
 
-    void run(RowRange rows) {
+    void run(const Patch& cells) {
         const PlaneLayout& layout = arguments_.layout;
-        for (std::int64_t number = rows.begin; number < rows.end; ++number) {
+        const ColumnRange columns = cells.columns.within(layout.width);
+        for (std::int64_t number = cells.rows.begin; number < cells.rows.end; ++number) {
             row_ = number % layout.height;
             slice_ = number / layout.height;
-            for (column_ = 0; column_ < layout.width; column_ += block_cells) {
-                count_ = std::min(block_cells, layout.width - column_);
+            for (column_ = columns.begin; column_ < columns.end; column_ += block_cells) {
+                count_ = std::min(block_cells, columns.end - column_);
                 offset_ = layout.row_start(number) + column_;
                 for (const BlockStep<Number>& step : plan_.block_steps) compute(step);
                 for (std::size_t k = 0; k < plan_.results.size(); ++k) store(k);
@@ -382,12 +383,12 @@ public:
           uniform_count_(kernel.uniform_names.size()) {}
 
     using Kernel::run;
-    void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
+    void run(const KernelArgumentsOf<Number>& arguments, const Patch& cells) const override {
         CHECK(arguments.fields.size() == field_count_ && arguments.masks.size() == mask_count_ &&
                   arguments.uniforms.size() == uniform_count_ &&
                   arguments.results.size() == plan_.results.size(),
               "interpreter: a kernel gets an argument for every slot and result");
-        Runner<Number>(plan_, stencil_, arguments).run(rows);
+        Runner<Number>(plan_, stencil_, arguments).run(cells);
     }
 
 private:

@@ -79,11 +79,11 @@ public:
           present_(interpreted_.get()),
           is_wanted_(is_wanted) {}
 
-    void run(const KernelArgumentsOf<float>& arguments, RowRange rows) const override {
-        run_present(arguments, rows);
+    void run(const KernelArgumentsOf<float>& arguments, const Patch& cells) const override {
+        run_present(arguments, cells);
     }
-    void run(const KernelArgumentsOf<double>& arguments, RowRange rows) const override {
-        run_present(arguments, rows);
+    void run(const KernelArgumentsOf<double>& arguments, const Patch& cells) const override {
+        run_present(arguments, cells);
     }
     bool is_provisional() const override { return !is_settled_.load(std::memory_order_acquire); }
     const Failure* refusal() const override {
@@ -111,11 +111,12 @@ public:
 
 private:
     template <typename Number>
-    void run_present(const KernelArgumentsOf<Number>& arguments, RowRange rows) const {
+    void run_present(const KernelArgumentsOf<Number>& arguments, const Patch& cells) const {
         if (is_provisional()) {
-            count((rows.end - rows.begin) * (arguments.layout.width + cells_per_row));
+            const std::int64_t columns = cells.columns.within(arguments.layout.width).count();
+            count((cells.rows.end - cells.rows.begin) * (columns + cells_per_row));
         }
-        present_.load(std::memory_order_acquire)->run(arguments, rows);
+        present_.load(std::memory_order_acquire)->run(arguments, cells);
     }
 
     /// Called before interpreting this number of cells: requests compilation, or waits for it.

@@ -17,22 +17,24 @@ namespace cascade {
 /// The function of every kernel of float or double; see jit/skeleton.h.
 template <typename Number>
 using GridFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
-                          const Number* uniforms, Number* const* results, std::int64_t width,
-                          std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
-                          std::int64_t is_near);
+                          const Number* uniforms, Number* const* results, std::int64_t column_begin,
+                          std::int64_t column_end, std::int64_t stride, std::int64_t row_begin,
+                          std::int64_t row_end, std::int64_t is_near);
 
 /// The same of grids of several slices.
 template <typename Number>
 using VolumeFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
-                            const Number* uniforms, Number* const* results, std::int64_t width,
-                            std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
-                            std::int64_t is_near, std::int64_t slice_rows, std::int64_t slice);
+                            const Number* uniforms, Number* const* results,
+                            std::int64_t column_begin, std::int64_t column_end, std::int64_t stride,
+                            std::int64_t row_begin, std::int64_t row_end, std::int64_t is_near,
+                            std::int64_t slice_rows, std::int64_t slice);
 
 /// The same of linked cells; see jit/skeleton_linked.h.
 template <typename Number>
 using LinkedFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
-                            const Number* uniforms, Number* const* results, std::int64_t width,
-                            std::int64_t stride, std::int64_t row_begin, std::int64_t row_end,
+                            const Number* uniforms, Number* const* results,
+                            std::int64_t column_begin, std::int64_t column_end, std::int64_t stride,
+                            std::int64_t row_begin, std::int64_t row_end,
                             const std::uint32_t* starts, const std::int32_t* bases,
                             const std::int16_t* offsets, const Number* weights,
                             const Number* gradient_x, const Number* gradient_y,

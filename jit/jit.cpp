@@ -36,26 +36,29 @@ public:
     }
 
     using Kernel::run;
-    void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
+    void run(const KernelArgumentsOf<Number>& arguments, const Patch& cells) const override {
         CHECK(arguments.fields.size() >= fields_ && arguments.masks.size() >= masks_ &&
                   arguments.uniforms.size() >= uniforms_ && arguments.results.size() >= results_,
               "a kernel is given all its planes and numbers");
+        const RowRange rows = cells.rows;
         CHECK(rows.empty() || (rows.begin >= 0 && rows.end <= arguments.layout.row_count()),
               "rows to compute are rows of the plane");
         const PlaneLayout& layout = arguments.layout;
-        if (layout.width <= 0) return;
+        const ColumnRange columns = cells.columns.within(layout.width);
+        if (columns.count() <= 0) return;
         CHECK(stencil_.z == (layout.depth > 1), "a kernel runs on grids of its stencil");
-        if (stencil_.z) return run_slices(arguments, rows);
-        if (stencil_.links) return run_linked(arguments, rows);
+        if (stencil_.z) return run_slices(arguments, rows, columns);
+        if (stencil_.links) return run_linked(arguments, rows, columns);
         function_->template as<GridFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-            arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end,
-            arguments.is_near);
+            arguments.results.data(), columns.begin, columns.end, layout.stride, rows.begin,
+            rows.end, arguments.is_near);
     }
 
 private:
     /// One call for each slice that has some of the rows.
-    void run_slices(const KernelArgumentsOf<Number>& arguments, RowRange rows) const {
+    void run_slices(const KernelArgumentsOf<Number>& arguments, RowRange rows,
+                    ColumnRange columns) const {
         const PlaneLayout& layout = arguments.layout;
         while (!rows.empty()) {
             const std::int64_t slice = rows.begin / layout.height;
@@ -64,21 +67,25 @@ private:
             const std::int64_t halo_rows = slice * (layout.slice_rows() - layout.height);
             function_->template as<VolumeFunction<Number>>()(
                 arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-                arguments.results.data(), layout.width, layout.stride, rows.begin + halo_rows,
-                end + halo_rows, arguments.is_near, layout.slice_rows(), slice);
+                arguments.results.data(), columns.begin, columns.end, layout.stride,
+                rows.begin + halo_rows, end + halo_rows, arguments.is_near, layout.slice_rows(),
+                slice);
             rows.begin = end;
         }
     }
 
-    void run_linked(const KernelArgumentsOf<Number>& arguments, RowRange rows) const {
+    void run_linked(const KernelArgumentsOf<Number>& arguments, RowRange rows,
+                    ColumnRange columns) const {
         const PlaneLayout& layout = arguments.layout;
         const LinkTable<Number>& links = arguments.links;
+        CHECK(columns.begin == 0 && columns.end == layout.width,
+              "linked cells are computed in whole rows");
         CHECK(!has_link_sums_ || links.starts, "a kernel that sums over links is given them");
         CHECK(!has_gradients_ || links.gradients[2], "and gradients, where it asks for them");
         function_->template as<LinkedFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-            arguments.results.data(), layout.width, layout.stride, rows.begin, rows.end,
-            links.starts, links.bases, links.offsets, links.weights, links.gradients[0],
+            arguments.results.data(), columns.begin, columns.end, layout.stride, rows.begin,
+            rows.end, links.starts, links.bases, links.offsets, links.weights, links.gradients[0],
             links.gradients[1], links.gradients[2]);
     }
 

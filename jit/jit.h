@@ -61,16 +61,19 @@ struct ObjectContent {
 ///
 ///     void NAME(const float *const *fields, const unsigned char *const *masks,
 ///               const float *uniforms, float *const *results,
-///               int64_t width, int64_t stride, int64_t row_begin, int64_t row_end,
-///               int64_t is_near);
+///               int64_t column_begin, int64_t column_end, int64_t stride,
+///               int64_t row_begin, int64_t row_end, int64_t is_near);
 ///
-/// It computes the rows [row_begin, row_end) by the same code as the JIT, and calls nothing.
+/// It computes columns [column_begin, column_end) of rows [row_begin, row_end) by the same code as
+/// the JIT, and calls nothing.
 ///
 /// - `fields`, `masks`, `uniforms` and `results` have an entry for each slot of the kernel.
 /// Pointers
 ///   are to cell (0, 0) of planes in the layout of PlaneLayout, aligned to 64 bytes where they hold
 ///   numbers and to 16 where they are masks.
-/// - `width` is the number of cells in a row, at least 1. `stride` is the number of elements from a
+/// - `column_begin` is a multiple of 16, and so is `column_end`, unless it is the number of cells
+/// in
+///   a row; there is at least one column. `stride` is the number of elements from a
 ///   row to the next, a multiple of 16; 16 elements or more lie before and after the cells of a
 ///   row.
 /// - `is_near` is 0, or 1 if all fields are in a near cache and need no prefetches.

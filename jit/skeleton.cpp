@@ -150,7 +150,8 @@ void KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
                           WriteVector write_vector) {
     llvm::BasicBlock* loop = frame_.new_block("cells");
     Value* start = outside.CreateNSWMul(row, frame_.stride(), "row_start");
-    Value* end = outside.CreateNSWAdd(start, frame_.width());
+    Value* first = outside.CreateNSWAdd(start, frame_.column_begin());
+    Value* end = outside.CreateNSWAdd(start, frame_.column_end());
     OuterSources row_sources(frame_, outside, row);
     BodyScope row_scope(body_, LoopLevel::row, outside, row_sources, &scope_);
     emit_body(row_scope);
@@ -158,10 +159,10 @@ void KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
     Builder inner(loop, frame_.folder());
     llvm::PHINode* element = inner.CreatePHI(inner.getInt64Ty(), 2, "element");
     CarriedVectors carried(*loop, outside);
-    write_vector({row, start, element, &carried}, inner, row_scope);
+    write_vector({row, start, first, element, &carried}, inner, row_scope);
     Value* after = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
     inner.CreateCondBr(inner.CreateICmpSLT(after, end), loop, next);
-    element->addIncoming(start, outside.GetInsertBlock());
+    element->addIncoming(first, outside.GetInsertBlock());
     element->addIncoming(after, inner.GetInsertBlock());
     carried.close(outside.GetInsertBlock(), inner.GetInsertBlock());
     outside.CreateBr(loop);
@@ -190,7 +191,7 @@ llvm::Function* build_function(
     llvm::LLVMContext& context = module.getContext();
     llvm::Type* pointer = llvm::PointerType::getUnqual(context);
     llvm::Type* count = llvm::Type::getInt64Ty(context);
-    std::vector<llvm::Type*> arguments{pointer, pointer, pointer, pointer,
+    std::vector<llvm::Type*> arguments{pointer, pointer, pointer, pointer, count,
                                        count,   count,   count,   count};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
     auto* type = llvm::FunctionType::get(llvm::Type::getVoidTy(context), arguments, false);

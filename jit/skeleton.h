@@ -7,11 +7,12 @@
 //
 //     const float *const *fields, const unsigned char *const *masks,
 //     const float *uniforms, float *const *results,
-//     int64_t width, int64_t stride, int64_t row_begin, int64_t row_end
+//     int64_t column_begin, int64_t column_end, int64_t stride, int64_t row_begin, int64_t row_end
 //
 // Pointers are to cell (0, 0, 0) of planes in the layout of PlaneLayout. Rows are rows of memory.
-// Rows [row_begin, row_end) are computed in vectors of `lanes` cells; the last vector of a row may
-// run into its padding, at most to the next multiple of PlaneLayout::row_pad.
+// Columns [column_begin, column_end) of rows [row_begin, row_end) are computed in vectors of
+// `lanes` cells. `column_begin` is a multiple of PlaneLayout::row_pad; the last vector of a row may
+// run beyond `column_end`, at most to the next multiple.
 #pragma once
 
 #include "jit/alias_scopes.h"
@@ -59,10 +60,11 @@ public:
     Builder& builder() { return builder_; }
     const AliasScopes& aliases() const { return aliases_; }
 
-    llvm::Value* width() { return function_.getArg(4); }
-    llvm::Value* stride() { return function_.getArg(5); }
-    llvm::Value* row_begin() { return function_.getArg(6); }
-    llvm::Value* row_end() { return function_.getArg(7); }
+    llvm::Value* column_begin() { return function_.getArg(4); }
+    llvm::Value* column_end() { return function_.getArg(5); }
+    llvm::Value* stride() { return function_.getArg(6); }
+    llvm::Value* row_begin() { return function_.getArg(7); }
+    llvm::Value* row_end() { return function_.getArg(8); }
     /// An argument after those that all functions have, counted from 0.
     llvm::Value* extra_argument(unsigned number) {
         return function_.getArg(shared_arguments + number);
@@ -106,7 +108,7 @@ public:
     }
 
 private:
-    static constexpr unsigned shared_arguments = 8;
+    static constexpr unsigned shared_arguments = 9;
 
     llvm::Value* plane(unsigned table, std::size_t slot);
 
@@ -123,7 +125,8 @@ private:
 /// which is an addressing mode of the processor.
 struct CellVector {
     llvm::Value* row = nullptr;         ///< Its number.
-    llvm::Value* row_start = nullptr;   ///< Element number of the row's first cell.
+    llvm::Value* row_start = nullptr;   ///< Element number of the row's first cell,
+    llvm::Value* first = nullptr;       ///< and of the first one that is computed.
     llvm::Value* element = nullptr;     ///< Element number of the vector's first cell.
     CarriedVectors* carried = nullptr;  ///< From this vector to the next.
 };

@@ -175,7 +175,7 @@ Value* GridSources::field(FieldSlot slot) {
     Value*& own = carried_[slot];
     if (!own) {
         own = vector_.carried->take(slot, [&](Builder& outside) {
-            return load(outside, slot, vector_.row_start, 0);
+            return load(outside, slot, vector_.first, 0);
         });
         vector_.carried->give(slot, load(builder_, slot, element_, frame_.lanes()));
     }
@@ -295,8 +295,9 @@ void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& builder) {
     llvm::BasicBlock* narrow = frame.new_block("narrow");
     Value* least = builder.getInt64(least_width_to_prefetch(bytes));
     Value* is_far = builder.CreateICmpEQ(frame.is_near(), builder.getInt64(0));
-    builder.CreateCondBr(builder.CreateAnd(builder.CreateICmpSGE(frame.width(), least), is_far),
-                         wide, narrow);
+    Value* width = builder.CreateSub(frame.column_end(), frame.column_begin());
+    builder.CreateCondBr(builder.CreateAnd(builder.CreateICmpSGE(width, least), is_far), wide,
+                         narrow);
     for (llvm::BasicBlock* block : {wide, narrow}) {
         builder.SetInsertPoint(block);
         build_rows(frame, loops, offsets, shifted,

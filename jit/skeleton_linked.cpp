@@ -240,8 +240,9 @@ Value* LinkedSources::start_of(Value* slice) {
 void LinkedSources::add_up() {
     load_own();
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
-    Value* slices = builder_.CreateUDiv(builder_.CreateAdd(frame_.width(), count(slice_cells - 1)),
-                                        count(slice_cells));
+    Value* slices =
+        builder_.CreateUDiv(builder_.CreateAdd(frame_.column_end(), count(slice_cells - 1)),
+                            count(slice_cells));
     Value* column = builder_.CreateSub(element_, vector_.row_start);
     Value* slice = builder_.CreateAdd(builder_.CreateMul(vector_.row, slices),
                                       builder_.CreateUDiv(column, count(slice_cells)));

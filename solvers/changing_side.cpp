@@ -52,11 +52,15 @@ void set_values(const ChangingSide& side, SideMoment moment, const PlaneLayout& 
 }  // namespace
 
 void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
-                     const PlaneLayout& layout, RowRange rows, SideRules& rules) {
+                     const PlaneLayout& layout, const Patch& cells, SideRules& rules) {
+    const auto is_beside = [&](Side side) {
+        if (side == Side::left) return cells.columns.contains(0);
+        return side != Side::right || cells.columns.contains(layout.width - 1);
+    };
     for (const ChangingSide& side : sides) {
-        if (side.species != species) continue;
+        if (side.species != species || !is_beside(side.side)) continue;
         with_number(side.precision, [&](auto zero) {
-            set_values<decltype(zero)>(side, moment, layout, rows, rules);
+            set_values<decltype(zero)>(side, moment, layout, cells.rows, rules);
         });
     }
 }

@@ -39,6 +39,6 @@ struct ChangingSide {
 /// Sets the rules of a species to a moment, for halo that is filled from these rows. Must run
 /// inside a FlushDenormals.
 void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
-                     const PlaneLayout& layout, RowRange rows, SideRules& rules);
+                     const PlaneLayout& layout, const Patch& cells, SideRules& rules);
 
 }  // namespace cascade

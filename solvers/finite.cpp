@@ -61,29 +61,32 @@ inline void add_row(const Number* row, std::int64_t width, Lanes<Number>& sums) 
     for (; i < width; ++i) sums.last[i % lanes] += row[i];
 }
 
-WITH_WIDE_VECTORS void add_rows(const Plane<float>& plane, RowRange rows, Lanes<float>& sums) {
+WITH_WIDE_VECTORS void add_rows(const Plane<float>& plane, RowRange rows, ColumnRange columns,
+                                Lanes<float>& sums) {
     for (std::int64_t row = rows.begin; row < rows.end; ++row)
-        add_row(plane.row(row), plane.layout().width, sums);
+        add_row(plane.row(row) + columns.begin, columns.count(), sums);
 }
 
-WITH_WIDE_VECTORS void add_rows(const Plane<double>& plane, RowRange rows, Lanes<double>& sums) {
+WITH_WIDE_VECTORS void add_rows(const Plane<double>& plane, RowRange rows, ColumnRange columns,
+                                Lanes<double>& sums) {
     for (std::int64_t row = rows.begin; row < rows.end; ++row)
-        add_row(plane.row(row), plane.layout().width, sums);
+        add_row(plane.row(row) + columns.begin, columns.count(), sums);
 }
 
 }  // namespace
 
-bool rows_are_finite(const Field& field, RowRange rows) {
+bool are_finite(const Field& field, const Patch& cells) {
+    const ColumnRange columns = cells.columns.within(field.layout().width);
     return field.visit([&]<typename Number>(const Plane<Number>& plane) {
         // An infinity or a NaN never leaves a sum again. A sum may also overflow without one, which
         // says nothing.
         Lanes<Number> sums{};
-        add_rows(plane, rows, sums);
+        add_rows(plane, cells.rows, columns, sums);
         Number all[3 * Lanes<Number>::count];
         std::memcpy(all, &sums, sizeof all);
         if (row_is_finite(all, std::ssize(all))) return true;
-        for (std::int64_t j = rows.begin; j < rows.end; ++j) {
-            if (!row_is_finite(plane.row(j), plane.layout().width)) return false;
+        for (std::int64_t j = cells.rows.begin; j < cells.rows.end; ++j) {
+            if (!row_is_finite(plane.row(j) + columns.begin, columns.count())) return false;
         }
         return true;
     });

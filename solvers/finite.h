@@ -15,8 +15,8 @@ struct CellPlace {
     friend bool operator==(const CellPlace&, const CellPlace&) = default;
 };
 
-/// Are all cells of these rows finite? Ignores halo and padding, which may hold anything.
-bool rows_are_finite(const Field& field, RowRange rows);
+/// Are all these cells finite? Ignores halo and padding, which may hold anything.
+bool are_finite(const Field& field, const Patch& cells);
 
 /// The first cell, row by row, that is not finite.
 std::optional<CellPlace> first_not_finite(const Field& field);

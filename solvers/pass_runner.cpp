@@ -7,6 +7,7 @@
 #include "core/floating_point.h"
 #include "core/overloaded.h"
 #include "ir/draw_of_step.h"
+#include "solvers/tiling.h"
 
 #include <algorithm>
 
@@ -56,6 +57,7 @@ void PassRunner::prepare(Worker& worker, int number, int count) const {
     worker.number = number;
     worker.count = count;
     worker.rows = split_rows(layout_.row_count(), number, count);
+    worker.cells = share_of(problem_.grid, number, count);
     with_number(problem_.precision, [&](auto zero) {
         using Number = decltype(zero);
         auto& arguments = worker.arguments.emplace<Arguments<Number>>();
@@ -90,7 +92,7 @@ void PassRunner::run(Worker& worker, Team& team, Registers registers, const Step
         if (pass > 0) team.barrier();
         prepare_pass(worker, team, pass, registers, moment);
         bind(worker, 0, pass, registers, moment);
-        run_rows(worker, 0, worker.rows);
+        run_cells(worker, 0, {worker.rows});
     }
 }
 
@@ -212,32 +214,33 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
                    layout_,      links,      is_near};
 }
 
-void PassRunner::run_rows(Worker& worker, std::size_t level, RowRange rows) const {
-    std::visit([&](const auto& arguments) { run_level(arguments.levels[level], rows); },
+void PassRunner::run_cells(Worker& worker, std::size_t level, const Patch& cells) const {
+    std::visit([&](const auto& arguments) { run_level(arguments.levels[level], cells); },
                worker.arguments);
 }
 
 template <typename Number>
-void PassRunner::run_level(const Level<Number>& level, RowRange rows) const {
+void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const {
     const StepProblem::Pass& pass = problem_.passes[level.pass];
     const std::int64_t band =
         rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, level.results.size()));
-    for (std::int64_t row = rows.begin; row < rows.end; row += band) {
-        const RowRange part{row, std::min(row + band, rows.end)};
+    for (std::int64_t row = cells.rows.begin; row < cells.rows.end; row += band) {
+        const Patch part{{row, std::min(row + band, cells.rows.end)}, cells.columns};
         pass.kernel->run(level.given, part);
         for (std::size_t k = 0; k < level.results.size(); ++k) {
             if (pass.results[k].needs_halo && problem_.has_halo()) fill_halo_of(level, k, part);
         }
-        if (level.when_written != nullptr) (*level.when_written)(part);
+        if (level.when_written != nullptr) (*level.when_written)(part.rows);
     }
 }
 
 /// Fills the halo of a result for the moment at which neighbours will read it.
 template <typename Number>
-void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number, RowRange rows) const {
+void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number,
+                              const Patch& cells) const {
     const StepProblem::Result& result = problem_.passes[level.pass].results[number];
     const auto fill = [&](const SideRules& rules) {
-        fill_halo_from_rows(level.results[number], layout_, rules, rows.begin, rows.end);
+        fill_halo_from(level.results[number], layout_, rules, cells);
     };
     const SideRules& rules = sides_[level.pass][number];
     const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);
@@ -247,7 +250,7 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number, Ro
     const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
                           is_next ? moment.next_t : moment.t + result.read_at * moment.length};
     SideRules changed = rules;
-    set_side_values(problem_.changing_sides, own->species, when, layout_, rows, changed);
+    set_side_values(problem_.changing_sides, own->species, when, layout_, cells, changed);
     fill(changed);
 }
 

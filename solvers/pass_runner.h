@@ -32,8 +32,8 @@ struct StepMoment {
 /// The planes of every register, one for each species, in the problem's precision.
 using Registers = std::span<const std::span<Field>>;
 
-/// Called for rows that a pass has just written, while they are in the cache, by the thread that
-/// wrote them.
+/// Called for rows that a pass has just written, by the thread that wrote them while they are in
+/// the cache, or, if grids are cut along columns, by any thread.
 using RowsWritten = std::function<void(RowRange)>;
 
 class PassRunner {
@@ -63,7 +63,8 @@ public:
     struct alignas(64) Worker {
         int number = 0;  ///< The thread's number among the `count` threads in use.
         int count = 1;
-        RowRange rows;
+        RowRange rows;  ///< A part of all rows,
+        Patch cells;    ///< and of all cells, which is a fair share even if there are few rows.
         std::vector<DiffusionSymbol> symbols;
         std::variant<Arguments<float>, Arguments<double>> arguments;
         std::vector<double> row_values;
@@ -89,8 +90,8 @@ public:
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
               const StepMoment& moment, bool is_near = false,
               const RowsWritten* when_written = nullptr);
-    /// Runs a level that is bound on some rows, and fills the halo that copies them.
-    void run_rows(Worker& worker, std::size_t level, RowRange rows) const;
+    /// Runs a level that is bound on some cells, and fills the halo that copies them.
+    void run_cells(Worker& worker, std::size_t level, const Patch& cells) const;
 
     const StepProblem& problem() const { return problem_; }
     const PlaneLayout& layout() const { return layout_; }
@@ -112,9 +113,9 @@ private:
                  Registers registers, const StepMoment& moment, bool is_near,
                  const RowsWritten* when_written);
     template <typename Number>
-    void run_level(const Level<Number>& level, RowRange rows) const;
+    void run_level(const Level<Number>& level, const Patch& cells) const;
     template <typename Number>
-    void fill_halo_of(const Level<Number>& level, std::size_t result, RowRange rows) const;
+    void fill_halo_of(const Level<Number>& level, std::size_t result, const Patch& cells) const;
 
     const StepProblem& problem_;
     PlaneLayout layout_;

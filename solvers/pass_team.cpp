@@ -17,7 +17,9 @@ int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
     const std::int64_t values = grid.cell_count() * static_cast<std::int64_t>(species);
     const std::int64_t least =
         grid.linked ? least_linked_values_per_thread : least_values_per_thread;
-    const std::int64_t worth = std::min(values / least, grid.height * grid.depth);
+    const std::int64_t parts =
+        has_few_rows(grid) ? grid.width / PlaneLayout::row_pad : grid.height * grid.depth;
+    const std::int64_t worth = std::min(values / least, parts);
     return static_cast<int>(std::clamp<std::int64_t>(worth, 1, std::max(most, 1)));
 }
 
@@ -74,12 +76,12 @@ void PassTeam::use_tiling(const Tiling& tiling) {
 void PassTeam::set_tiling(const Tiling& tiling) {
     tiling_ = tiling;
     Tiling reaching = tiling;
-    if (layout_.depth == 1) reaching.outer_layer = std::max(reaching.outer_layer, reach_);
+    if (problem_->grid.linked) reaching.outer_layer = std::max(reaching.outer_layer, reach_);
     tiles_.emplace(*runner_, reaching, static_cast<int>(workers_.size()));
 }
 
 void PassTeam::run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
-                   const OwnRows& after) {
+                   const OwnCells& after) {
     run({planes, clock}, first, count, after);
 }
 
@@ -89,23 +91,23 @@ void PassTeam::run_step(StepPlanes& planes, const StageClock& clock, StepPass fi
 }
 
 void PassTeam::run(const Given& given, const StepPass& first, std::size_t count,
-                   const OwnRows& after) {
+                   const OwnCells& after) {
     team_.run(
         [&](int thread) {
             Worker& worker = workers_[static_cast<std::size_t>(thread)];
             run_passes(worker, given, first, count, after != nullptr);
-            if (after) after(thread, worker.passes.rows);
+            if (after) after(thread, worker.passes.cells);
         },
         static_cast<int>(workers_.size()));
 }
 
-void PassTeam::run(const OwnRows& work) {
+void PassTeam::run(const OwnCells& work) {
     team_.run(
-        [&](int thread) { work(thread, workers_[static_cast<std::size_t>(thread)].passes.rows); },
+        [&](int thread) { work(thread, workers_[static_cast<std::size_t>(thread)].passes.cells); },
         static_cast<int>(workers_.size()));
 }
 
-/// Runs `left` passes from `next` on. `meets`: each thread's own rows must be complete at the end.
+/// Runs `left` passes from `next` on. `meets`: each thread's own cells must be complete at the end.
 void PassTeam::run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                           bool meets) {
     while (left > 0) {
@@ -113,10 +115,14 @@ void PassTeam::run_passes(Worker& worker, const Given& given, StepPass next, std
         run_together(worker, given, next, together);
         left -= together;
         // One barrier is enough: after it no thread reads the copy that the next pass overwrites,
-        // and every thread has filled the halo that copies its own rows. Tiles may end in any
-        // thread's rows.
-        if (left > 0 || (meets && tiles_->levels() > 1)) team_.barrier();
+        // and every thread has filled the halo that copies its own rows. Tiles and columns may end
+        // in any thread's cells.
+        const bool is_elsewhere = tiles_->levels() > 1 || has_few_rows(problem_->grid);
+        if (left > 0 || (meets && is_elsewhere)) team_.barrier();
     }
+    if (given.written_by_last == nullptr || !tiles_->is_along_columns()) return;
+    team_.barrier();
+    (*given.written_by_last)(worker.passes.rows);
 }
 
 /// The number of passes to run together if `left` remain: tiles of nearly equal heights, up to a
@@ -143,11 +149,12 @@ void PassTeam::run_together(Worker& worker, const Given& given, StepPass& next, 
         // The first pass of a tile brings the data of the others into the cache.
         runner_->bind(worker.passes, number, next.pass, worker.registers, moment,
                       tiling_.is_near && number > 0,
-                      next.pass + 1 == passes ? given.written_by_last : nullptr);
+                      next.pass + 1 == passes && !tiles_->is_along_columns() ? given.written_by_last
+                                                                             : nullptr);
         go_on(next, passes);
     }
-    if (count == 1) {
-        runner_->run_rows(worker.passes, 0, worker.passes.rows);
+    if (count == 1 && !tiles_->is_along_columns()) {
+        runner_->run_cells(worker.passes, 0, {worker.passes.rows});
     } else {
         tiles_->run(worker.passes, team_, static_cast<int>(count));
     }

@@ -29,8 +29,8 @@ struct StepPass {
 
 class PassTeam {
 public:
-    /// The work of a thread on its rows.
-    using OwnRows = std::function<void(int thread, RowRange rows)>;
+    /// The work of a thread on its share of the cells.
+    using OwnCells = std::function<void(int thread, const Patch& cells)>;
 
     /// At first all threads are in use, but no more than the grid is worth. `problem` must outlive
     /// its use.
@@ -60,15 +60,15 @@ public:
         return stepping_with(*problem_, tiling_, tiles_->levels(), tiles_->phases());
     }
 
-    /// Runs `count` passes from `first` on. Then every thread calls `after` with its own rows,
+    /// Runs `count` passes from `first` on. Then every thread calls `after` with its own cells,
     /// which are complete; `after` may be null.
     void run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
-             const OwnRows& after);
+             const OwnCells& after);
     /// Runs the passes of one step from `first` on, and calls `written` for all rows of the last.
     void run_step(StepPlanes& planes, const StageClock& clock, StepPass first,
                   const RowsWritten& written);
-    /// Every thread calls `work` with its own rows.
-    void run(const OwnRows& work);
+    /// Every thread calls `work` with its own cells.
+    void run(const OwnCells& work);
 
 private:
     struct Worker {
@@ -84,7 +84,7 @@ private:
     };
 
     void set_tiling(const Tiling& tiling);
-    void run(const Given& given, const StepPass& first, std::size_t count, const OwnRows& after);
+    void run(const Given& given, const StepPass& first, std::size_t count, const OwnCells& after);
     void run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                     bool meets);
     std::size_t passes_together(const StepPass& next, std::size_t left) const;

@@ -58,11 +58,11 @@ bool Stepper::is_finite() {
 }
 
 /// What threads do while they check values.
-PassTeam::OwnRows Stepper::look_at(int copy) {
+PassTeam::OwnCells Stepper::look_at(int copy) {
     std::fill(finite_.begin(), finite_.end(), std::uint8_t{1});
-    return [this, copy](int thread, RowRange rows) {
+    return [this, copy](int thread, const Patch& cells) {
         for (const Field& field : planes_.copy(copy)) {
-            if (!rows_are_finite(field, rows)) finite_[static_cast<std::size_t>(thread)] = 0;
+            if (!are_finite(field, cells)) finite_[static_cast<std::size_t>(thread)] = 0;
         }
     };
 }

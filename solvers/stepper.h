@@ -61,7 +61,7 @@ private:
         std::vector<double> of_errors, of_values;
     };
 
-    PassTeam::OwnRows look_at(int copy);
+    PassTeam::OwnCells look_at(int copy);
     bool all_finite() const;
     void add_squares(RowRange rows);
 
@@ -71,7 +71,7 @@ private:
     /// The register of first rates holds the rates of the current copy.
     bool knows_first_rates_ = false;
     std::vector<Squares> squares_;      ///< By species.
-    std::vector<std::uint8_t> finite_;  ///< By thread: are its rows finite?
+    std::vector<std::uint8_t> finite_;  ///< By thread: are its cells finite?
 };
 
 }  // namespace cascade

@@ -1,6 +1,8 @@
 // Runs the phases of a tile one after the other; within a part, a wavefront over layers and levels.
 #include "solvers/tile_runner.h"
 
+#include "core/check.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -16,6 +18,12 @@ bool is_of_slices(const Grid& grid, const Tiling& tiling) {
 
 TileAxis outer_axis(const StepProblem& problem, const Tiling& tiling, int threads) {
     const Grid& grid = problem.grid;
+    if (tiling.along == Tiling::Along::columns) {
+        CHECK(!grid.linked && tiling.outer_layer % PlaneLayout::row_pad == 0,
+              "layers of columns are as kernels need them");
+        return {std::max<std::int64_t>(grid.width / tiling.outer_layer, 1), threads,
+                wraps(problem, Side::left)};
+    }
     const bool of_slices = is_of_slices(grid, tiling);
     return {layers_of(of_slices ? grid.depth : grid.height, tiling.outer_layer), threads,
             !grid.linked && wraps(problem, of_slices ? Side::front : Side::top)};
@@ -39,6 +47,12 @@ TileRunner::TileRunner(const PassRunner& runner, const Tiling& tiling, int threa
                          most_levels)) {}
 
 void TileRunner::run(PassRunner::Worker& worker, Team& team, int levels) const {
+    if (levels == 1 && is_along_columns()) {
+        // A thread's columns need not be cut into layers.
+        if (worker.number < outer_.bands())
+            run_columns(worker, 0, outer_.upright(worker.number, 0));
+        return;
+    }
     Part outer, inner;
     bool is_first = true;
     for (const bool outer_inverted : {false, true}) {
@@ -86,9 +100,10 @@ void TileRunner::run_wave(PassRunner::Worker& worker, const Part& outer, const P
 
 void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t layer,
                            LayerRange inner) const {
+    if (is_along_columns()) return run_columns(worker, level, {layer, layer + 1});
     const PlaneLayout& layout = runner_.layout();
     const auto run = [&](std::int64_t begin, std::int64_t end) {
-        if (begin < end) runner_.run_rows(worker, static_cast<std::size_t>(level), {begin, end});
+        if (begin < end) runner_.run_cells(worker, static_cast<std::size_t>(level), {{begin, end}});
     };
     const bool of_slices = is_of_slices(runner_.problem().grid, tiling_);
     const std::int64_t first = layer * tiling_.outer_layer;
@@ -113,6 +128,21 @@ void TileRunner::run_layer(PassRunner::Worker& worker, int level, std::int64_t l
         if (inner.begin < 0) rows_of(slice, inner.begin + inner_.layers(), inner_.layers());
         if (inner.end > inner_.layers()) rows_of(slice, 0, inner.end - inner_.layers());
     }
+}
+
+void TileRunner::run_columns(PassRunner::Worker& worker, int level, LayerRange layers) const {
+    const PlaneLayout& layout = runner_.layout();
+    const auto run = [&](std::int64_t begin, std::int64_t end) {
+        runner_.run_cells(worker, static_cast<std::size_t>(level),
+                          {{0, layout.row_count()}, {begin, end}});
+    };
+    if (layers.begin == 0 && layers.end == outer_.layers()) return run(0, layout.width);
+    const std::int64_t columns = tiling_.outer_layer, left_over = outer_.layers() * columns;
+    const std::int64_t begin = layers.begin * columns, end = layers.end * columns;
+    if (outer_.wraps() && layers.begin == 0 && left_over < layout.width)
+        run(left_over, layout.width);
+    const bool is_last = layers.end == outer_.layers() && !outer_.wraps();
+    run(begin, is_last ? layout.width : std::min(end, layout.width));
 }
 
 }  // namespace cascade

@@ -3,10 +3,14 @@
 //
 // A grid is cut along its rows. A grid with slices is cut along its slices and, within each, along
 // its rows; or, if there are few slices, along its rows alone, each layer being the same rows of
-// all slices. With two axes a tile is a part of one times a part of the other, and there are four
-// phases. A cell's phase along each axis never decreases from level to level, so the values that it
-// reads are complete. Tiles of the two phases that are upright along one axis and inverted along
-// the other do not depend on each other.
+// all slices; or, if there are few rows in all, along its columns. With two axes a tile is a part
+// of one times a part of the other, and there are four phases. A cell's phase along each axis never
+// decreases from level to level, so the values that it reads are complete. Tiles of the two phases
+// that are upright along one axis and inverted along the other do not depend on each other.
+//
+// Kernels write beyond the last column of a row. If columns wrap, what is there copies the first
+// column, so both must belong to one layer: layer 0 also has the columns that are left over when
+// all layers have the same width. If columns do not wrap, the last layer has them.
 #pragma once
 
 #include "core/parallel.h"
@@ -29,6 +33,7 @@ public:
 
     /// Levels of a tile; 1 if tiles are of no use.
     int levels() const { return levels_; }
+    bool is_along_columns() const { return tiling_.along == Tiling::Along::columns; }
     /// Phases of a tile, which run one after the other; threads meet between them.
     int phases() const { return (outer_.borders() > 0 ? 2 : 1) * (inner_.borders() > 0 ? 2 : 1); }
 
@@ -49,6 +54,7 @@ private:
                   int levels) const;
     void run_layer(PassRunner::Worker& worker, int level, std::int64_t layer,
                    LayerRange inner) const;
+    void run_columns(PassRunner::Worker& worker, int level, LayerRange layers) const;
 
     const PassRunner& runner_;
     Tiling tiling_;

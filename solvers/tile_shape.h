@@ -42,6 +42,7 @@ public:
 
     std::int64_t layers() const { return layers_; }
     int bands() const { return bands_; }
+    bool wraps() const { return wraps_; }
     int borders() const { return wraps_ ? bands_ : bands_ - 1; }
     /// With more levels the parts around two borders would touch. At least 1.
     int most_levels() const;

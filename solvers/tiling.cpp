@@ -25,6 +25,11 @@ constexpr int enough_levels = 16;
 // Slices are cut into bands of rows only where whole ones allow fewer.
 constexpr int few_levels = 6;
 constexpr int levels_in_bands = 8;
+// With fewer rows than this, threads and tiles share columns: the levels of a tile of rows, which
+// shrink by a layer at both ends, would soon be empty.
+constexpr std::int64_t few_rows = 2 * enough_levels;
+// Layers of columns are at least as wide as this. With narrower ones a row is not worth its loop.
+constexpr std::int64_t least_columns = 64;
 
 /// The bytes that the layers of a tile may take.
 double bytes_for_layers(const CacheSizes& caches) {
@@ -65,6 +70,13 @@ Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t by
     return tiling;
 }
 
+/// The columns of a layer that consists of columns.
+std::int64_t columns_of_a_layer(const Grid& grid) {
+    const std::int64_t columns =
+        std::max(cells_of_a_layer / (grid.height * grid.depth), least_columns);
+    return columns / PlaneLayout::row_pad * PlaneLayout::row_pad;
+}
+
 /// Whole slices; the same rows of all slices, if there are few; or bands of the rows of slices, if
 /// neither fits.
 Tiling tiling_of_slices(const StepProblem& problem, std::int64_t bytes, const CacheSizes& caches) {
@@ -90,19 +102,58 @@ Tiling tiling_of_slices(const StepProblem& problem, std::int64_t bytes, const Ca
     return in_bands;
 }
 
+/// Do values of a side vary along the rows, and with time? They are computed for whole rows.
+bool has_changing_rows(const StepProblem& problem) {
+    return std::any_of(problem.changing_sides.begin(), problem.changing_sides.end(),
+                       [](const ChangingSide& side) {
+                           return side.varies && side.side != Side::left &&
+                                  side.side != Side::right;
+                       });
+}
+
+/// One level: each pass is run separately.
+Tiling plain_tiling(const StepProblem& problem) {
+    Tiling plain;
+    if (!has_few_rows(problem.grid) || has_changing_rows(problem)) return plain;
+    plain.along = Tiling::Along::columns;
+    plain.outer_layer = columns_of_a_layer(problem.grid);
+    return plain;
+}
+
 /// The tiling of planes that mostly come from memory in every step.
 Tiling tiling_beyond_cache(const StepProblem& problem, std::int64_t reach,
                            const CacheSizes& caches) {
     const Grid& grid = problem.grid;
-    if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return {};
+    const Tiling plain = plain_tiling(problem);
+    if (std::all_of(problem.passes.begin(), problem.passes.end(), needs_all_rows)) return plain;
     const std::int64_t bytes = bytes_of_step(problem);
-    if (grid.depth > 1) return tiling_of_slices(problem, bytes, caches);
     std::int64_t rows = height_of_layer(problem, PlaneLayout(grid).stride, grid.height);
     if (grid.linked) rows = std::max(rows, reach);
-    return tiling_of_layers(rows, grid.height, bytes, caches);
+    const Tiling of_rows = grid.depth > 1 ? tiling_of_slices(problem, bytes, caches)
+                                          : tiling_of_layers(rows, grid.height, bytes, caches);
+    if (grid.linked || has_changing_rows(problem)) return of_rows;
+    const std::int64_t columns = columns_of_a_layer(grid);
+    const std::int64_t bytes_of_levels =
+        bytes / grid.width * columns * (enough_levels + layers_besides);
+    if (!has_few_rows(grid) && (of_rows.is_near || bytes_of_levels > caches.second)) return of_rows;
+    Tiling of_columns = tiling_of_layers(columns, grid.width, bytes, caches);
+    if (of_columns.levels == 1) return plain;
+    of_columns.along = Tiling::Along::columns;
+    return of_columns;
 }
 
 }  // namespace
+
+bool has_few_rows(const Grid& grid) {
+    return !grid.linked && grid.height * grid.depth < few_rows && grid.width >= least_columns;
+}
+
+Patch share_of(const Grid& grid, int index, int count) {
+    const std::int64_t rows = grid.height * grid.depth;
+    if (!has_few_rows(grid)) return {split_rows(rows, index, count)};
+    const RowRange columns = split_rows(grid.width, index, count);
+    return {{0, rows}, {columns.begin, columns.end}};
+}
 
 bool needs_all_rows(const StepProblem::Pass& pass) {
     return !pass.reductions.empty() || pass.filter;
@@ -163,7 +214,8 @@ bool wraps(const StepProblem& problem, Side side) {
 }
 
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches) {
-    return stays_in_cache(problem, caches) ? Tiling() : tiling_beyond_cache(problem, reach, caches);
+    return stays_in_cache(problem, caches) ? plain_tiling(problem)
+                                           : tiling_beyond_cache(problem, reach, caches);
 }
 
 std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reach,
@@ -186,7 +238,7 @@ std::vector<Tiling> tilings_to_try(const StepProblem& problem, std::int64_t reac
                                         static_cast<std::int64_t>(layer)),
                               2, fewer.levels);
     add(fewer);
-    add({});
+    add(plain_tiling(problem));
     return tilings;
 }
 
@@ -197,8 +249,10 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches) {
 double bytes_in_use(const StepProblem& problem, const Tiling& tiling, int levels) {
     const Grid& grid = problem.grid;
     const bool along_slices = grid.depth > 1 && tiling.along == Tiling::Along::slices;
-    const auto layers = static_cast<double>(along_slices ? grid.depth : grid.height) /
-                        static_cast<double>(tiling.outer_layer);
+    const std::int64_t length = tiling.along == Tiling::Along::columns ? grid.width
+                                : along_slices                         ? grid.depth
+                                                                       : grid.height;
+    const auto layers = static_cast<double>(length) / static_cast<double>(tiling.outer_layer);
     return static_cast<double>(bytes_of_step(problem)) / layers / tiling.inner_bands *
            static_cast<double>(levels + layers_besides);
 }

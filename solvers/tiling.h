@@ -10,18 +10,20 @@
 
 namespace cascade {
 
-/// The outer axis is that of rows, or of slices if the grid has them; the inner axis is that of the
-/// rows within slices. A layer consists of several of them, so that a call of a kernel is worth its
-/// cost.
+/// The outer axis is that of rows, of slices if the grid has them, or of columns if there are few
+/// rows; the inner axis is that of the rows within slices. A layer consists of several of them, so
+/// that a call of a kernel is worth its cost.
 struct Tiling {
-    /// What a layer of the outer axis is, if the grid has slices.
+    /// What a layer of the outer axis is.
     enum class Along : std::uint8_t {
-        slices,  ///< Whole slices.
-        rows,    ///< The same rows of all slices.
+        slices,   ///< Whole slices; of a grid of one slice, whole rows.
+        rows,     ///< The same rows of all slices.
+        columns,  ///< The same columns of all rows.
     };
 
-    int levels = 1;                ///< At most; 1: each pass is run separately.
-    std::int64_t outer_layer = 1;  ///< Rows or slices of a layer.
+    int levels = 1;  ///< At most; 1: each pass is run separately.
+    /// Slices, rows or columns of a layer; columns in multiples of PlaneLayout::row_pad.
+    std::int64_t outer_layer = 1;
     std::int64_t inner_layer = 1;  ///< For a grid with slices: rows of a layer within them,
     int inner_bands = 1;  ///< and the number of bands of such layers; 1: slices are not cut.
     /// All levels but the first find their data in the second-level cache, so nothing need be
@@ -31,6 +33,12 @@ struct Tiling {
 
     friend bool operator==(const Tiling&, const Tiling&) = default;
 };
+
+/// Does a grid have so few rows that threads share its columns?
+bool has_few_rows(const Grid& grid);
+
+/// Part `index` of `count` nearly equal parts of the cells: rows, or columns of all rows.
+Patch share_of(const Grid& grid, int index, int count);
 
 /// Must the passes before this one be complete in all rows before it begins, because of an
 /// aggregate or a filter of waves?

@@ -233,11 +233,13 @@ private:
 
     std::string prototypes() const {
         std::string text = fmt::format(
-            "\n/* Rows [row_begin, row_end) of a pass, in the object file. */\n"
+            "\n/* Columns [column_begin, column_end) of rows [row_begin, row_end) of a pass, in the object\n"
+            "   file. */\n"
             "typedef void {}_kernel(const float *const *fields, const unsigned char *const "
             "*masks,\n"
-            "    const float *uniforms, float *const *results, int64_t width, int64_t stride,\n"
-            "    int64_t row_begin, int64_t row_end, int64_t is_near{});\n",
+            "    const float *uniforms, float *const *results, int64_t column_begin,\n"
+            "    int64_t column_end, int64_t stride, int64_t row_begin, int64_t row_end,\n"
+            "    int64_t is_near{});\n",
             compiled_.name, layout_.depth > 1 ? ", int64_t slice_rows, int64_t slice" : "");
         for (const CKernel& kernel : compiled_.kernels) {
             text += fmt::format("extern {}_kernel {};\n", compiled_.name, kernel.name);

@@ -162,11 +162,11 @@ static inline void $_compute($_kernel *kernel, const float *const *fields,
         const int64_t last = first + band < $$_HEIGHT ? first + band : $$_HEIGHT;
 #if $$_DEPTH > 1
         const int64_t rows = $$_HEIGHT + 2;
-        kernel(fields, masks, uniforms, results, $$_WIDTH, $$_STRIDE, slice * rows + first,
+        kernel(fields, masks, uniforms, results, 0, $$_WIDTH, $$_STRIDE, slice * rows + first,
                slice * rows + last, 0, rows, slice);
 #else
         (void)slice;
-        kernel(fields, masks, uniforms, results, $$_WIDTH, $$_STRIDE, first, last, 0);
+        kernel(fields, masks, uniforms, results, 0, $$_WIDTH, $$_STRIDE, first, last, 0);
 #endif
         $_set_control(before);
     }

@@ -43,30 +43,31 @@ void KeptTilings::keep(const std::string& key, const Tiling& tiling) {
 
 std::string text_of(const FoundTiling& found) {
     const Tiling& tiling = found.tiling;
-    return fmt::format("{} {} {} {} {:d} {:d} {:d}", tiling.levels, tiling.outer_layer,
+    return fmt::format("{} {} {} {} {:d} {} {:d}", tiling.levels, tiling.outer_layer,
                        tiling.inner_layer, tiling.inner_bands, tiling.is_near,
-                       tiling.along == Tiling::Along::rows, found.is_sure);
+                       static_cast<unsigned>(tiling.along), found.is_sure);
 }
 
 std::optional<FoundTiling> found_tiling_of(const std::string& text) {
     std::istringstream words(text);
     FoundTiling found;
     Tiling& tiling = found.tiling;
-    bool along_rows = false;
+    unsigned along = 0;
     words >> tiling.levels >> tiling.outer_layer >> tiling.inner_layer >> tiling.inner_bands;
-    words >> tiling.is_near >> along_rows >> found.is_sure;
+    words >> tiling.is_near >> along >> found.is_sure;
     if (!words) return std::nullopt;
-    if (along_rows) tiling.along = Tiling::Along::rows;
+    tiling.along = static_cast<Tiling::Along>(along);
     return found;
 }
 
 StageTilings::StageTilings(KeptTilings& tilings, const StepProblem& problem, std::uint64_t kernels)
     : tilings_(tilings) {
     const Grid& grid = problem.grid;
-    key_ = fmt::format("{}{:016x}, {} passes, {}x{}x{}{}, {} bytes, wraps {:d}{:d}",
+    key_ = fmt::format("{}{:016x}, {} passes, {}x{}x{}{}, {} bytes, wraps {:d}{:d}{:d}",
                        tilings.machine(), kernels, problem.passes.size(), grid.width, grid.height,
                        grid.depth, grid.linked ? " linked" : "", bytes_of_step(problem),
-                       wraps(problem, Side::top), wraps(problem, Side::front));
+                       wraps(problem, Side::left), wraps(problem, Side::top),
+                       wraps(problem, Side::front));
 }
 
 std::string StageTilings::key(int threads) const {

@@ -107,12 +107,13 @@ std::vector<Field> HostileInputs::run(const Kernel& kernel) const {
     return run(kernel, {0, PlaneLayout(grid_).row_count()});
 }
 
-std::vector<Field> HostileInputs::run(const Kernel& kernel, RowRange rows) const {
-    return with_number(precision_, [&](auto zero) { return run_as<decltype(zero)>(kernel, rows); });
+std::vector<Field> HostileInputs::run(const Kernel& kernel, const Patch& cells) const {
+    return with_number(precision_,
+                       [&](auto zero) { return run_as<decltype(zero)>(kernel, cells); });
 }
 
 template <typename Number>
-std::vector<Field> HostileInputs::run_as(const Kernel& kernel, RowRange rows) const {
+std::vector<Field> HostileInputs::run_as(const Kernel& kernel, const Patch& cells) const {
     std::vector<const Number*> fields;
     for (const Field& field : fields_) fields.push_back(field.origin<Number>());
     std::vector<const std::uint8_t*> masks;
@@ -129,7 +130,7 @@ std::vector<Field> HostileInputs::run_as(const Kernel& kernel, RowRange rows) co
     }
     const FlushDenormals environment;
     const LinkTable<Number> links = grid_.linked ? links_.table<Number>() : LinkTable<Number>{};
-    kernel.run({fields, masks, uniforms, targets, PlaneLayout(grid_), links, is_near_}, rows);
+    kernel.run({fields, masks, uniforms, targets, PlaneLayout(grid_), links, is_near_}, cells);
     return results;
 }
 
@@ -186,11 +187,11 @@ bool is_untouched(const Field& field, std::int64_t i, std::int64_t j, std::int64
 
 }  // namespace
 
-std::string stray_writes(const std::vector<Field>& results, RowRange rows) {
+std::string stray_writes(const std::vector<Field>& results, const Patch& cells) {
     for (std::size_t k = 0; k < results.size(); ++k) {
         const PlaneLayout& layout = results[k].layout();
         const std::int64_t pad = PlaneLayout::row_pad;
-        const std::int64_t end = (layout.width + pad - 1) / pad * pad;
+        const ColumnRange columns = cells.columns.within((layout.width + pad - 1) / pad * pad);
         const std::int64_t halo = layout.has_halo_slices() ? 1 : 0;
         for (std::int64_t row = -layout.slice_rows() * halo - 1;
              row <= layout.slice_rows() * (layout.depth - 1 + halo) + layout.height; ++row) {
@@ -198,10 +199,10 @@ std::string stray_writes(const std::vector<Field>& results, RowRange rows) {
             const std::int64_t slice = (row + 1 + layout.slice_rows()) / layout.slice_rows() - 1;
             const std::int64_t j = row - slice * layout.slice_rows();
             const std::int64_t number = slice * layout.height + j;
-            const bool is_computed =
-                0 <= j && j < layout.height && rows.begin <= number && number < rows.end;
+            const bool is_computed = 0 <= j && j < layout.height && cells.rows.begin <= number &&
+                                     number < cells.rows.end;
             for (std::int64_t i = -pad; i < layout.stride - pad; ++i) {
-                if (is_computed && 0 <= i && i < end) continue;
+                if (is_computed && columns.contains(i)) continue;
                 if (is_untouched(results[k], i, j, slice)) continue;
                 return fmt::format("result {}: column {}, row {}, slice {} was written", k, i, j,
                                    slice);

@@ -20,15 +20,15 @@ class HostileInputs {
 public:
     HostileInputs(const CellKernel& kernel, const Grid& grid, std::uint64_t seed);
 
-    /// Runs a kernel on rows [begin, end), or all rows, into new planes.
+    /// Runs a kernel on some or all cells, into new planes.
     std::vector<Field> run(const Kernel& kernel) const;
-    std::vector<Field> run(const Kernel& kernel, RowRange rows) const;
+    std::vector<Field> run(const Kernel& kernel, const Patch& cells) const;
 
 private:
     template <typename Number>
     void fill(const CellKernel& kernel, RandomStream& stream);
     template <typename Number>
-    std::vector<Field> run_as(const Kernel& kernel, RowRange rows) const;
+    std::vector<Field> run_as(const Kernel& kernel, const Patch& cells) const;
 
     Grid grid_;
     Precision precision_;
@@ -48,10 +48,10 @@ std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const 
 /// difference: result, cell, both words.
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 
-/// Empty if a run wrote only what backend.h allows: the cells of `rows`, and after the last cell
-/// of these up to the next multiple of row_pad. Else the first place that was touched. Only for
+/// Empty if a run wrote only what backend.h allows: these cells, and after the last cell of a row
+/// up to the next multiple of row_pad. Else the first place that was touched. Only for
 /// planes made by HostileInputs::run.
-std::string stray_writes(const std::vector<Field>& results, RowRange rows);
+std::string stray_writes(const std::vector<Field>& results, const Patch& cells);
 
 /// Linked cells in 1 … max_height rows of 1 … max_width.
 Grid random_linked_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height);

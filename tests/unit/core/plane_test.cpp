@@ -42,14 +42,15 @@ std::int64_t beyond(Boundary boundary, std::int64_t i, std::int64_t n) {
 }
 
 /// All of memory is as the boundary says: the halo with its edges and corners, and nothing else
-/// written.
-void expect_filled(const Field& field, const Grid& grid) {
+/// written. `has_rows`: are the rows above and below filled, too?
+void expect_filled(const Field& field, const Grid& grid, bool has_rows = true) {
     const std::int64_t pad = PlaneLayout::row_pad;
     const std::int64_t halo = grid.depth > 1 ? 1 : 0;
     for (std::int64_t k = -halo; k < grid.depth + halo; ++k) {
         for (std::int64_t j = -1; j <= grid.height; ++j) {
             for (std::int64_t i = -pad; i < field.layout().stride - pad; ++i) {
-                if (-1 <= i && i <= grid.width) {
+                const bool is_filled = has_rows || (0 <= j && j < grid.height);
+                if (is_filled && -1 <= i && i <= grid.width) {
                     ASSERT_EQ(field.at(i, j, k), number(beyond(grid.boundary.x, i, grid.width),
                                                         beyond(grid.boundary.y, j, grid.height),
                                                         beyond(grid.boundary.z, k, grid.depth)))
@@ -92,17 +93,21 @@ TEST_P(Halo, WholeFill) {
     }
 }
 
-TEST_P(Halo, PartsOfTheRowsMakeTheWhole) {
+TEST_P(Halo, PartsOfTheCellsMakeTheWhole) {
     for (const Grid& grid : grids()) {
         Field field = numbered(grid);
         const std::int64_t rows = field.layout().row_count(), middle = (rows + 1) / 3;
+        const std::int64_t column = (grid.width + 1) / 2;
         const auto part = [&](std::int64_t begin, std::int64_t end) {
-            fill_halo_from_rows(field.origin(), field.layout(), grid.boundary, begin, end);
+            for (const ColumnRange columns : {ColumnRange{column}, ColumnRange{0, column}}) {
+                fill_halo_from(field.origin(), field.layout(), grid.boundary,
+                               {{begin, end}, columns});
+            }
         };
         part(middle, rows);
         part(middle, middle);
         part(0, middle);
-        expect_filled(field, grid);
+        expect_filled(field, grid, grid.height > 1);
     }
 }
 
@@ -172,11 +177,13 @@ TEST_P(Halo, SidesWithValues) {
                 if ((mixture + static_cast<int>(side)) % 2 != 0) continue;
                 sides.at[side].values = values_beside(values, static_cast<Side>(side), part);
             }
-            fill_halo_from_rows(field.origin(), field.layout(), sides, part.begin, part.end);
+            for (const ColumnRange columns : {ColumnRange{0, 1}, ColumnRange{1}}) {
+                fill_halo_from(field.origin(), field.layout(), sides, {part, columns});
+            }
         }
-        const std::int64_t halo = grid.depth > 1 ? 1 : 0;
+        const std::int64_t halo = grid.depth > 1 ? 1 : 0, halo_rows = grid.height > 1 ? 1 : 0;
         for (std::int64_t k = -halo; k < grid.depth + halo; ++k) {
-            for (std::int64_t j = -1; j <= grid.height; ++j) {
+            for (std::int64_t j = -halo_rows; j < grid.height + halo_rows; ++j) {
                 for (std::int64_t i = -1; i <= grid.width; ++i) {
                     ASSERT_EQ(field.at(i, j, k),
                               expected_beyond(field, grid, sides, values, {i, j, k}))

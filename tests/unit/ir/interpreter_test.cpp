@@ -36,10 +36,11 @@ private:
         Compiled(CellKernel kernel, Stencil stencil)
             : kernel_(std::move(kernel)), stencil_(stencil) {}
 
-        void run(const KernelArguments& arguments, RowRange rows) const override {
+        void run(const KernelArguments& arguments, const Patch& cells) const override {
             Words words(kernel_.code.size());
-            for (std::int64_t row = rows.begin; row < rows.end; ++row) {
-                for (std::int64_t i = 0; i < arguments.layout.width; ++i) {
+            const ColumnRange columns = cells.columns.within(arguments.layout.width);
+            for (std::int64_t row = cells.rows.begin; row < cells.rows.end; ++row) {
+                for (std::int64_t i = columns.begin; i < columns.end; ++i) {
                     for (const ValueId id : words.ids()) {
                         words[id] = word(arguments, i, row, kernel_.code[id], words);
                     }
@@ -131,7 +132,7 @@ TEST(Interpreter, RandomKernelsAgainstCellByCell) {
     EXPECT_EQ(counts.missing(), "") << counts.report();
 }
 
-TEST(Interpreter, ComputesTheRowsItIsGiven) {
+TEST(Interpreter, ComputesTheCellsItIsGiven) {
     const auto interpreter = make_interpreter();
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const CellKernel kernel = testing::random_kernel(seed);
@@ -139,12 +140,12 @@ TEST(Interpreter, ComputesTheRowsItIsGiven) {
         const testing::HostileInputs inputs(kernel, grid, seed);
         const KernelPointer compiled = *interpreter->compile(kernel, grid.stencil());
         const std::vector<Field> whole = inputs.run(*compiled);
-        const RowRange rows{2, 5};
-        const std::vector<Field> part = inputs.run(*compiled, rows);
-        ASSERT_EQ(testing::stray_writes(part, rows), "");
+        const Patch cells{{2, 5}, {16, 37}};
+        const std::vector<Field> part = inputs.run(*compiled, cells);
+        ASSERT_EQ(testing::stray_writes(part, cells), "");
         for (std::size_t k = 0; k < part.size(); ++k) {
-            for (std::int64_t j = rows.begin; j < rows.end; ++j) {
-                for (std::int64_t i = 0; i < grid.width; ++i) {
+            for (std::int64_t j = cells.rows.begin; j < cells.rows.end; ++j) {
+                for (std::int64_t i = cells.columns.begin; i < cells.columns.end; ++i) {
                     ASSERT_TRUE(
                         testing::same_word(to_bits(part[k].at(i, j)), to_bits(whole[k].at(i, j))));
                 }

@@ -22,13 +22,13 @@ class CountedKernel final : public Kernel {
 public:
     CountedKernel(KernelPointer kernel, std::shared_ptr<std::atomic<int>> calls)
         : kernel_(std::move(kernel)), calls_(std::move(calls)) {}
-    void run(const KernelArgumentsOf<float>& arguments, RowRange rows) const override {
+    void run(const KernelArgumentsOf<float>& arguments, const Patch& cells) const override {
         ++*calls_;
-        kernel_->run(arguments, rows);
+        kernel_->run(arguments, cells);
     }
-    void run(const KernelArgumentsOf<double>& arguments, RowRange rows) const override {
+    void run(const KernelArgumentsOf<double>& arguments, const Patch& cells) const override {
         ++*calls_;
-        kernel_->run(arguments, rows);
+        kernel_->run(arguments, cells);
     }
 
 private:

@@ -31,9 +31,9 @@ std::string difference(Backend& jit, const CellKernel& kernel, const Grid& grid,
     const auto compiled = jit.compile(kernel, grid.stencil());
     if (!compiled) return compiled.error().message;
     const HostileInputs inputs(kernel, grid, seed);
-    const RowRange rows{0, PlaneLayout(grid).row_count()};
-    const std::vector<Field> results = inputs.run(**compiled, rows);
-    const std::string stray = stray_writes(results, rows);
+    const Patch all{{0, PlaneLayout(grid).row_count()}};
+    const std::vector<Field> results = inputs.run(**compiled, all);
+    const std::string stray = stray_writes(results, all);
     if (!stray.empty()) return stray;
     const auto interpreter = make_interpreter();
     return same_bits(run_kernel(*interpreter, kernel, grid, seed), results);
@@ -287,23 +287,34 @@ TEST(JitAgreement, KernelsOfManyLoads) {
     }
 }
 
-TEST(JitAgreement, PartsOfTheRowsMakeTheWhole) {
-    const auto jit = jit_of(0, 2);
-    const CellKernel kernel = kernel_of_place();
-    for (const Grid& grid : {Grid{37, 9}, Grid{37, 3, {}, 3}}) {
-        const auto compiled = jit->compile(kernel, grid.stencil());
-        ASSERT_TRUE(compiled);
-        const HostileInputs inputs(kernel, grid, 11);
-        const std::vector<Field> whole = inputs.run(**compiled);
-        for (const RowRange rows : {RowRange{0, 4}, {4, 5}, {5, 9}, {3, 3}, {2, 7}}) {
-            const std::vector<Field> part = inputs.run(**compiled, rows);
-            EXPECT_EQ(stray_writes(part, rows), "");
-            for (std::size_t k = 0; k < whole.size(); ++k) {
-                for (std::int64_t row = rows.begin; row < rows.end; ++row) {
-                    for (std::int64_t i = 0; i < grid.width; ++i) {
-                        const float expected = whole[k].row(row)[i];
-                        if (expected != expected) continue;
-                        ASSERT_EQ(to_bits(part[k].row(row)[i]), to_bits(expected));
+void expect_equal_in(const Patch& cells, const Field& part, const Field& whole) {
+    const ColumnRange columns = cells.columns.within(whole.layout().width);
+    for (std::int64_t row = cells.rows.begin; row < cells.rows.end; ++row) {
+        for (std::int64_t i = columns.begin; i < columns.end; ++i) {
+            const float expected = whole.row(row)[i];
+            if (expected != expected) continue;
+            ASSERT_EQ(to_bits(part.row(row)[i]), to_bits(expected)) << "column " << i;
+        }
+    }
+}
+
+TEST(JitAgreement, PartsOfTheCellsMakeTheWhole) {
+    const Backends backends;
+    const std::vector<Patch> patches{{{0, 4}},           {{4, 5}},       {{5, 9}},
+                                     {{3, 3}},           {{2, 7}},       {{0, 9}, {0, 16}},
+                                     {{1, 6}, {16, 32}}, {{0, 9}, {16}}, {{4, 5}, {32}}};
+    for (const CellKernel& kernel : {kernel_of_place(), diffusion_kernel(Precision::single)}) {
+        for (const Grid& grid : {Grid{37, 9}, Grid{37, 3, {}, 3}}) {
+            const HostileInputs inputs(kernel, grid, 11);
+            for (const auto& backend : backends.optimised) {
+                const auto compiled = backend->compile(kernel, grid.stencil());
+                ASSERT_TRUE(compiled);
+                const std::vector<Field> whole = inputs.run(**compiled);
+                for (const Patch& cells : patches) {
+                    const std::vector<Field> part = inputs.run(**compiled, cells);
+                    EXPECT_EQ(stray_writes(part, cells), "");
+                    for (std::size_t k = 0; k < whole.size(); ++k) {
+                        expect_equal_in(cells, part[k], whole[k]);
                     }
                 }
             }

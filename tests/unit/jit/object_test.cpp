@@ -116,12 +116,13 @@ public:
     }
 
     using Kernel::run;
-    void run(const KernelArgumentsOf<Number>& arguments, RowRange rows) const override {
+    void run(const KernelArgumentsOf<Number>& arguments, const Patch& cells) const override {
         if (!function_) return;
+        const ColumnRange columns = cells.columns.within(arguments.layout.width);
         function_->template as<GridFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-            arguments.results.data(), arguments.layout.width, arguments.layout.stride, rows.begin,
-            rows.end, arguments.is_near);
+            arguments.results.data(), columns.begin, columns.end, arguments.layout.stride,
+            cells.rows.begin, cells.rows.end, arguments.is_near);
     }
 
 private:

@@ -27,7 +27,7 @@ protected:
     fs::path folder_;
 };
 
-const Tiling some{12, 3, 1, 4, true, Tiling::Along::rows};
+const Tiling some{12, 3, 1, 4, true, Tiling::Along::columns};
 
 TEST_F(KeptTilingsTest, AreFoundByLaterProcesses) {
     for (int times = 0; times < 2; ++times) KeptTilings(folder_, "code").keep("key", some);

@@ -26,11 +26,11 @@ class RestlessKernel final : public Kernel {
 public:
     RestlessKernel(KernelPointer first, KernelPointer second, std::uint32_t seed)
         : kernels_{std::move(first), std::move(second)}, seed_(seed) {}
-    void run(const KernelArgumentsOf<float>& arguments, RowRange rows) const override {
-        next().run(arguments, rows);
+    void run(const KernelArgumentsOf<float>& arguments, const Patch& cells) const override {
+        next().run(arguments, cells);
     }
-    void run(const KernelArgumentsOf<double>& arguments, RowRange rows) const override {
-        next().run(arguments, rows);
+    void run(const KernelArgumentsOf<double>& arguments, const Patch& cells) const override {
+        next().run(arguments, cells);
     }
 
 private:

@@ -43,13 +43,15 @@ public:
     CellFunctionKernel(CellFunction function, Stencil stencil)
         : function_(std::move(function)), stencil_(stencil) {}
 
-    void run(const KernelArguments& arguments, RowRange rows) const override {
+    void run(const KernelArguments& arguments, const Patch& cells) const override {
         const PlaneLayout& layout = arguments.layout;
         const std::int64_t pad = PlaneLayout::row_pad;
         const std::int64_t padded = (layout.width + pad - 1) / pad * pad;
+        ColumnRange columns = cells.columns;
+        if (columns.end >= layout.width) columns.end = padded;
         std::vector<float> values(arguments.results.size());
-        for (std::int64_t j = rows.begin; j < rows.end; ++j) {
-            for (std::int64_t i = 0; i < padded; ++i) {
+        for (std::int64_t j = cells.rows.begin; j < cells.rows.end; ++j) {
+            for (std::int64_t i = columns.begin; i < columns.end; ++i) {
                 if (i < layout.width) function_({arguments, stencil_, i, j}, values.data());
                 for (std::size_t k = 0; k < values.size(); ++k) {
                     arguments.results[k][j * layout.stride + i] =

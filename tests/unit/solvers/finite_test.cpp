@@ -19,7 +19,7 @@ TEST(Finite, ExtremeNumbersAreFinite) {
     field.at(4, 1) = std::numeric_limits<float>::lowest();
     field.at(5, 1) = std::numeric_limits<float>::denorm_min();
     field.at(6, 1) = -0.0f;
-    EXPECT_TRUE(rows_are_finite(field, {0, 5}));
+    EXPECT_TRUE(are_finite(field, {0, 5}));
     EXPECT_FALSE(first_not_finite(field));
 }
 
@@ -30,10 +30,10 @@ TEST(Finite, EachKindIsFoundInEveryCell) {
             for (std::int64_t i = 0; i < grid.width; ++i) {
                 Field field = make_field(grid, scatter);
                 field.at(i, j) = bad;
-                EXPECT_FALSE(rows_are_finite(field, {0, 3}));
-                EXPECT_FALSE(rows_are_finite(field, {j, j + 1}));
-                EXPECT_TRUE(rows_are_finite(field, {j + 1, 3}));
-                EXPECT_TRUE(rows_are_finite(field, {0, j}));
+                EXPECT_FALSE(are_finite(field, {0, 3}));
+                EXPECT_FALSE(are_finite(field, {j, j + 1}));
+                EXPECT_TRUE(are_finite(field, {j + 1, 3}));
+                EXPECT_TRUE(are_finite(field, {0, j}));
                 EXPECT_EQ(first_not_finite(field), (CellPlace{i, j}));
             }
         }
@@ -51,7 +51,7 @@ TEST(Finite, HaloAndPaddingMayHoldAnything) {
             if (!is_cell) field.at(i, j) = nan;
         }
     }
-    EXPECT_TRUE(rows_are_finite(field, {0, 2}));
+    EXPECT_TRUE(are_finite(field, {0, 2}));
     EXPECT_FALSE(first_not_finite(field));
 }
 

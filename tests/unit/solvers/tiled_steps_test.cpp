@@ -38,13 +38,15 @@ public:
         : own_only_(std::move(own_only)), stencil_(stencil) {}
 
     using Kernel::run;
-    void run(const KernelArgumentsOf<Number>& given, RowRange rows) const override {
+    void run(const KernelArgumentsOf<Number>& given, const Patch& cells) const override {
         const PlaneLayout& layout = given.layout;
         const std::int64_t pad = PlaneLayout::row_pad;
         std::vector<Number> sums(own_only_.size()), values(given.results.size());
-        for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+        ColumnRange columns = cells.columns;
+        if (columns.end >= layout.width) columns.end = (layout.width + pad - 1) / pad * pad;
+        for (std::int64_t row = cells.rows.begin; row < cells.rows.end; ++row) {
             const std::int64_t start = layout.row_start(row);
-            for (std::int64_t i = 0; i < (layout.width + pad - 1) / pad * pad; ++i) {
+            for (std::int64_t i = columns.begin; i < columns.end; ++i) {
                 const bool is_cell = i < layout.width;
                 for (std::size_t f = 0; is_cell && f < sums.size(); ++f) {
                     sums[f] = own_only_[f] ? Number{0} : around(given, f, row, i);
@@ -291,12 +293,17 @@ void compare(const Grid& grid, std::uint64_t seed) {
         tiling.outer_layer = reach + dice.below(3);
         tiling.inner_layer = 1 + dice.below(2);
         tiling.inner_bands = static_cast<int>(1 + dice.below(4));
-        if (!dice.often()) tiling.along = Tiling::Along::rows;
+        if (!dice.often()) {
+            tiling.along = Tiling::Along::rows;
+        } else if (!grid.linked && dice.below(2) == 0) {
+            tiling.along = Tiling::Along::columns;
+            tiling.outer_layer *= PlaneLayout::row_pad;
+        }
         EXPECT_TRUE(plain == steps_of(system, tiling, threads))
             << "seed " << seed << ", " << threads << " threads, " << tiling.levels << " levels of "
             << tiling.outer_layer << ", " << tiling.inner_bands << " bands of "
-            << tiling.inner_layer << (tiling.along == Tiling::Along::rows ? ", along rows" : "")
-            << ", grid " << grid.width << " x " << grid.height << " x " << grid.depth;
+            << tiling.inner_layer << ", along " << static_cast<int>(tiling.along) << ", grid "
+            << grid.width << " x " << grid.height << " x " << grid.depth;
     }
 }
 
@@ -322,6 +329,20 @@ TEST(TiledSteps, OnSmallGrids) {
     std::uint64_t seed = 1;
     for (const GridSize& size : sizes) {
         for (int repetition = 0; repetition < 6; ++repetition, ++seed) {
+            compare_both({size.width, size.height, boundary_of(seed), size.depth}, seed);
+            if (HasFailure()) return;
+        }
+    }
+}
+
+// Layers are columns of all rows; the last ones are left over, and some vectors of cells are not
+// full.
+TEST(TiledSteps, OnFewLongRows) {
+    const std::vector<GridSize> sizes{{1009, 1, 1}, {768, 1, 1}, {611, 2, 1},
+                                      {523, 7, 1},  {64, 1, 1},  {409, 2, 3}};
+    std::uint64_t seed = 1300;
+    for (const GridSize& size : sizes) {
+        for (int repetition = 0; repetition < 8; ++repetition, ++seed) {
             compare_both({size.width, size.height, boundary_of(seed), size.depth}, seed);
             if (HasFailure()) return;
         }

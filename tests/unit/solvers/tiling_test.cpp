@@ -36,7 +36,7 @@ TEST(Tiling, CountsEveryPlaneOnce) {
 
 TEST(Tiling, WideLayersTakeFewerSteps) {
     // A row of both copies has 4 MiB: one has room.
-    const StepProblem problem = heat_problem(Grid{1 << 19, 64}, 0.1f);
+    const StepProblem problem = heat_problem(Grid{1 << 19, 640}, 0.1f);
     EXPECT_EQ(choose_tiling(problem, 1, caches).levels, 1);
 }
 
@@ -83,10 +83,40 @@ TEST(Tiling, TriesLevelsThatFitIntoTheSecondCache) {
                             [&](const Tiling& tiling) { return tiling.levels == 6; }));
 }
 
-TEST(Tiling, ARowAloneIsNoTile) {
-    const StepProblem problem = heat_problem(Grid{10000019, 1}, 0.1f);
-    EXPECT_EQ(choose_tiling(problem, 1, caches), Tiling());
-    EXPECT_EQ(tilings_to_try(problem, 1, caches, 1).size(), 1u);
+TEST(Tiling, LayersOfFewRowsAreColumns) {
+    for (const GridSize size :
+         {GridSize{10000019, 1}, GridSize{1000003, 8}, GridSize{90001, 5, 6}}) {
+        const StepProblem problem =
+            heat_problem(Grid{size.width, size.height, Boundary::periodic, size.depth}, 0.1f);
+        const Tiling tiling = choose_tiling(problem, 1, caches);
+        EXPECT_EQ(tiling.along, Tiling::Along::columns);
+        EXPECT_EQ(tiling.outer_layer % PlaneLayout::row_pad, 0);
+        EXPECT_EQ(tiling.levels, 16);
+        EXPECT_TRUE(tiling.is_near);
+        EXPECT_GT(tilings_to_try(problem, 1, caches, 1).size(), 2u);
+    }
+    // Threads share the columns of a row that stays in the cache.
+    const Tiling in_cache = choose_tiling(heat_problem(Grid{1000, 1}, 0.1f), 1, caches);
+    EXPECT_EQ(in_cache.along, Tiling::Along::columns);
+    EXPECT_EQ(in_cache.levels, 1);
+}
+
+TEST(Tiling, LayersOfLongRowsAreColumns) {
+    EXPECT_EQ(choose_tiling(heat_problem(Grid{1 << 19, 64}, 0.1f), 1, caches).along,
+              Tiling::Along::columns);
+    // Not if the columns are too long as well.
+    EXPECT_EQ(choose_tiling(heat_problem(Grid{1 << 19, 640}, 0.1f), 1, caches).along,
+              Tiling::Along::slices);
+}
+
+TEST(Tiling, SidesThatVaryAlongRowsAndWithTimeKeepThemWhole) {
+    StepProblem problem = heat_problem(Grid{10000019, 2}, 0.1f);
+    std::vector<ChangingSide> sides(1);
+    sides[0].side = Side::top;
+    problem.changing_sides = sides;
+    EXPECT_EQ(choose_tiling(problem, 1, caches).along, Tiling::Along::columns);
+    sides[0].varies = true;
+    EXPECT_EQ(choose_tiling(problem, 1, caches).along, Tiling::Along::slices);
 }
 
 TEST(Tiling, LayersOfFlatGridsAreRowsOfAllSlices) {
