@@ -14,11 +14,18 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace cascade {
+
+/// The columns of cells whose values columns −1 and `width` of the halo have.
+struct HaloColumns {
+    std::int64_t left = 0, right = 0;
+    friend bool operator==(const HaloColumns&, const HaloColumns&) = default;
+};
 
 /// The inputs and outputs of a kernel. Pointers are to cell (0, 0, 0) of planes of one layout; a
 /// field read by `laplacian` or `neighbour` has its halo filled. An output may be a field that no
@@ -36,6 +43,9 @@ struct KernelArgumentsOf {
     LinkTable<Number> links = {};  ///< For grids of linked cells.
     /// All fields are in a cache near the core, so prefetching the next rows would only evict them.
     bool is_near = false;
+    /// What kernels that fill columns of the halo copy to columns −1 and `width` of rows that they
+    /// compute as a whole; nothing: they fill none.
+    std::optional<HaloColumns> columns = {};
 };
 using KernelArguments = KernelArgumentsOf<float>;
 
@@ -50,6 +60,9 @@ public:
     virtual void run(const KernelArgumentsOf<float>&, const Patch&) const { wrong_precision(); }
     virtual void run(const KernelArgumentsOf<double>&, const Patch&) const { wrong_precision(); }
 
+    /// Whether the kernel fills columns of the halo, where it is told which. Once true, always
+    /// true.
+    virtual bool fills_columns() const { return false; }
     /// Whether the kernel may become many times faster later, because its code is still being
     /// compiled. Its present speed then says nothing about later runs.
     virtual bool is_provisional() const { return false; }

@@ -86,6 +86,9 @@ public:
         run_present(arguments, cells);
     }
     bool is_provisional() const override { return !is_settled_.load(std::memory_order_acquire); }
+    bool fills_columns() const override {
+        return present_.load(std::memory_order_acquire)->fills_columns();
+    }
     const Failure* refusal() const override {
         return !is_provisional() && refusal_ ? &*refusal_ : nullptr;
     }

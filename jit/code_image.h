@@ -14,14 +14,15 @@
 
 namespace cascade {
 
-/// The function of every kernel of float or double; see jit/skeleton.h.
+/// The function of kernels of float or double that fill columns; see jit/skeleton_grid.h.
 template <typename Number>
 using GridFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                           const Number* uniforms, Number* const* results, std::int64_t column_begin,
                           std::int64_t column_end, std::int64_t stride, std::int64_t row_begin,
-                          std::int64_t row_end, std::int64_t is_near);
+                          std::int64_t row_end, std::int64_t is_near, std::int64_t left_column,
+                          std::int64_t right_column);
 
-/// The same of grids of several slices.
+/// That of grids of several slices, which fill none.
 template <typename Number>
 using VolumeFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results,
@@ -29,7 +30,7 @@ using VolumeFunction = void(const Number* const* fields, const std::uint8_t* con
                             std::int64_t row_begin, std::int64_t row_end, std::int64_t is_near,
                             std::int64_t slice_rows, std::int64_t slice);
 
-/// The same of linked cells; see jit/skeleton_linked.h.
+/// That of linked cells; see jit/skeleton_linked.h.
 template <typename Number>
 using LinkedFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results,

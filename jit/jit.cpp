@@ -17,6 +17,9 @@
 namespace cascade {
 namespace {
 
+/// Do kernels fill columns of the halo? In space rows of other slices take most of the time.
+bool fills_columns(Stencil stencil) { return stencil.x && !stencil.z && !stencil.links; }
+
 template <typename Number>
 class NativeKernel final : public Kernel {
 public:
@@ -49,11 +52,16 @@ public:
         CHECK(stencil_.z == (layout.depth > 1), "a kernel runs on grids of its stencil");
         if (stencil_.z) return run_slices(arguments, rows, columns);
         if (stencil_.links) return run_linked(arguments, rows, columns);
+        const bool is_whole = columns.begin == 0 && columns.end == layout.width;
+        const HaloColumns none{-1, -1};
+        const HaloColumns copied = is_whole ? arguments.columns.value_or(none) : none;
         function_->template as<GridFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
             arguments.results.data(), columns.begin, columns.end, layout.stride, rows.begin,
-            rows.end, arguments.is_near);
+            rows.end, arguments.is_near, copied.left, copied.right);
     }
+
+    bool fills_columns() const override { return cascade::fills_columns(stencil_); }
 
 private:
     /// One call for each slice that has some of the rows.
@@ -113,7 +121,7 @@ public:
     std::string_view name() const override { return "jit"; }
 
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
-        const KernelShape shape = shape_for(kernel, stencil, lanes_);
+        const KernelShape shape = shape_of(kernel, stencil);
         const std::string key = kernel_key(kernel, shape);
         std::promise<Result<KernelPointer>> promise;
         if (const auto known = find_or_announce(key, promise)) return known->get();
@@ -131,7 +139,7 @@ public:
     }
 
     KernelPointer find(const CellKernel& kernel, Stencil stencil) override {
-        const KernelShape shape = shape_for(kernel, stencil, lanes_);
+        const KernelShape shape = shape_of(kernel, stencil);
         const std::string key = kernel_key(kernel, shape);
         if (const auto known = find_known(key)) return known->value_or(nullptr);
         auto function = load_kept(environment_ + key);
@@ -152,6 +160,12 @@ public:
     }
 
 private:
+    KernelShape shape_of(const CellKernel& kernel, Stencil stencil) const {
+        KernelShape shape = shape_for(kernel, stencil, lanes_);
+        shape.fills_columns = fills_columns(stencil);
+        return shape;
+    }
+
     /// What is known of a kernel without waiting; null while it is being made.
     std::optional<Result<KernelPointer>> find_known(const std::string& key) {
         const std::lock_guard lock(mutex_);

@@ -11,6 +11,7 @@ namespace cascade {
 struct KernelShape {
     Stencil stencil = Stencil::plane;
     int lanes = 16;  ///< Cells per vector: 4, 8 or 16; half as many of kernels of binary64.
+    bool fills_columns = false;  ///< See HaloColumns.
     // What the processor has and is fast at: see tuned() in jit/target_machine.h.
     bool has_multiply_add = false;  ///< Of one rounding, in one instruction.
     bool is_short_of_loads = false;

@@ -118,7 +118,7 @@ KernelLoops::KernelLoops(KernelFrame& frame)
     emit_body(scope_);
 }
 
-void KernelLoops::rows(Builder& builder, WriteVector write_vector) {
+void KernelLoops::rows(Builder& builder, WriteVector write_vector, WriteRowEnd write_row_end) {
     llvm::BasicBlock* test = frame_.new_block("rows");
     llvm::BasicBlock* start = frame_.new_block("row");
     llvm::BasicBlock* next = frame_.new_block("row_done");
@@ -134,20 +134,21 @@ void KernelLoops::rows(Builder& builder, WriteVector write_vector) {
     builder.CreateCondBr(builder.CreateICmpSLT(row, frame_.row_end()), start, after);
 
     builder.SetInsertPoint(start);
-    columns(row, builder, next, write_vector);
+    Value* row_start = columns(row, builder, next, write_vector);
 
     builder.SetInsertPoint(next);
+    if (write_row_end) write_row_end(row_start, builder);
     Value* below = builder.CreateNSWAdd(row, builder.getInt64(1));
+    row->addIncoming(below, builder.GetInsertBlock());
     builder.CreateBr(test);
-    row->addIncoming(below, next);
     builder.SetInsertPoint(after);
 }
 
 // `outside` writes the values of the row to the block before the loop over its vectors. That block
 // gets its terminator last: values are still added to it while the loop is written, and LLVM's
 // folder, which follows jumps, fails at a block that is empty.
-void KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
-                          WriteVector write_vector) {
+Value* KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
+                            WriteVector write_vector) {
     llvm::BasicBlock* loop = frame_.new_block("cells");
     Value* start = outside.CreateNSWMul(row, frame_.stride(), "row_start");
     Value* first = outside.CreateNSWAdd(start, frame_.column_begin());
@@ -166,6 +167,7 @@ void KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
     element->addIncoming(after, inner.GetInsertBlock());
     carried.close(outside.GetInsertBlock(), inner.GetInsertBlock());
     outside.CreateBr(loop);
+    return start;
 }
 
 void KernelLoops::body(CellSources& cells, Builder& builder, BodyScope& row_scope) {

@@ -74,6 +74,8 @@ public:
     bool has_slices() const { return stencil().z; }
     llvm::Value* slice_rows() { return extra_argument(1); }
     llvm::Value* slice() { return extra_argument(2); }
+    llvm::Value* left_column() { return extra_argument(1); }
+    llvm::Value* right_column() { return extra_argument(2); }
 
     // Addresses of planes, loaded once.
     llvm::Value* field_plane(FieldSlot slot) { return plane(0, slot.index()); }
@@ -164,10 +166,13 @@ public:
     using WriteVector =
         llvm::function_ref<void(const CellVector& vector, Builder& builder, BodyScope& row_scope)>;
 
+    /// Writes what is done after the last vector of a row. `builder` as above.
+    using WriteRowEnd = llvm::function_ref<void(llvm::Value* row_start, Builder& builder)>;
+
     explicit KernelLoops(KernelFrame& frame);
 
     /// A loop over all rows. It begins where `builder` writes, which goes on after it.
-    void rows(Builder& builder, WriteVector write_vector);
+    void rows(Builder& builder, WriteVector write_vector, WriteRowEnd write_row_end = nullptr);
     /// All values of a vector of cells, and the stores of its results.
     void body(CellSources& cells, Builder& builder, BodyScope& row_scope);
 
@@ -191,8 +196,9 @@ private:
         llvm::Value* row_;  ///< Null before the loops.
     };
 
-    void columns(llvm::Value* row, Builder& outside, llvm::BasicBlock* next,
-                 WriteVector write_vector);
+    /// Returns the element number of the row's first cell.
+    llvm::Value* columns(llvm::Value* row, Builder& outside, llvm::BasicBlock* next,
+                         WriteVector write_vector);
 
     KernelFrame& frame_;
     Body body_;

@@ -262,6 +262,31 @@ void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
     frame_.prefetch(builder_, builder_.CreateGEP(frame_.number(), frame_.field_plane(slot), ahead));
 }
 
+/// Fills the halo columns of a row whose cells are written, if the caller asks for it. The cells
+/// are in the cache or on the way there, and the copies take place while later rows are computed.
+void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
+    llvm::BasicBlock* fill = frame.new_block("fill_columns");
+    llvm::BasicBlock* filled = frame.new_block("columns_filled");
+    Value* is_asked = builder.CreateICmpSGE(frame.left_column(), builder.getInt64(0));
+    builder.CreateCondBr(is_asked, fill, filled);
+    builder.SetInsertPoint(fill);
+    const auto bytes = alignment(frame.number_bytes());
+    const auto address = [&](std::size_t result, Value* column) {
+        return builder.CreateInBoundsGEP(frame.number(), frame.result_plane(result),
+                                         builder.CreateNSWAdd(row_start, column));
+    };
+    for (std::size_t k = 0; k < frame.kernel().results.size(); ++k) {
+        const auto copy = [&](Value* from, Value* to) {
+            Value* cell = builder.CreateAlignedLoad(frame.number(), address(k, from), bytes);
+            builder.CreateAlignedStore(cell, address(k, to), bytes);
+        };
+        copy(frame.left_column(), builder.getInt64(-1));
+        copy(frame.right_column(), frame.column_end());
+    }
+    builder.CreateBr(filled);
+    builder.SetInsertPoint(filled);
+}
+
 /// All rows, with or without prefetches of what the next row will be the first to read: its own
 /// cells, or, of fields that are read at neighbours, those below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
@@ -270,11 +295,14 @@ void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
     for (const auto& [slot, row, column, slice] : readings_of(frame.kernel(), frame.stencil())) {
         rows_ahead[slot] = frame.kernel().reads_neighbours(slot) ? 2 : 1;
     }
-    loops.rows(builder, [&](const CellVector& vector, Builder& inner, BodyScope& row_scope) {
+    const auto write_vector = [&](const CellVector& vector, Builder& inner, BodyScope& row_scope) {
         GridSources cells(frame, inner, vector, offsets, shifted);
         loops.body(cells, inner, row_scope);
         if (fetching == Fetching::nothing) return;
         for (const auto& [slot, rows] : rows_ahead) cells.prefetch(slot, rows, fetching);
+    };
+    loops.rows(builder, write_vector, [&](Value* row_start, Builder& after) {
+        if (frame.shape().fills_columns) fill_columns(frame, row_start, after);
     });
     builder.CreateRetVoid();
 }
@@ -309,8 +337,8 @@ void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& builder) {
 
 llvm::Function* build_grid_function(llvm::Module& module, const KernelPart& part,
                                     const KernelShape& shape, const std::string& name) {
-    const std::vector<llvm::Type*> extra(shape.stencil.z ? 3 : 1,
-                                         llvm::Type::getInt64Ty(module.getContext()));
+    const std::size_t count = shape.stencil.z || shape.fills_columns ? 3 : 1;
+    const std::vector<llvm::Type*> extra(count, llvm::Type::getInt64Ty(module.getContext()));
     return build_function(module, part, shape, name, extra, build_loops);
 }
 

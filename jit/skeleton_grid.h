@@ -4,7 +4,9 @@
 // is_near`: not 0 where the fields are in a near cache, so that nothing is fetched ahead. For grids
 // of several slices two more follow, `int64_t slice_rows, int64_t slice`: row j of slice k is row k
 // * slice_rows + j, and a call stays within one slice, so that the loops are those of a plane.
-// Neighbours are read up to one vector beside the cells that are computed.
+// Where the shape fills columns, two more follow, `int64_t left_column, int64_t right_column`:
+// those of HaloColumns, or −1 twice to fill none. Neighbours are read up to one vector beside the
+// cells that are computed.
 #pragma once
 
 #include "jit/kernel_parts.h"

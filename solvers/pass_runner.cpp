@@ -24,6 +24,13 @@ std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
                                          (layout.stride * static_cast<std::int64_t>(results)));
 }
 
+/// What columns of the halo are copies of; nothing if a side has a value of its own.
+std::optional<HaloColumns> copied_columns(const SideRules& sides, std::int64_t width) {
+    const auto wraps = [&](Side side) { return sides[side].kind == SideKind::periodic; };
+    if (sides[Side::left].has_value() || sides[Side::right].has_value()) return std::nullopt;
+    return HaloColumns{wraps(Side::left) ? width - 1 : 0, wraps(Side::right) ? 0 : width - 1};
+}
+
 }  // namespace
 
 PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(problem.grid) {
@@ -35,9 +42,12 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
         temporaries_.emplace_back(layout_, problem.precision);
     }
     for (const StepProblem::Pass& pass : problem.passes) {
-        std::vector<SideRules>& of_pass = sides_.emplace_back();
+        PassSides& of_pass = sides_.emplace_back();
         for (const StepProblem::Result& result : pass.results) {
-            of_pass.push_back(problem.sides_of(result));
+            of_pass.rules.push_back(problem.sides_of(result));
+            const bool needs_columns = result.needs_halo && problem.has_halo();
+            if (!needs_columns || of_pass.copied) continue;
+            of_pass.copied = copied_columns(of_pass.rules.back(), layout_.width);
         }
     }
     row_values_.assign(problem.aggregates,
@@ -211,7 +221,7 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
     level.given = {level.fields, pass.masks, level.uniforms, level.results,
-                   layout_,      links,      is_near};
+                   layout_,      links,      is_near,        sides_[pass_number].copied};
 }
 
 void PassRunner::run_cells(Worker& worker, std::size_t level, const Patch& cells) const {
@@ -224,14 +234,32 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
     const StepProblem::Pass& pass = problem_.passes[level.pass];
     const std::int64_t band =
         rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, level.results.size()));
+    const ColumnRange columns = cells.columns.within(layout_.width);
+    const bool is_whole = columns.begin == 0 && columns.end == layout_.width;
     for (std::int64_t row = cells.rows.begin; row < cells.rows.end; row += band) {
         const Patch part{{row, std::min(row + band, cells.rows.end)}, cells.columns};
+        const bool fills_columns = is_whole && pass.kernel->fills_columns();
         pass.kernel->run(level.given, part);
         for (std::size_t k = 0; k < level.results.size(); ++k) {
-            if (pass.results[k].needs_halo && problem_.has_halo()) fill_halo_of(level, k, part);
+            if (!pass.results[k].needs_halo || !problem_.has_halo()) continue;
+            if (!fills_columns || !has_copied_columns(level, k)) {
+                fill_halo_of(level, k, part);
+                continue;
+            }
+            // The first and the last row alone have copies in rows of the halo.
+            const std::int64_t last = layout_.height - 1;
+            if (part.rows.begin == 0) fill_halo_of(level, k, {{0, 1}, part.columns});
+            if (part.rows.end == last + 1) fill_halo_of(level, k, {{last, last + 1}, part.columns});
         }
         if (level.when_written != nullptr) (*level.when_written)(part.rows);
     }
+}
+
+/// Are columns of a result's halo those that a kernel fills?
+template <typename Number>
+bool PassRunner::has_copied_columns(const Level<Number>& level, std::size_t number) const {
+    const auto& [rules, copied] = sides_[level.pass];
+    return copied && copied_columns(rules[number], layout_.width) == copied;
 }
 
 /// Fills the halo of a result for the moment at which neighbours will read it.
@@ -242,7 +270,7 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number,
     const auto fill = [&](const SideRules& rules) {
         fill_halo_from(level.results[number], layout_, rules, cells);
     };
-    const SideRules& rules = sides_[level.pass][number];
+    const SideRules& rules = sides_[level.pass].rules[number];
     const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);
     if (own == nullptr || problem_.changing_sides.empty()) return fill(rules);
     const StepMoment& moment = level.moment;

@@ -115,14 +115,19 @@ private:
     template <typename Number>
     void run_level(const Level<Number>& level, const Patch& cells) const;
     template <typename Number>
+    bool has_copied_columns(const Level<Number>& level, std::size_t result) const;
+    template <typename Number>
     void fill_halo_of(const Level<Number>& level, std::size_t result, const Patch& cells) const;
 
     const StepProblem& problem_;
     PlaneLayout layout_;
     /// By pass; null for passes without a filter.
     std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
-    std::vector<std::vector<SideRules>>
-        sides_;  ///< By pass and result, before any of them changes.
+    struct PassSides {
+        std::vector<SideRules> rules;       ///< By result, before any of them changes.
+        std::optional<HaloColumns> copied;  ///< What a kernel fills columns of the halo with.
+    };
+    std::vector<PassSides> sides_;  ///< By pass.
     IdVector<TemporaryId, Field> temporaries_;
     IdVector<AggregateId, std::vector<double>> row_values_;  ///< By aggregate and row.
 };

@@ -7,6 +7,7 @@
 #include "tests/support/random_stream.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ public:
     /// Runs a kernel on some or all cells, into new planes.
     std::vector<Field> run(const Kernel& kernel) const;
     std::vector<Field> run(const Kernel& kernel, const Patch& cells) const;
+    /// From now on kernels that can fill columns of the halo are told to.
+    void fill_columns(HaloColumns columns) { columns_ = columns; }
 
 private:
     template <typename Number>
@@ -33,6 +36,7 @@ private:
     Grid grid_;
     Precision precision_;
     bool is_near_;
+    std::optional<HaloColumns> columns_;
     std::size_t result_count_;
     std::vector<Field> fields_;
     Links links_;  ///< Of a linked grid.
@@ -49,9 +53,10 @@ std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const 
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 
 /// Empty if a run wrote only what backend.h allows: these cells, and after the last cell of a row
-/// up to the next multiple of row_pad. Else the first place that was touched. Only for
-/// planes made by HostileInputs::run.
-std::string stray_writes(const std::vector<Field>& results, const Patch& cells);
+/// up to the next multiple of row_pad, and, if they were to be filled, the columns of the halo
+/// beside them. Else the first place that was touched. Only for planes made by HostileInputs::run.
+std::string stray_writes(const std::vector<Field>& results, const Patch& cells,
+                         bool with_columns = false);
 
 /// Linked cells in 1 … max_height rows of 1 … max_width.
 Grid random_linked_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height);

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstring>
 
 namespace cascade::testing {
 namespace {
@@ -269,6 +270,59 @@ CellKernel diffusion_kernel(Precision precision) {
                                          builder.multiply(rate, builder.laplacian(slot))));
     }
     return std::move(builder).finish();
+}
+
+/// Where columns −1 and width of the rows do not hold what `columns` says; else empty.
+template <typename Number>
+std::string wrong_columns(const Field& field, RowRange rows, HaloColumns columns) {
+    const std::int64_t width = field.layout().width;
+    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+        const Number* cells = field.row<Number>(row);
+        const auto differ = [&](std::int64_t a, std::int64_t b) {
+            return std::memcmp(cells + a, cells + b, sizeof(Number)) != 0;
+        };
+        if (differ(-1, columns.left)) return fmt::format("left of row {}", row);
+        if (differ(width, columns.right)) return fmt::format("right of row {}", row);
+    }
+    return "";
+}
+
+void expect_columns(const CellKernel& kernel, const Kernel& native, const Grid& grid, RowRange rows,
+                    HaloColumns columns) {
+    HostileInputs inputs(kernel, grid, 3);
+    inputs.fill_columns(columns);
+    ASSERT_TRUE(native.fills_columns());
+    const std::vector<Field> results = inputs.run(native, {rows});
+    ASSERT_EQ(stray_writes(results, {rows}, true), "") << describe(grid);
+    for (const Field& field : results) {
+        const std::string wrong = with_number(kernel.precision, [&](auto zero) {
+            return wrong_columns<decltype(zero)>(field, rows, columns);
+        });
+        ASSERT_EQ(wrong, "") << describe(grid);
+    }
+}
+
+TEST(JitAgreement, ColumnsOfTheHaloAreFilledWhereThatIsAsked) {
+    Backends backends;
+    for (const Precision precision : {Precision::single, Precision::binary64}) {
+        const CellKernel kernel = diffusion_kernel(precision);
+        for (const std::int64_t width : {2, 15, 16, 17, 64, 150}) {
+            for (const std::int64_t height : {1, 5}) {
+                const Grid grid{width, height};
+                for (const auto& backend : backends.optimised) {
+                    const KernelPointer native = backend->compile(kernel, grid.stencil()).value();
+                    expect_columns(kernel, *native, grid, {0, height}, {width - 1, 0});
+                    expect_columns(kernel, *native, grid, {height / 2, height}, {0, width - 1});
+                    expect_columns(kernel, *native, grid, {0, height}, {width - 1, width - 1});
+                    if (width <= 16) continue;
+                    HostileInputs inputs(kernel, grid, 3);
+                    inputs.fill_columns({0, width - 1});
+                    const Patch part{{0, height}, {.begin = 16}};  // It fills none.
+                    ASSERT_EQ(stray_writes(inputs.run(*native, part), part), "");
+                }
+            }
+        }
+    }
 }
 
 // Where loads are scarce a loop hands vectors on from one execution to the next.

@@ -119,10 +119,13 @@ public:
     void run(const KernelArgumentsOf<Number>& arguments, const Patch& cells) const override {
         if (!function_) return;
         const ColumnRange columns = cells.columns.within(arguments.layout.width);
-        function_->template as<GridFunction<Number>>()(
-            arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-            arguments.results.data(), columns.begin, columns.end, arguments.layout.stride,
-            cells.rows.begin, cells.rows.end, arguments.is_near);
+        using Function = void(const Number* const*, const std::uint8_t* const*, const Number*,
+                              Number* const*, std::int64_t, std::int64_t, std::int64_t,
+                              std::int64_t, std::int64_t, std::int64_t);
+        function_->template as<Function>()(arguments.fields.data(), arguments.masks.data(),
+                                           arguments.uniforms.data(), arguments.results.data(),
+                                           columns.begin, columns.end, arguments.layout.stride,
+                                           cells.rows.begin, cells.rows.end, arguments.is_near);
     }
 
 private:

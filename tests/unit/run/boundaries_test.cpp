@@ -9,10 +9,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
@@ -250,6 +252,33 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
     ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
     EXPECT_EQ(same_bits(one.species(), second->state(0).species), "");
 }
+
+#if CASCADE_HAS_JIT
+TEST(Boundaries, SpeciesOfOneKernelMayHaveSidesOfDifferentKinds) {
+    const std::array<std::string_view, 5> sides = {"sides: periodic", "sides: noflux",
+                                                   "sides: fixed(x / 2)", "sides: flux(0.1)",
+                                                   "sides: fixed(sin(9 * t))"};
+    for (const std::string_view of_u : sides) {
+        for (const std::string_view of_v : sides) {
+            for (const char* grid : {"17, 9", "64, 5", "16, 6, 3"}) {
+                const std::string text = fmt::format(
+                    "system s {{ u: x + random(0, 1); v: random(0.5, 0.2); w: y\n"
+                    "  u' = 0.1 * lap(u) + 0.02 * dxy(v); v' = lap(v) - u / 9 + w; w' = u * v\n"
+                    "  u.{}; v.{} }}\n"
+                    "domain {{ grid: {}; boundary: noflux }}\n"
+                    "stage only: s {{ iterations: 9; speed: 0.1 }}\n",
+                    of_u, of_v, grid);
+                const Ran expected = run(text);
+                ASSERT_TRUE(expected.simulation);
+                for (const int lanes : {4, 8, 16}) {
+                    const Ran native = run(text, {BackendKind::jit, lanes, 1});
+                    EXPECT_EQ(same_bits(expected.species(), native.species()), "") << text;
+                }
+            }
+        }
+    }
+}
+#endif
 
 /// What is beyond a side of a function is made of what is beyond it of the species.
 TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
