@@ -1,6 +1,8 @@
 // The loops over rows and vectors, loads from the cells themselves, and stores.
 #include "jit/skeleton.h"
 
+#include <deque>
+
 namespace cascade {
 
 using llvm::Value;
@@ -118,7 +120,8 @@ KernelLoops::KernelLoops(KernelFrame& frame)
     emit_body(scope_);
 }
 
-void KernelLoops::rows(Builder& builder, WriteVector write_vector, WriteRowEnd write_row_end) {
+Value* KernelLoops::rows(Builder& builder, Value* first, int together, WriteVectors write_vectors,
+                         WriteRowEnd write_row_end) {
     llvm::BasicBlock* test = frame_.new_block("rows");
     llvm::BasicBlock* start = frame_.new_block("row");
     llvm::BasicBlock* next = frame_.new_block("row_done");
@@ -130,48 +133,62 @@ void KernelLoops::rows(Builder& builder, WriteVector write_vector, WriteRowEnd w
     // The first row is added at once: LLVM takes a phi node without incoming values for a number
     // that is not 0.
     llvm::PHINode* row = builder.CreatePHI(builder.getInt64Ty(), 2, "row");
-    row->addIncoming(frame_.row_begin(), before);
-    builder.CreateCondBr(builder.CreateICmpSLT(row, frame_.row_end()), start, after);
+    row->addIncoming(first, before);
+    Value* last = builder.CreateNSWAdd(row, builder.getInt64(together - 1));
+    builder.CreateCondBr(builder.CreateICmpSLT(last, frame_.row_end()), start, after);
 
     builder.SetInsertPoint(start);
-    Value* row_start = columns(row, builder, next, write_vector);
+    const std::vector<Value*> row_starts = columns(row, together, builder, next, write_vectors);
 
     builder.SetInsertPoint(next);
-    if (write_row_end) write_row_end(row_start, builder);
-    Value* below = builder.CreateNSWAdd(row, builder.getInt64(1));
+    for (Value* row_start : row_starts) {
+        if (write_row_end) write_row_end(row_start, builder);
+    }
+    Value* below = builder.CreateNSWAdd(row, builder.getInt64(together));
     row->addIncoming(below, builder.GetInsertBlock());
     builder.CreateBr(test);
     builder.SetInsertPoint(after);
+    return row;
 }
 
-// `outside` writes the values of the row to the block before the loop over its vectors. That block
-// gets its terminator last: values are still added to it while the loop is written, and LLVM's
-// folder, which follows jumps, fails at a block that is empty.
-Value* KernelLoops::columns(Value* row, Builder& outside, llvm::BasicBlock* next,
-                            WriteVector write_vector) {
+// `outside` writes the values of the rows to the block before the loop over their vectors. That
+// block gets its terminator last: values are still added to it while the loop is written, and
+// LLVM's folder, which follows jumps, fails at a block that is empty.
+std::vector<Value*> KernelLoops::columns(Value* row, int together, Builder& outside,
+                                         llvm::BasicBlock* next, WriteVectors write_vectors) {
     llvm::BasicBlock* loop = frame_.new_block("cells");
-    Value* start = outside.CreateNSWMul(row, frame_.stride(), "row_start");
-    Value* first = outside.CreateNSWAdd(start, frame_.column_begin());
-    Value* end = outside.CreateNSWAdd(start, frame_.column_end());
-    OuterSources row_sources(frame_, outside, row);
-    BodyScope row_scope(body_, LoopLevel::row, outside, row_sources, &scope_);
-    emit_body(row_scope);
-
     Builder inner(loop, frame_.folder());
     llvm::PHINode* element = inner.CreatePHI(inner.getInt64Ty(), 2, "element");
     CarriedVectors carried(*loop, outside);
-    write_vector({row, start, first, element, &carried}, inner, row_scope);
+
+    std::vector<Value*> starts;
+    std::deque<OuterSources> row_sources;
+    std::deque<BodyScope> row_scopes;
+    std::vector<CellVector> vectors;
+    for (int k = 0; k < together; ++k) {
+        Value* own_row = outside.CreateNSWAdd(row, outside.getInt64(k));
+        starts.push_back(outside.CreateNSWMul(own_row, frame_.stride(), "row_start"));
+        Value* own_first = outside.CreateNSWAdd(starts.back(), frame_.column_begin());
+        row_sources.emplace_back(frame_, outside, own_row);
+        row_scopes.emplace_back(body_, LoopLevel::row, outside, row_sources.back(), &scope_);
+        emit_body(row_scopes.back());
+        Value* below = inner.CreateNSWMul(frame_.stride(), inner.getInt64(k));
+        vectors.push_back({own_row, starts.back(), own_first, inner.CreateNSWAdd(element, below),
+                           &carried, &row_scopes.back()});
+    }
+    Value* end = outside.CreateNSWAdd(starts.front(), frame_.column_end());
+    write_vectors(vectors, inner);
     Value* after = inner.CreateNSWAdd(element, inner.getInt64(frame_.lanes()));
     inner.CreateCondBr(inner.CreateICmpSLT(after, end), loop, next);
-    element->addIncoming(first, outside.GetInsertBlock());
+    element->addIncoming(vectors.front().first, outside.GetInsertBlock());
     element->addIncoming(after, inner.GetInsertBlock());
     carried.close(outside.GetInsertBlock(), inner.GetInsertBlock());
     outside.CreateBr(loop);
-    return start;
+    return starts;
 }
 
-void KernelLoops::body(CellSources& cells, Builder& builder, BodyScope& row_scope) {
-    BodyScope scope(body_, LoopLevel::cell, builder, cells, &row_scope);
+void KernelLoops::body(CellSources& cells, Builder& builder, const CellVector& vector) {
+    BodyScope scope(body_, LoopLevel::cell, builder, cells, vector.row_scope);
     const std::vector<ValueId>& results = body_.kernel.results;
     std::size_t stored = 0;
     const auto store_next = [&] {

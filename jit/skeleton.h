@@ -131,6 +131,7 @@ struct CellVector {
     llvm::Value* first = nullptr;       ///< and of the first one that is computed.
     llvm::Value* element = nullptr;     ///< Element number of the vector's first cell.
     CarriedVectors* carried = nullptr;  ///< From this vector to the next.
+    BodyScope* row_scope = nullptr;     ///< What the cells of the row have in common.
 };
 
 /// What the cells of a vector read of themselves, and their results.
@@ -162,19 +163,22 @@ private:
 /// Builds the loops around the body of a kernel.
 class KernelLoops {
 public:
-    /// Writes what is computed for a vector. `builder` is left in a block without a terminator.
-    using WriteVector =
-        llvm::function_ref<void(const CellVector& vector, Builder& builder, BodyScope& row_scope)>;
-
+    /// Writes what is computed for a vector of each of the rows that are computed together.
+    /// `builder` is left in a block without a terminator.
+    using WriteVectors =
+        llvm::function_ref<void(llvm::ArrayRef<CellVector> vectors, Builder& builder)>;
     /// Writes what is done after the last vector of a row. `builder` as above.
     using WriteRowEnd = llvm::function_ref<void(llvm::Value* row_start, Builder& builder)>;
 
     explicit KernelLoops(KernelFrame& frame);
 
-    /// A loop over all rows. It begins where `builder` writes, which goes on after it.
-    void rows(Builder& builder, WriteVector write_vector, WriteRowEnd write_row_end = nullptr);
+    /// A loop over the rows from `first` on, `together` of them at a time while there are as many
+    /// left. It begins where `builder` writes, which goes on after it. Returns the row after the
+    /// last one computed.
+    llvm::Value* rows(Builder& builder, llvm::Value* first, int together,
+                      WriteVectors write_vectors, WriteRowEnd write_row_end = nullptr);
     /// All values of a vector of cells, and the stores of its results.
-    void body(CellSources& cells, Builder& builder, BodyScope& row_scope);
+    void body(CellSources& cells, Builder& builder, const CellVector& vector);
 
 private:
     /// What all cells of a call, or of a row, have in common.
@@ -196,9 +200,9 @@ private:
         llvm::Value* row_;  ///< Null before the loops.
     };
 
-    /// Returns the element number of the row's first cell.
-    llvm::Value* columns(llvm::Value* row, Builder& outside, llvm::BasicBlock* next,
-                         WriteVector write_vector);
+    /// Returns the element number of the first cell of each row.
+    std::vector<llvm::Value*> columns(llvm::Value* row, int together, Builder& outside,
+                                      llvm::BasicBlock* next, WriteVectors write_vectors);
 
     KernelFrame& frame_;
     Body body_;

@@ -6,6 +6,7 @@
 
 #include "jit/skeleton.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <set>
@@ -125,13 +126,31 @@ std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
 /// What a loop over rows fetches for the next one.
 enum class Fetching { nothing, ahead, unless_near };
 
+/// What the vectors of rows that are computed together have read, by row from the first of them:
+/// the row below one is the next one itself.
+struct CommonReadings {
+    std::map<std::pair<int, int>, Value*> elements;  ///< By row and slice.
+    std::map<Reading, Value*> loads;
+    std::map<int, Value*> fetched;  ///< By row, unless near.
+};
+
 /// What cells of a grid read.
 class GridSources final : public CellSources {
 public:
+    /// `row`: the number of the vector's among the rows that are computed together, in order.
     GridSources(KernelFrame& frame, Builder& builder, const CellVector& vector, RowOffsets& offsets,
-                const std::set<FieldSlot>& shifted)
-        : CellSources(frame, builder, vector), offsets_(offsets), shifted_(shifted) {
-        elements_[{0, 0}] = element_;
+                const std::set<FieldSlot>& shifted, CommonReadings& common, int row)
+        : CellSources(frame, builder, vector),
+          offsets_(offsets),
+          shifted_(shifted),
+          common_(common),
+          row_(row) {
+        Value*& own = common_.elements[{row, 0}];
+        if (own) {
+            element_ = own;
+        } else {
+            own = element_;
+        }
     }
 
     Value* field(FieldSlot slot) override;
@@ -141,7 +160,7 @@ public:
 
 private:
     Value* element(int row, int slice = 0) {
-        Value*& moved = elements_[{row, slice}];
+        Value*& moved = common_.elements[{row_ + row, slice}];
         if (!moved) moved = opaque(builder_.CreateAdd(element_, offsets_.to(row, slice)));
         return moved;
     }
@@ -154,10 +173,8 @@ private:
     RowOffsets& offsets_;
     const std::set<FieldSlot>& shifted_;
     std::map<FieldSlot, Value*> carried_;  ///< Of shifted fields: what the cells hold.
-    /// By row and slice, counted from the vector's own.
-    std::map<std::pair<int, int>, Value*> elements_;
-    std::map<Reading, Value*> loads_;
-    std::map<int, Value*> fetched_;  ///< By row, unless near.
+    CommonReadings& common_;
+    int row_;
 };
 
 Value* GridSources::load(Builder& builder, FieldSlot slot, Value* element, int column) const {
@@ -171,7 +188,7 @@ Value* GridSources::load(Builder& builder, FieldSlot slot, Value* element, int c
 }
 
 Value* GridSources::field(FieldSlot slot) {
-    if (!shifted_.contains(slot)) return CellSources::field(slot);
+    if (!shifted_.contains(slot)) return beside(slot, 0, 0);
     Value*& own = carried_[slot];
     if (!own) {
         own = vector_.carried->take(slot, [&](Builder& outside) {
@@ -183,8 +200,9 @@ Value* GridSources::field(FieldSlot slot) {
 }
 
 Value* GridSources::beside(FieldSlot slot, int row, int column, int slice) {
-    if (row == 0 && column == 0 && slice == 0) return field(slot);
-    Value*& value = loads_[{slot, row, column, slice}];
+    const bool is_own = row == 0 && column == 0 && slice == 0;
+    if (is_own && shifted_.contains(slot)) return field(slot);
+    Value*& value = common_.loads[{slot, row_ + row, column, slice}];
     if (!value) {
         const bool is_east = row == 0 && column == 1 && slice == 0;
         value = is_east && shifted_.contains(slot)
@@ -255,7 +273,7 @@ void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
     if (fetching == Fetching::ahead) {
         ahead = element(rows);
     } else {
-        Value*& fetched = fetched_[rows];
+        Value*& fetched = common_.fetched[row_ + rows];
         if (!fetched) fetched = opaque(builder_.CreateAdd(element_, offsets_.ahead(rows)));
         ahead = fetched;
     }
@@ -287,6 +305,16 @@ void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
     builder.SetInsertPoint(filled);
 }
 
+/// Two rows at a time take fewer loads, since the rows beside one are the other and its neighbours.
+/// Vectors of a whole cache line have units for all of their loads and gain less.
+bool takes_two_rows(const KernelFrame& frame) {
+    if (frame.vector_bytes() != cache_line / 2) return false;
+    if (frame.kernel().code.size() > largest_twofold_kernel) return false;
+    const std::set<Reading> readings = readings_of(frame.kernel(), frame.stencil());
+    return std::any_of(readings.begin(), readings.end(),
+                       [](const Reading& each) { return std::get<1>(each) != 0; });
+}
+
 /// All rows, with or without prefetches of what the next row will be the first to read: its own
 /// cells, or, of fields that are read at neighbours, those below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
@@ -295,15 +323,24 @@ void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
     for (const auto& [slot, row, column, slice] : readings_of(frame.kernel(), frame.stencil())) {
         rows_ahead[slot] = frame.kernel().reads_neighbours(slot) ? 2 : 1;
     }
-    const auto write_vector = [&](const CellVector& vector, Builder& inner, BodyScope& row_scope) {
-        GridSources cells(frame, inner, vector, offsets, shifted);
-        loops.body(cells, inner, row_scope);
-        if (fetching == Fetching::nothing) return;
-        for (const auto& [slot, rows] : rows_ahead) cells.prefetch(slot, rows, fetching);
+    const auto write_vectors = [&](llvm::ArrayRef<CellVector> vectors, Builder& inner) {
+        CommonReadings common;
+        for (int row = 0; const CellVector& vector : vectors) {
+            GridSources cells(frame, inner, vector, offsets, shifted, common, row++);
+            loops.body(cells, inner, vector);
+            if (fetching == Fetching::nothing) continue;
+            const int further = static_cast<int>(vectors.size()) - 1;
+            for (const auto& [slot, rows] : rows_ahead) {
+                cells.prefetch(slot, rows + further, fetching);
+            }
+        }
     };
-    loops.rows(builder, write_vector, [&](Value* row_start, Builder& after) {
+    const auto write_row_end = [&](Value* row_start, Builder& after) {
         if (frame.shape().fills_columns) fill_columns(frame, row_start, after);
-    });
+    };
+    Value* row = frame.row_begin();
+    if (takes_two_rows(frame)) row = loops.rows(builder, row, 2, write_vectors, write_row_end);
+    loops.rows(builder, row, 1, write_vectors, write_row_end);
     builder.CreateRetVoid();
 }
 

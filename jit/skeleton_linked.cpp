@@ -290,11 +290,11 @@ llvm::Function* build_linked_function(llvm::Module& module, const KernelPart& pa
                                          llvm::PointerType::getUnqual(module.getContext()));
     return build_function(module, part, shape, name, extra,
                           [](KernelFrame& frame, KernelLoops& loops, Builder& builder) {
-                              loops.rows(builder, [&](const CellVector& vector, Builder& inner,
-                                                      BodyScope& row_scope) {
-                                  LinkedSources cells(frame, inner, vector);
-                                  loops.body(cells, inner, row_scope);
-                              });
+                              loops.rows(builder, frame.row_begin(), 1,
+                                         [&](llvm::ArrayRef<CellVector> row, Builder& inner) {
+                                             LinkedSources cells(frame, inner, row[0]);
+                                             loops.body(cells, inner, row[0]);
+                                         });
                               builder.CreateRetVoid();
                           });
 }
