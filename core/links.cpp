@@ -111,10 +111,10 @@ Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precisio
             unsigned filled = 0;
             for (std::size_t lane = 0; lane < slice_cells; ++lane) {
                 Placing::Range& links = slice.links[lane];
-                if (links.count > 0 && fits(base, links.first)) {
-                    filled |= 1U << lane;
-                    links.drop_first();
-                }
+                if (links.count == 0 || !fits(base, links.first)) continue;
+                filled |= 1U << lane;
+                const std::int64_t there = target(links.drop_first()) / layout.stride;
+                reach_ = std::max(reach_, std::abs(there - slice.first / layout.stride));
             }
             bases_.push_back(static_cast<std::int32_t>(base));
             filled_.push_back(static_cast<std::uint16_t>(filled));
@@ -179,7 +179,7 @@ template <typename Number>
 LinkTable<Number> Links::table() const {
     const auto& weights = *std::get_if<Weights<Number>>(&weights_);
     LinkTable<Number> table{
-        starts_.data(), bases_.data(), offsets_.data(), weights.laplacian.data(), {}};
+        starts_.data(), bases_.data(), offsets_.data(), weights.laplacian.data(), {}, reach_};
     for (std::size_t k = 0; k < 3; ++k) table.gradients[k] = weights.gradients[k].data();
     return table;
 }

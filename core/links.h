@@ -39,6 +39,7 @@ struct LinkTable {
     const Number* weights = nullptr;        ///< Factor of (neighbour − cell) in a Laplacian.
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
+    std::int64_t reach = 1;  ///< The largest number of rows that a link spans; at least 1.
 
     /// Elements from cell (0, 0) to the neighbour to which a link leads.
     std::int64_t target(std::int64_t link) const {
@@ -105,6 +106,7 @@ private:
 
     void for_each_element(const Placing& placing, const auto& use, const auto& fill_up) const;
 
+    std::int64_t reach_ = 1;
     std::vector<std::uint32_t> starts_;
     std::vector<std::int32_t> bases_;
     std::vector<std::uint16_t> filled_;  ///< By entry: the lanes whose links are no padding.

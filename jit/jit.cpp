@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "jit/code_cache.h"
+#include "jit/field_pairs.h"
 #include "jit/generator.h"
 #include "jit/kernel_key.h"
 #include "jit/processor.h"
@@ -30,6 +31,7 @@ public:
           masks_(kernel.mask_names.size()),
           uniforms_(kernel.uniform_names.size()),
           results_(kernel.results.size()),
+          pairs_(field_pairs(kernel).size()),
           function_(std::move(function)) {
         for (const Instruction& instruction : kernel.code) {
             const Op op = instruction.op;
@@ -90,15 +92,33 @@ private:
               "linked cells are computed in whole rows");
         CHECK(!has_link_sums_ || links.starts, "a kernel that sums over links is given them");
         CHECK(!has_gradients_ || links.gradients[2], "and gradients, where it asks for them");
-        function_->template as<LinkedFunction<Number>>()(
-            arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-            arguments.results.data(), columns.begin, columns.end, layout.stride, rows.begin,
-            rows.end, links.starts, links.bases, links.offsets, links.weights, links.gradients[0],
-            links.gradients[1], links.gradients[2]);
+        const auto run = [&](RowRange part, Number* pairs, RowRange copied) {
+            function_->template as<LinkedFunction<Number>>()(
+                arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
+                arguments.results.data(), columns.begin, columns.end, layout.stride, part.begin,
+                part.end, links.starts, links.bases, links.offsets, links.weights,
+                links.gradients[0], links.gradients[1], links.gradients[2], pairs,
+                copied.begin * layout.stride, copied.end * layout.stride);
+        };
+        if (pairs_ == 0) return run(rows, nullptr, {0, 0});
+        // Pairs of this many cells and those around them stay in a second-level cache.
+        constexpr std::int64_t cells_of_part = 16384;
+        const std::int64_t height = std::max(cells_of_part / layout.width, links.reach);
+        static thread_local AlignedArray<Number> pairs;
+        for (RowRange part{rows.begin, 0}; part.begin < rows.end; part.begin = part.end) {
+            part.end = std::min(part.begin + height, rows.end);
+            const RowRange copied{std::max<std::int64_t>(0, part.begin - links.reach),
+                                  std::min(part.end + links.reach, layout.height)};
+            const std::size_t numbers = 2 * pairs_ *
+                                        static_cast<std::size_t>(copied.end - copied.begin) *
+                                        static_cast<std::size_t>(layout.stride);
+            if (pairs.bytes() < numbers * sizeof(Number)) pairs = AlignedArray<Number>(numbers);
+            run(part, pairs.data(), copied);
+        }
     }
 
     Stencil stencil_;
-    std::size_t fields_, masks_, uniforms_, results_;
+    std::size_t fields_, masks_, uniforms_, results_, pairs_;
     bool has_link_sums_ = false, has_gradients_ = false;
     std::unique_ptr<LoadedFunction> function_;
 };

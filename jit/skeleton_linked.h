@@ -6,8 +6,12 @@
 //     const uint32_t *starts, const int32_t *bases, const int16_t *offsets,
 //     const float *weights, const float *gradient_x, const float *gradient_y, const float
 //     *gradient_z
+//     float *pairs, int64_t first_of_pairs, int64_t end_of_pairs
 //
-// of which those that no sum of the kernel asks for are not read.
+// of which those that no sum of the kernel asks for are not read. `pairs` is scratch, aligned to 64
+// bytes, for the elements first_of_pairs … end_of_pairs − 1 of all pairs of fields
+// (jit/field_pairs.h), two numbers each; they include all that the rows' links lead to, and begin
+// and end at multiples of PlaneLayout::row_pad.
 #pragma once
 
 #include "jit/kernel_parts.h"

@@ -233,7 +233,9 @@ template <typename Number>
 void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const {
     const StepProblem::Pass& pass = problem_.passes[level.pass];
     const std::int64_t band =
-        rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, level.results.size()));
+        problem_.has_halo() || level.when_written != nullptr
+            ? rows_of_a_band<Number>(layout_, std::max<std::size_t>(1, level.results.size()))
+            : cells.rows.end - cells.rows.begin;
     const ColumnRange columns = cells.columns.within(layout_.width);
     const bool is_whole = columns.begin == 0 && columns.end == layout_.width;
     for (std::int64_t row = cells.rows.begin; row < cells.rows.end; row += band) {

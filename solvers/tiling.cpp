@@ -183,19 +183,8 @@ std::int64_t bytes_of_step(const StepProblem& problem) {
 
 std::int64_t rows_reached(const StepProblem& problem) {
     if (!problem.links) return 1;
-    const PlaneLayout layout(problem.grid);
-    constexpr std::int64_t lanes = PlaneLayout::row_pad;
-    const std::int64_t slices = (layout.width + lanes - 1) / lanes;
     return with_number(problem.precision, [&](auto zero) {
-        const auto links = problem.links->template table<decltype(zero)>();
-        std::int64_t reached = 1;
-        for (std::int64_t row = 0; row < layout.height; ++row) {
-            const std::int64_t last = lanes * links.starts[(row + 1) * slices];
-            for (std::int64_t link = lanes * links.starts[row * slices]; link < last; ++link) {
-                reached = std::max(reached, std::abs(links.target(link) / layout.stride - row));
-            }
-        }
-        return reached;
+        return problem.links->template table<decltype(zero)>().reach;
     });
 }
 

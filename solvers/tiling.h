@@ -48,7 +48,7 @@ bool needs_all_rows(const StepProblem::Pass& pass);
 /// both copies of the species are included.
 std::int64_t bytes_of_step(const StepProblem& problem);
 
-/// The largest number of rows that a link spans; at least 1. Reads all links.
+/// The largest number of rows that a link spans; at least 1.
 std::int64_t rows_reached(const StepProblem& problem);
 
 /// Is any plane periodic from side to opposite side, along the axis of that side?
