@@ -95,10 +95,13 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         ->allow_extra_args(false)
         ->type_name("NAME=EXPR")
         ->group(group);
+    // Accepted here as in scripts, though no longer listed (solver_of()).
+    std::vector<std::string> solvers = solver_names();
+    solvers.emplace_back("imex2");
     add_value(app, "--solver", "NAME",
               help::in_lines(solver_names()) +
                   "\nfor every stage, which takes as much time as before",
-              one_of(solver_names()), [&](auto solver) { overrides.solver = solver; })
+              one_of(std::move(solvers)), [&](auto solver) { overrides.solver = solver; })
         ->group(group);
     add_value(app, "--steps", "N", "At most N steps in every stage",
               whole_number(0, std::numeric_limits<std::int64_t>::max()),

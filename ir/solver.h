@@ -20,11 +20,12 @@ enum class Solver : std::uint8_t {
     rkl1,
     rkl2,
     imex,
-    imex2,
+    etdrk4,
     gauss
 };
 
 std::string_view name_of(Solver solver);
+/// `imex2`, which `etdrk4` replaced, is another name of it.
 std::optional<Solver> solver_of(std::string_view name);
 std::vector<std::string> solver_names();
 

@@ -89,17 +89,26 @@ struct SweepForm {
     friend bool operator==(const SweepForm&, const SweepForm&) = default;
 };
 
-/// The factor of a wave that diffusion changes at the rate M ≤ 0 in a step of length h.
+/// What becomes of a wave of a rate, which diffusion changes at the rate M ≤ 0, in a step of length
+/// h.
 enum class WaveResponse : std::uint8_t {
-    implicit,     ///< 1 / (1 − h M): diffusion as it is at the end of the step.
-    exponential,  ///< (exp(h M) − 1) / (h M): diffusion solved exactly.
+    implicit,     ///< 1 / (1 − h M) times it: diffusion as it is at the end of the step.
+    exponential,  ///< (exp(h M) − 1) / (h M) times it: diffusion solved exactly.
+    etd_first,    ///< The stages of etdrk4 (solvers/etd_stages.h).
+    etd_second,
+    etd_third,
+    etd_last,
 };
 
-/// Multiplies every wave of all species in a register by its response.
+/// The number of registers in which the stages of etdrk4 keep waves.
+inline constexpr std::size_t etd_registers = 6;
+
+/// Replaces every wave of all species in a register by its response.
 struct SweepFilter {
     RegisterId in_register;
     WaveResponse response = WaveResponse::implicit;
-    double part = 1;  ///< h as a fraction of the time step.
+    std::vector<RegisterId> kept = {};     ///< Of etdrk4.
+    std::optional<RegisterId> error = {};  ///< Written by the last stage of etdrk4.
 };
 
 /// One sweep of a scheme: a form with its arguments.

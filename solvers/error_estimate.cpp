@@ -1,9 +1,10 @@
 // The other solution comes from the trapezoidal rule: the error is the mean of the rates at both
-// ends times the step, minus the change of the step. A solver with its own solution of lower order
-// is compared with that.
+// ends times the step, minus the change of the step. The last filter of etdrk4 has an estimate of
+// its own.
 #include "solvers/error_estimate.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace cascade {
@@ -48,26 +49,33 @@ void read_first_rates(Scheme& scheme, RegisterId first_rate) {
     scheme.forms[first.form] = std::move(form);
 }
 
-Scheme with_lower_order(Scheme scheme) {
-    Sweep error;
-    error.form = static_cast<std::uint32_t>(scheme.forms.size());
-    error.time = 1;
-    error.inputs = {new_register, *scheme.lower_order_register};
-    scheme.error_register = scheme.add_register();
-    error.outputs = {*scheme.error_register};
+/// The filter writes the error by time; the sweep multiplies it by the step.
+Scheme with_error_of_filter(Scheme scheme) {
+    const RegisterId error = scheme.add_register();
+    scheme.error_register = error;
+    scheme.sweeps.back().filter->error = error;
     SweepForm form;
     form.inputs = 2;
-    form.base_input = 1;
-    form.outputs = {{SweepOutput::Kind::change, {{Source::difference, 0}}}};
+    form.coefficients = 1;
+    form.outputs = {{SweepOutput::Kind::change, {{Source::value, 1, Weight::coefficient, 0}}}};
+    Sweep sweep;
+    sweep.form = static_cast<std::uint32_t>(scheme.forms.size());
+    sweep.time = 1;
+    sweep.inputs = {new_register, error};
+    sweep.outputs = {error};
+    sweep.coefficients = {{1, true}};
     scheme.forms.push_back(std::move(form));
-    scheme.sweeps.push_back(std::move(error));
+    scheme.sweeps.push_back(std::move(sweep));
     return scheme;
 }
 
 }  // namespace
 
 Scheme with_error_estimate(Scheme scheme) {
-    if (scheme.lower_order_register) return with_lower_order(std::move(scheme));
+    const std::optional<SweepFilter>& filter = scheme.sweeps.back().filter;
+    if (filter && filter->response == WaveResponse::etd_last) {
+        return with_error_of_filter(std::move(scheme));
+    }
     const RegisterId first_rate = scheme.add_register(), last_rate = scheme.add_register();
     scheme.rate_registers = {first_rate, last_rate};
     scheme.error_register = scheme.add_register();

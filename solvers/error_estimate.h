@@ -15,13 +15,13 @@ namespace cascade {
 /// of their error. E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations
 /// I", 1993, section II.4, treats such pairs.
 ///
-/// `imex2` without diffusion is the trapezoidal rule itself. For it, e is new − (old + h k₁)
-/// instead: the difference from the first-order solution that the step computes on its way (Verwer
-/// et al. 1999, section 2).
+/// For fine grids that is useless to `etdrk4`: f amplifies the rounding errors of `new`. Its e is
+/// the difference from a method of second order that the last stage knows (solvers/etd_stages.h),
+/// whose waves are damped as those of the step.
 ///
 /// The rates at `new` are the first rates of the next step, which reads them and does not evaluate
 /// them again. So the estimate costs a sweep without an evaluation, and three more registers
-/// (`imex2`: one). e is 0 where a value is frozen or held at a bound.
+/// (`etdrk4`: one). e is 0 where a value is frozen or held at a bound.
 Scheme with_error_estimate(Scheme scheme);
 
 }  // namespace cascade

@@ -160,13 +160,19 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
                 factor.aggregate ? double{arguments.aggregates[*factor.aggregate]} : factor.value;
         }
     }
-    std::vector<Number*> planes;
-    for (Field& field : registers[filter.in_register.index()]) {
-        planes.push_back(field.template origin<Number>());
-    }
+    const auto planes_of = [&](RegisterId id) {
+        std::vector<Number*> planes;
+        for (Field& field : registers[id.index()]) {
+            planes.push_back(field.template origin<Number>());
+        }
+        return planes;
+    };
+    typename WaveFilter<Number>::FilteredPlanes planes{planes_of(filter.in_register), {}, {}};
+    for (const RegisterId id : filter.kept) planes.kept.push_back(planes_of(id));
+    if (filter.error) planes.error = planes_of(*filter.error);
     std::get<std::optional<WaveFilter<Number>>>(wave_filters_)
         ->apply(team, worker.number, worker.count, planes, worker.symbols, filter.response,
-                filter.part * moment.length);
+                moment.length);
 }
 
 template <typename Number>

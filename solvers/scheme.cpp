@@ -212,7 +212,7 @@ Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint
         case Solver::rkl2: return legendre(solver, stages);
         case Solver::imex: return one_filter(WaveResponse::implicit);
         case Solver::gauss: return one_filter(WaveResponse::exponential);
-        case Solver::imex2: return rosenbrock();
+        case Solver::etdrk4: return etdrk4();
     }
     CHECK(false, "every solver has a scheme");
 }

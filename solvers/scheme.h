@@ -27,8 +27,6 @@ struct Scheme {
     std::vector<Sweep> sweeps;  ///< In order; one of the last writes the new step.
     /// An estimate of the step's error, of the order order_of() in the length of the step.
     std::optional<RegisterId> error_register;
-    /// A solution of lower order once the step is complete.
-    std::optional<RegisterId> lower_order_register;
     /// If set, sweep 0 only writes the first rate, and the last sweep writes the last one. In a
     /// step that follows another the two registers are swapped and sweep 0 is left out.
     std::optional<RateRegisters> rate_registers;

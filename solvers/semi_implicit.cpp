@@ -1,8 +1,6 @@
-// The schemes as lists of sweeps: rates, then sums of rates after a filter has damped them. The
-// Rosenbrock method has γ = 1 − 1/√2.
+// The schemes as lists of sweeps: rates, then sums of the old step and what a filter made of them.
 #include "solvers/semi_implicit.h"
 
-#include <cmath>
 #include <utility>
 
 namespace cascade {
@@ -11,19 +9,31 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// c₀ · change + c₁ · change + … + old; the changes are the inputs after the old step.
-SweepForm sum_form(std::uint32_t changes) {
+/// c · change + old, the change being the second input.
+SweepForm sum_form() {
     SweepForm form;
     form.holds = true;  // A filter spreads the changes of free cells into frozen ones.
-    form.inputs = 1 + changes;
-    form.coefficients = changes;
-    std::vector<SweepTerm> terms;
-    for (std::uint32_t k = 0; k < changes; ++k) {
-        terms.push_back({Source::value, 1 + k, Weight::coefficient, k});
-    }
-    terms.push_back({Source::value, 0});
-    form.outputs = {{SweepOutput::Kind::state, std::move(terms)}};
+    form.inputs = 2;
+    form.coefficients = 1;
+    form.outputs = {{SweepOutput::Kind::state,
+                     {{Source::value, 1, Weight::coefficient, 0}, {Source::value, 0}}}};
     return form;
+}
+
+/// Rates at `from`, and the old step plus what the filter makes of them.
+void add_stage(Scheme& scheme, RegisterId change, RegisterId from, double time,
+               SweepFilter filter) {
+    Sweep rate, sum;
+    rate.time = time;
+    rate.inputs = {from};
+    rate.outputs = {change};
+    sum.form = 1;
+    sum.filter = std::move(filter);
+    sum.inputs = {old_register, change};
+    sum.outputs = {new_register};
+    sum.coefficients = {{1, true}};
+    scheme.sweeps.push_back(std::move(rate));
+    scheme.sweeps.push_back(std::move(sum));
 }
 
 }  // namespace
@@ -31,53 +41,22 @@ SweepForm sum_form(std::uint32_t changes) {
 Scheme one_filter(WaveResponse response) {
     Scheme scheme;
     const RegisterId change = scheme.add_register();
-    scheme.forms = {rate_form(), sum_form(1)};
-    Sweep rate, sum;
-    rate.inputs = {old_register};
-    rate.outputs = {change};
-    sum.form = 1;
-    sum.filter = SweepFilter{change, response, 1};
-    sum.inputs = {old_register, change};
-    sum.outputs = {new_register};
-    sum.coefficients = {{1, true}};
-    scheme.sweeps = {std::move(rate), std::move(sum)};
+    scheme.forms = {rate_form(), sum_form()};
+    add_stage(scheme, change, old_register, 0, {change, response});
     return scheme;
 }
 
-Scheme rosenbrock() {
-    const double gamma = 1 - 1 / std::sqrt(2.0);
+Scheme etdrk4() {
     Scheme scheme;
-    const RegisterId first = scheme.add_register(), state = scheme.add_register(),
-                     second = scheme.add_register();
-    scheme.lower_order_register = state;
-    // f − 2 k₁: inputs are the state, then k₁.
-    SweepForm second_rate = rate_form();
-    second_rate.inputs = 2;
-    second_rate.coefficients = 1;
-    second_rate.outputs[0].terms.push_back({Source::value, 1, Weight::coefficient, 0});
-    scheme.forms = {rate_form(), sum_form(1), std::move(second_rate), sum_form(2)};
-    scheme.sweeps.resize(4);
-    Sweep& rate = scheme.sweeps[0];
-    rate.inputs = {old_register};
-    rate.outputs = {first};
-    Sweep& ahead = scheme.sweeps[1];
-    ahead.form = 1;
-    ahead.filter = SweepFilter{first, WaveResponse::implicit, gamma};
-    ahead.inputs = {old_register, first};
-    ahead.outputs = {state};
-    ahead.coefficients = {{1, true}};
-    Sweep& again = scheme.sweeps[2];
-    again.form = 2;
-    again.time = 1;
-    again.inputs = {state, first};
-    again.outputs = {second};
-    again.coefficients = {{-2, false}};
-    Sweep& sum = scheme.sweeps[3];
-    sum.form = 3;
-    sum.filter = SweepFilter{second, WaveResponse::implicit, gamma};
-    sum.inputs = {old_register, first, second};
-    sum.outputs = {new_register};
-    sum.coefficients = {{1.5, true}, {0.5, true}};
+    const RegisterId change = scheme.add_register();
+    std::vector<RegisterId> kept;
+    for (std::size_t k = 0; k < etd_registers; ++k) kept.push_back(scheme.add_register());
+    scheme.forms = {rate_form(), sum_form()};
+    // Points before the last are stored in the new step's register.
+    add_stage(scheme, change, old_register, 0, {change, WaveResponse::etd_first, kept});
+    add_stage(scheme, change, new_register, 0.5, {change, WaveResponse::etd_second, kept});
+    add_stage(scheme, change, new_register, 0.5, {change, WaveResponse::etd_third, kept});
+    add_stage(scheme, change, new_register, 1, {change, WaveResponse::etd_last, kept});
     return scheme;
 }
 

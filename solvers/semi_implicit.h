@@ -21,12 +21,7 @@ namespace cascade {
 /// Physics 176, 2002, 430-455, equation 4).
 Scheme one_filter(WaveResponse response);
 
-/// The Rosenbrock method of two stages that is of second order whatever L is (J. G. Verwer, E. J.
-/// Spee, J. G. Blom, W. Hundsdorfer, "A second-order Rosenbrock method applied to photochemical
-/// dispersion problems", SIAM Journal on Scientific Computing 20, 1999, 1456-1480):
-///
-///     k₁ = (1 − γ h L)⁻¹ f(old),    k₂ = (1 − γ h L)⁻¹ (f(old + h k₁) − 2 k₁),
-///     new = old + 3/2 h k₁ + 1/2 h k₂,    γ = 1 − 1/√2.
-Scheme rosenbrock();
+/// The exponential method of fourth order in solvers/etd_stages.h.
+Scheme etdrk4();
 
 }  // namespace cascade

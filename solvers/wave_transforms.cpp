@@ -191,7 +191,7 @@ struct WaveTransforms<Number>::Implementation {
         const std::int64_t part = one.lines_complex ? 2 : 1;
         const std::int64_t first = last == x ? 0 : piece % blocks(one) * Block::columns;
         Block made;
-        made.number = piece;
+        made.offset = last == x ? layout.row_start(piece) : piece * buffer_size();
         made.axis = last;
         made.is_complex = one.lines_complex;
         made.lines = last == x ? 1 : std::min(Block::columns, one.columns - first) / part;
@@ -202,6 +202,19 @@ struct WaveTransforms<Number>::Implementation {
         made.differences[z] = one.differences[z].data();
         made.gain = one.gain;
         made.waves = waves;
+        return made;
+    }
+
+    /// A row of cells of a species that is not transformed.
+    Block row(const Shape& one, std::int64_t number, std::span<Number* const> cells) const {
+        Block made;
+        made.offset = layout.row_start(number);
+        made.lines = 1;
+        made.count = layout.width;
+        for (std::uint8_t axis = x; axis <= z; ++axis) {
+            made.differences[axis] = one.differences[axis].data();
+        }
+        made.waves = cells;
         return made;
     }
 
@@ -222,14 +235,14 @@ WaveTransforms<Number>::~WaveTransforms() = default;
 
 template <typename Number>
 void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
-                                   std::span<Number* const> from,
+                                   const std::vector<bool>& transformed,
                                    std::span<const std::span<Number* const>> to,
                                    const Visit& visit) const {
     using Axis = typename Implementation::Axis;
     const Implementation& self = *self_;
     const auto for_pieces = [&](Axis axis, const auto& act) {
-        for (std::size_t s = 0; s < from.size(); ++s) {
-            if (from[s] == nullptr) continue;
+        for (std::size_t s = 0; s < transformed.size(); ++s) {
+            if (!transformed[s]) continue;
             const auto& shape = self.shapes[self.shape_of[s]];
             const RowRange own = split_rows(self.pieces(shape, axis), thread, threads);
             for (std::int64_t piece = own.begin; piece < own.end; ++piece) {
@@ -237,25 +250,37 @@ void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
             }
         }
     };
+    std::vector<Number*> waves(to.size());
+    const RowRange own = split_rows(self.layout.row_count(), thread, threads);
+    for (std::size_t s = 0; s < transformed.size(); ++s) {
+        if (transformed[s]) continue;
+        for (std::int64_t row = own.begin; row < own.end; ++row) {
+            for (std::size_t k = 0; k < to.size(); ++k) {
+                waves[k] = to[k][s] + self.layout.row_start(row);
+            }
+            WaveBlock<Number> block = self.row(self.shapes[self.shape_of[s]], row, waves);
+            block.species = s;
+            visit(block);
+        }
+    }
     // Rows are shared as for kernels, columns are not.
     const bool begins_with_rows = self.axes.front() == Axis::x;
     if (!begins_with_rows) team.barrier();
     for (std::size_t n = 0; n + 1 < self.axes.size(); ++n) {
         const Axis axis = self.axes[n];
         for_pieces(axis, [&](const auto& shape, std::size_t s, std::int64_t, std::int64_t start) {
-            shape.forward[axis].run(from[s] + start, from[s] + start);
+            shape.forward[axis].run(to[0][s] + start, to[0][s] + start);
         });
         team.barrier();
     }
     // After the last axis the transform is complete.
     const Axis last = self.axes.back();
     const auto buffer = self.buffer(to.size());
-    std::vector<Number*> waves;
     for (std::size_t k = 0; k < to.size(); ++k) {
-        waves.push_back(buffer.get() + static_cast<std::int64_t>(k) * self.buffer_size());
+        waves[k] = buffer.get() + static_cast<std::int64_t>(k) * self.buffer_size();
     }
     for_pieces(last, [&](const auto& shape, std::size_t s, std::int64_t piece, std::int64_t start) {
-        shape.forward[last].run(from[s] + start, waves[0]);
+        shape.forward[last].run(to[0][s] + start, waves[0]);
         WaveBlock<Number> block = self.block(shape, piece, waves);
         block.species = s;
         visit(block);

@@ -22,7 +22,8 @@ namespace cascade {
 template <typename Number>
 struct WaveBlock {
     std::size_t species = 0;
-    std::int64_t number = 0;  ///< Among the blocks of the species.
+    /// Elements from cell (0, 0, 0) of a plane to those that keep numbers for this block.
+    std::int64_t offset = 0;
     std::int64_t lines = 0, count = 0;
     bool is_complex = false;
     std::uint8_t axis = 0;  ///< The lines run along x (0), y (1) or z (2).
@@ -44,15 +45,15 @@ public:
     ~WaveTransforms();
 
     using Visit = std::function<void(const WaveBlock<Number>& block)>;
-    /// Transforms the planes of `from`, lets `visit` change blocks of waves, and transforms what it
+    /// Transforms the planes of to[0], lets `visit` change blocks of waves, and transforms what it
     /// leaves there into the planes of each of `to`: waves[0] of a block into to[0], and so on.
-    /// Planes are given by the addresses of their cells (0, 0, 0), one for each species. A null
-    /// plane in `from` leaves out its species. `to` may contain `from`.
+    /// Planes are given by the addresses of their cells (0, 0, 0), one for each species. A species
+    /// that is not `transformed` is visited row by row.
     ///
     /// Called by the first `threads` threads of the team, each with its number and otherwise the
     /// same arguments. Each thread reads its rows, as of split_rows(), before the first barrier of
     /// the team, and writes them after the last. Bits do not depend on `threads`.
-    void apply(Team& team, int thread, int threads, std::span<Number* const> from,
+    void apply(Team& team, int thread, int threads, const std::vector<bool>& transformed,
                std::span<const std::span<Number* const>> to, const Visit& visit) const;
 
 private:

@@ -84,7 +84,7 @@ TEST_P(AutomaticSteps, AgreeWithATightAdaptiveSolver) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, AutomaticSteps,
                          ::testing::Values("euler", "symplectic", "rk2", "rk4", "rkl1", "rkl2",
-                                           "imex", "imex2", "gauss"),
+                                           "imex", "etdrk4", "gauss"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(ChosenSteps, AreNoLongerThanTheLargest) {
@@ -109,7 +109,7 @@ TEST(ChosenSteps, AreAsLongAsTheyMayWhereNothingMoves) {
 
 /// Implicit diffusion uses the coefficient of the present step, not that of the first one.
 TEST(ChosenSteps, DoNotShrinkAsDiffusionBecomesFaster) {
-    for (const char* solver : {"imex", "imex2", "gauss"}) {
+    for (const char* solver : {"imex", "etdrk4", "gauss"}) {
         const Ran ran = run_text(script_of("u: random(1, 0.5); k = 0.01 + 0.1 * t; u' = k * lap(u)",
                                            200, fmt::format("solver: {}; speed: auto", solver)));
         EXPECT_EQ(ran.failure, "") << solver;
@@ -154,7 +154,7 @@ TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
           "solver: rk4; speed: 2; iterations: 3000", "solver: rk23; duration: 6000",
           "solver: rkl1; speed: 4; iterations: 1500", "solver: rkl2; speed: 4; iterations: 1500",
           "solver: rkl2; speed: auto; duration: 6000",
-          "solver: imex2; speed: auto; duration: 6000"}) {
+          "solver: etdrk4; speed: auto; duration: 6000"}) {
         const Ran ran = run(settings);
         EXPECT_EQ(ran.failure, "") << settings;
         EXPECT_NEAR(moments(ran.state().species[1]).mean / mean, 1, 0.002) << settings;
@@ -162,7 +162,7 @@ TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
 }
 
 TEST(Invariants, AStageOfNoLengthEndsAtOnce) {
-    for (const char* solver : {"euler", "rk4", "rk23", "rkl1", "rkl2", "imex", "imex2", "gauss"}) {
+    for (const char* solver : {"euler", "rk4", "rk23", "rkl1", "rkl2", "imex", "etdrk4", "gauss"}) {
         const Ran ran = run_text(
             script_of("u: sx; u' = lap(u)", 0, fmt::format("solver: {}; speed: auto", solver)));
         EXPECT_EQ(ran.failure, "") << solver;
@@ -175,7 +175,7 @@ class ChosenStepsRun : public ResumedRunTest {};
 
 /// Also within a stretch of steps between two estimates of an error.
 TEST_F(ChosenStepsRun, ResumeWithTheSameBits) {
-    for (const char* solver : {"euler", "rk4", "rkl1", "imex2"}) {
+    for (const char* solver : {"euler", "rk4", "rkl1", "etdrk4"}) {
         const std::string text =
             script_of(cases[1].rates, 9, fmt::format("solver: {}; speed: auto", solver));
         run_whole(text);

@@ -69,7 +69,7 @@ TEST(Pattern, NoResultDependsOnHowManyStepsAreTakenAtOnce) {
     for (const char* how :
          {"iterations: 90", "iterations: 90; solver: symplectic", "iterations: 60; solver: rk4",
           "iterations: 40; speed: 2; solver: rkl1", "iterations: 40; speed: 2; solver: rkl2",
-          "iterations: 40; solver: imex2", "iterations: 40; solver: gauss",
+          "iterations: 40; solver: etdrk4", "iterations: 40; solver: gauss",
           "duration: 45.5; speed: 0.7", "duration: 40; solver: rk45", "duration: 40; solver: rk23",
           "duration: 40; speed: auto", "duration: 60; speed: auto; solver: rkl2",
           "duration: 60; speed: auto; solver: imex", "iterations: 400; until: steady(0.05)",

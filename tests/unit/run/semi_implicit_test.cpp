@@ -77,11 +77,9 @@ TEST(SemiImplicit, EachWaveIsDampedAsTheFormulaSays) {
         EXPECT_NEAR(Wave::height(implicit.species()), std::pow(1 - h * m, -2), 2e-6) << rate;
         const Ran exact = run_text(Wave::script(rate, "gauss", 0.1 * h, 3));
         EXPECT_NEAR(Wave::height(exact.species()), std::exp(0.3 * h * m), 2e-6) << rate;
-        const Ran second = run_text(Wave::script(rate, "imex2", h, 1));
-        const double gamma = 1 - 1 / std::sqrt(2.0), z = h * m, r = 1 / (1 - gamma * z);
-        const double k1 = z * r, k2 = r * (z * (1 + k1) - 2 * k1);
-        EXPECT_NEAR(Wave::height(second.species()), 1 + 1.5 * k1 + 0.5 * k2, 2e-6) << rate;
-        for (const Ran* ran : {&implicit, &exact, &second}) {
+        const Ran fourth = run_text(Wave::script(rate, "etdrk4", 0.1 * h, 3));
+        EXPECT_NEAR(Wave::height(fourth.species()), std::exp(0.3 * h * m), 2e-6) << rate;
+        for (const Ran* ran : {&implicit, &exact, &fourth}) {
             EXPECT_NEAR(moments(ran->species()).mean, 2, 1e-6) << rate;
         }
     }
@@ -130,7 +128,7 @@ TEST(SemiImplicit, CahnHilliardCoarsensAsWithEuler) {
     // Of first order, and damped by what the steepest cells need: shorter steps for the same
     // course.
     EXPECT_NEAR(wavelength("imex", 0.2, 1000) / euler, 1, 0.12);
-    EXPECT_NEAR(wavelength("imex2", 0.5, 400) / euler, 1, 0.12);
+    EXPECT_NEAR(wavelength("etdrk4", 0.5, 400) / euler, 1, 0.12);
     EXPECT_NEAR(wavelength("gauss", 0.5, 400) / euler, 1, 0.12);
 }
 
@@ -142,7 +140,7 @@ TEST(SemiImplicit, GrowsTheSameSpotsAsEuler) {
             fast(), overrides);
     };
     const Ran euler = spots({});
-    for (const char* solver : {"imex", "imex2", "gauss"}) {
+    for (const char* solver : {"imex", "etdrk4", "gauss"}) {
         Overrides changes;
         changes.solver = solver;
         const Ran found = spots(changes);
@@ -186,12 +184,12 @@ std::string everything(const char* solver) {
         " b >= 3.9\n a.left: fixed(4)\n a.right: fixed(5)\n }}\n"
         "stage one: s {{ solver: {}; {}; iterations: 60 }}\n"
         "domain {{ grid: 145, 139; boundary: noflux, periodic }}\n",
-        solver, std::string_view(solver) == "imex2" ? "speed: 0.5" : "speed: 2");
+        solver, std::string_view(solver) == "etdrk4" ? "speed: 0.5" : "speed: 2");
 }
 
 TEST(SemiImplicit, SameBitsOnEveryBackendAndThread) {
     if (!has_jit()) GTEST_SKIP() << "no native code in this build";
-    for (const char* solver : {"imex", "imex2", "gauss"}) {
+    for (const char* solver : {"imex", "etdrk4", "gauss"}) {
         const Ran expected = run_text(everything(solver));
         EXPECT_EQ(expected.failure, "") << solver;
         for (const int lanes : {4, 16}) {
@@ -211,7 +209,7 @@ class SemiImplicitRun : public ResumedRunTest {};
 
 TEST_F(SemiImplicitRun, ResumesWithTheSameBits) {
     for (const char* settings :
-         {"solver: imex; speed: 3; iterations: 30", "solver: imex2; speed: 2; iterations: 30",
+         {"solver: imex; speed: 3; iterations: 30", "solver: etdrk4; speed: 2; iterations: 30",
           "solver: gauss; speed: auto; duration: 300"}) {
         const std::string text =
             fmt::format("stage one: turing_spots {{ {} }}\ndomain {{ grid: 30, 20 }}", settings);
@@ -226,11 +224,11 @@ TEST_F(SemiImplicitRun, ResumesWithTheSameBits) {
 
 TEST(SemiImplicit, SaysWhatItCannotTake) {
     Overrides changes;
-    changes.solver = "imex2";
+    changes.solver = "etdrk4";
     EXPECT_THAT(faults_of("stage one: turing_spots { speed: 0.5 + x }", changes),
-                HasSubstr("1:34: error: with imex2 the speed is the same in all cells"));
+                HasSubstr("1:34: error: with etdrk4 the speed is the same in all cells"));
     EXPECT_THAT(faults_of("stage one: turing_spots { frozen: x > 0.5 }", changes),
-                HasSubstr("stage 'one' freezes cells, which imex2 cannot"));
+                HasSubstr("stage 'one' freezes cells, which etdrk4 cannot"));
 }
 
 }  // namespace

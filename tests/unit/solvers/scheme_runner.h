@@ -2,6 +2,7 @@
 // written a second time, so that integrators are tested apart from kernels.
 #pragma once
 
+#include "solvers/etd_stages.h"
 #include "solvers/scheme.h"
 
 #include <cstddef>
@@ -55,8 +56,34 @@ public:
     double time() const { return time_; }
 
 private:
+    /// Where there is no diffusion, cells stand for waves.
+    void filter(const SweepFilter& filter) {
+        if (filter.kept.empty()) return;
+        for (std::size_t s = 0; s < registers_[filter.in_register].size(); ++s) {
+            std::vector<double>& rates = registers_[filter.in_register][s];
+            const double none = 0;
+            std::vector<double*> waves{rates.data()};
+            if (filter.error) waves.push_back(registers_[*filter.error][s].data());
+            EtdMemory<double> memory;
+            for (std::size_t k = 0; k < memory.size(); ++k) {
+                memory[k] = registers_[filter.kept[k]][s].data();
+            }
+            std::vector<double> damping;
+            for (std::size_t cell = 0; cell < rates.size(); ++cell) {
+                WaveBlock<double> block;
+                block.lines = block.count = 1;
+                for (const double*& differences : block.differences) differences = &none;
+                block.waves = waves;
+                take_etd_stage(block, {}, filter.response, memory, damping);
+                for (double*& at : waves) ++at;
+                for (double*& at : memory) ++at;
+            }
+        }
+    }
+
     void run(const Sweep& sweep, double step) {
         const SweepForm& form = scheme_.forms[sweep.form];
+        if (sweep.filter) filter(*sweep.filter);
         PlainState evaluated = registers_[sweep.inputs[0]];
         for (std::uint32_t s = 0; s < sweep.renewed; ++s) {
             evaluated[s] = registers_[new_register][s];

@@ -46,7 +46,7 @@ TEST_P(Order, IsWhatItsNameSays) {
 INSTANTIATE_TEST_SUITE_P(Solvers, Order,
                          ::testing::Values(Solver::euler, Solver::symplectic, Solver::rk2,
                                            Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1,
-                                           Solver::rkl2, Solver::imex, Solver::imex2,
+                                           Solver::rkl2, Solver::imex, Solver::etdrk4,
                                            Solver::gauss),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 

@@ -105,7 +105,7 @@ Values filtered(const Domain& domain, const DiffusionSymbol& symbol, WaveRespons
     Number* const cells = plane.origin();
     Team team(threads);
     team.run([&](int thread) {
-        filter.apply(team, thread, threads, std::span(&cells, 1), std::span(&symbol, 1), response,
+        filter.apply(team, thread, threads, {{cells}, {}, {}}, std::span(&symbol, 1), response,
                      length);
     });
     Values result(u.size());

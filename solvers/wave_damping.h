@@ -1,0 +1,42 @@
+// The damping of waves by diffusion (internal to solvers/).
+#pragma once
+
+#include "ir/diffusion.h"
+#include "solvers/wave_transforms.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+/// The diffusion of one species. A wave for which lap is s and dxx, dyy, dzz are s_x, s_y, s_z (all
+/// of them 0 or less) changes at the rate
+///     M = min(0, f[0] s − f[1] s² + f[2] s³ − f[3] s⁴ + f[4] s_x + f[5] s_y + f[6] s_z).
+/// Waves that the factors would make grow are thus left to the explicit part of the step.
+using DiffusionSymbol = DiffusionTerms<double>;
+
+/// −h M for every wave of a line, `f` being the symbol times h.
+template <typename Number>
+void find_damping(const WaveBlock<Number>& block, std::int64_t line,
+                  const DiffusionTerms<Number>& f, std::vector<Number>& found) {
+    const Number* const along = block.differences[block.axis];
+    Number q_of_rest = 0, of_rest = 0;
+    for (std::uint8_t axis = 0; axis < 3; ++axis) {
+        if (axis == block.axis) continue;
+        const Number difference = block.differences[axis][axis == 0 ? line : 0];
+        q_of_rest -= difference;
+        of_rest += f[laplacian_powers + axis] * difference;
+    }
+    const Number of_axis = f[laplacian_powers + block.axis];
+    found.resize(static_cast<std::size_t>(block.count));
+    Number* const damping = found.data();
+    for (std::int64_t n = 0; n < block.count; ++n) {
+        const Number q = q_of_rest - along[n];
+        const Number of_axes = of_axis * along[n] + of_rest;
+        const Number change = of_axes - q * (f[0] + q * (f[1] + q * (f[2] + q * f[3])));
+        damping[n] = std::max(-change, Number{0});
+    }
+}
+
+}  // namespace cascade
