@@ -1,6 +1,8 @@
 // Sets the control register of the floating-point unit.
 #include "core/floating_point.h"
 
+#include <atomic>
+
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #elif !defined(__aarch64__)
@@ -12,9 +14,8 @@ namespace {
 
 #if defined(__x86_64__)
 
-constexpr unsigned long long denormals_are_zero = 1u << 6;
-constexpr unsigned long long flush_to_zero = 1u << 15;
-constexpr unsigned long long rounding_bits = 3u << 13;  // 0 rounds to nearest even.
+constexpr unsigned long long flushing = 1u << 6 | 1u << 15;  // Operands and results.
+constexpr unsigned long long rounding_bits = 3u << 13;       // 0 rounds to nearest even.
 
 unsigned long long read_control() { return _mm_getcsr(); }
 
@@ -25,13 +26,9 @@ void write_control(unsigned long long value) {
     asm volatile("" ::: "memory");
 }
 
-unsigned long long spec_control(unsigned long long control) {
-    return (control & ~rounding_bits) | denormals_are_zero | flush_to_zero;
-}
-
 #else
 
-constexpr unsigned long long flush_to_zero = 1ull << 24;  // Flushes inputs and results.
+constexpr unsigned long long flushing = 1ull << 24;       // Of operands and results.
 constexpr unsigned long long rounding_bits = 3ull << 22;  // 0 rounds to nearest even.
 
 unsigned long long read_control() {
@@ -44,16 +41,21 @@ void write_control(unsigned long long value) {
     asm volatile("msr fpcr, %0" ::"r"(value) : "memory");
 }
 
-unsigned long long spec_control(unsigned long long control) {
-    return (control & ~rounding_bits) | flush_to_zero;
-}
-
 #endif
+
+std::atomic<bool> keeps_denormals = false;
+
+unsigned long long spec_control(unsigned long long control) {
+    const unsigned long long flushed = keeps_denormals ? 0 : flushing;
+    return (control & ~(rounding_bits | flushing)) | flushed;
+}
 
 }  // namespace
 
 FlushDenormals::FlushDenormals() : saved_(read_control()) { write_control(spec_control(saved_)); }
 
 FlushDenormals::~FlushDenormals() { write_control(saved_); }
+
+void keep_denormals() { keeps_denormals = true; }
 
 }  // namespace cascade

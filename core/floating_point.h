@@ -17,4 +17,8 @@ private:
     unsigned long long saved_;
 };
 
+/// From now on FlushDenormals only sets the rounding, in all threads, so that tests can compare
+/// results with those of WebAssembly, which keeps denormal numbers.
+void keep_denormals();
+
 }  // namespace cascade

@@ -4,7 +4,7 @@
 // Sources for everything that depends on where the cells lie.
 #pragma once
 
-#include "ir/cell_kernel.h"
+#include "ir/loop_levels.h"
 
 #include <llvm/Analysis/InstSimplifyFolder.h>
 #include <llvm/IR/IRBuilder.h>
@@ -15,16 +15,6 @@ namespace cascade {
 
 /// The folder knows LLVM's algebra and does not fold where a denormal is involved.
 using Builder = llvm::IRBuilder<llvm::InstSimplifyFolder>;
-
-/// The loop in which a value is computed.
-enum class LoopLevel : std::uint8_t {
-    call,  ///< In none: once in a call. It depends on constants and uniforms alone.
-    row,   ///< Once in a row.
-    cell,  ///< For each vector of cells.
-};
-
-/// The loop level of every instruction of a kernel.
-IdVector<ValueId, LoopLevel> loop_levels_of(const CellKernel& kernel);
 
 /// The sources of one loop level; to ask for one of another level is a mistake of ours. N is the
 /// number of lanes. Of kernels of binary64, read double for float and i64 for i32, here and below.

@@ -1,0 +1,222 @@
+// Lays out the memory of a kernel's call as a host of WebAssembly would.
+#include "tests/wasm/recorded_kernel.h"
+
+#include "core/check.h"
+#include "ir/interpreter.h"
+#include "wasm/kernel_module.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <utility>
+
+namespace cascade::testing {
+namespace {
+
+/// Memory of a module while it is filled. Addresses are aligned to 64 bytes; 0 is none.
+class Image {
+public:
+    template <typename T>
+    std::uint32_t add(const T* data, std::size_t count) {
+        if (!data) return 0;
+        bytes.resize((bytes.size() + alignment - 1) / alignment * alignment);
+        const std::size_t address = bytes.size();
+        bytes.resize(address + count * sizeof(T));
+        std::memcpy(bytes.data() + address, data, count * sizeof(T));
+        return static_cast<std::uint32_t>(address);
+    }
+    template <typename T>
+    std::uint32_t add(const std::vector<T>& list) {
+        return add(list.data(), list.size());
+    }
+
+    static constexpr std::size_t alignment = 64;
+    std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(alignment);
+};
+
+/// A plane, or what becomes of it.
+template <typename T>
+std::vector<T> copy_of(const T* origin, const PlaneLayout& layout) {
+    const T* first = origin - layout.offset(0, 0);
+    return {first, first + layout.size()};
+}
+
+class RecordedKernel final : public Kernel {
+public:
+    RecordedKernel(const CellKernel& kernel, Stencil stencil, Recording recording, CaseFile& file)
+        : stencil_(stencil), recording_(std::move(recording)), file_(file) {
+        interpreted_ = *make_interpreter()->compile(kernel, stencil);
+        const auto module = wasm_module(kernel, stencil, {recording_.is_exact});
+        CHECK(module, "test: a kernel becomes a module");
+        module_ = *module;
+        if (!recording_.is_in_place) return;
+        const auto sole = sole_results(kernel);
+        for (const FieldSlot slot : sole.ids()) {
+            if (sole[slot]) field_of_result_[*sole[slot]] = slot;
+        }
+    }
+
+    void run(const KernelArgumentsOf<float>& arguments, const Patch& cells) const override {
+        record(arguments, cells);
+    }
+    void run(const KernelArgumentsOf<double>& arguments, const Patch& cells) const override {
+        record(arguments, cells);
+    }
+
+private:
+    template <typename Number>
+    struct Result {
+        std::uint32_t address;
+        std::vector<Number> numbers;
+    };
+
+    template <typename Number>
+    void record(const KernelArgumentsOf<Number>& given, const Patch& cells) const {
+        const PlaneLayout& layout = given.layout;
+        const std::size_t first = static_cast<std::size_t>(layout.offset(0, 0));
+        const ColumnRange columns = cells.columns.within(layout.width);
+        Image image;
+        std::vector<std::uint32_t> fields, masks, places;
+        for (const Number* field : given.fields) {
+            fields.push_back(image.add(copy_of(field, layout)));
+        }
+        for (const std::uint8_t* mask : given.masks) {
+            masks.push_back(image.add(copy_of(mask, layout)));
+        }
+        std::vector<Result<Number>> results;
+        for (std::size_t k = 0; k < given.results.size(); ++k) {
+            const auto field = field_of_result_.find(k);
+            if (field != field_of_result_.end()) {
+                results.push_back({fields[field->second.index()],
+                                   copy_of(given.fields[field->second.index()], layout)});
+            } else {
+                const auto before = copy_of<Number>(given.results[k], layout);
+                results.push_back({image.add(before), before});
+            }
+            places.push_back(results.back().address);
+        }
+        const auto origins = [&](std::vector<std::uint32_t> planes, std::size_t bytes) {
+            for (std::uint32_t& plane : planes) plane += static_cast<std::uint32_t>(first * bytes);
+            return image.add(planes);
+        };
+        std::vector<std::uint32_t> shared{origins(fields, sizeof(Number)), origins(masks, 1),
+                                          image.add(given.uniforms.data(), given.uniforms.size()),
+                                          origins(places, sizeof(Number))};
+        for (const std::int64_t count : {columns.begin, columns.end, layout.stride}) {
+            shared.push_back(static_cast<std::uint32_t>(count));
+        }
+        const auto calls = calls_of(shared, given, cells.rows, image);
+
+        interpreted_->run(given, cells);
+        file_.write(recording_.name);
+        file_.write(module_);
+        file_.write(image.bytes);
+        file_.write(static_cast<std::uint32_t>(calls.size()));
+        for (const auto& call : calls) file_.write(call);
+        file_.write(sizeof(Number));
+        file_.write(static_cast<std::uint32_t>(results.size()));
+        for (std::size_t k = 0; k < results.size(); ++k) {
+            std::vector<std::uint8_t> is_free(static_cast<std::size_t>(layout.size()));
+            for (std::int64_t row = cells.rows.begin; row < cells.rows.end; ++row) {
+                const std::int64_t start = layout.row_start(row);
+                constexpr std::int64_t pad = PlaneLayout::row_pad;
+                const std::int64_t end = (columns.end + pad - 1) / pad * pad;
+                for (std::int64_t i = columns.begin; i < end; ++i) {
+                    const std::size_t place = first + static_cast<std::size_t>(start + i);
+                    if (i < columns.end) results[k].numbers[place] = given.results[k][start + i];
+                    is_free[place] = i >= columns.end;
+                }
+            }
+            file_.write(results[k].address);
+            Image expected;
+            expected.bytes.clear();
+            expected.add(results[k].numbers);
+            file_.write(expected.bytes);
+            file_.write(is_free);
+        }
+        ++file_.cases;
+    }
+
+    /// The arguments of all calls, as bytes: in space a call for each slice that has some of the
+    /// rows.
+    template <typename Number>
+    std::vector<std::vector<std::uint8_t>> calls_of(const std::vector<std::uint32_t>& shared,
+                                                    const KernelArgumentsOf<Number>& given,
+                                                    RowRange rows, Image& image) const {
+        std::vector<std::vector<std::uint8_t>> calls;
+        const auto call = [&](std::int64_t begin, std::int64_t end,
+                              const std::vector<std::uint32_t>& more) {
+            std::vector<std::uint32_t> numbers = shared;
+            numbers.push_back(static_cast<std::uint32_t>(begin));
+            numbers.push_back(static_cast<std::uint32_t>(end));
+            numbers.insert(numbers.end(), more.begin(), more.end());
+            std::vector<std::uint8_t>& bytes = calls.emplace_back(4 * numbers.size());
+            std::memcpy(bytes.data(), numbers.data(), bytes.size());
+        };
+        const PlaneLayout& layout = given.layout;
+        if (stencil_.links) {
+            call(rows.begin, rows.end, add_links(given.links, layout, image));
+        } else if (!stencil_.z) {
+            call(rows.begin, rows.end, {});
+        } else {
+            while (!rows.empty()) {
+                const std::int64_t slice = rows.begin / layout.height;
+                const std::int64_t end = std::min(rows.end, (slice + 1) * layout.height);
+                const std::int64_t halo_rows = slice * (layout.slice_rows() - layout.height);
+                call(rows.begin + halo_rows, end + halo_rows,
+                     {static_cast<std::uint32_t>(layout.slice_rows()),
+                      static_cast<std::uint32_t>(slice)});
+                rows.begin = end;
+            }
+        }
+        return calls;
+    }
+
+    template <typename Number>
+    static std::vector<std::uint32_t> add_links(const LinkTable<Number>& links,
+                                                const PlaneLayout& layout, Image& image) {
+        constexpr std::int64_t cells = LinkTable<Number>::slice_cells;
+        const std::int64_t slices = (layout.width + cells - 1) / cells * layout.height;
+        const std::size_t entries = links.starts[slices];
+        const std::size_t count = entries * static_cast<std::size_t>(cells);
+        return {image.add(links.starts, static_cast<std::size_t>(slices + 1)),
+                image.add(links.bases, entries),
+                image.add(links.offsets, count),
+                image.add(links.weights, count),
+                image.add(links.gradients[0], count),
+                image.add(links.gradients[1], count),
+                image.add(links.gradients[2], count)};
+    }
+
+    Stencil stencil_;
+    Recording recording_;
+    CaseFile& file_;
+    KernelPointer interpreted_;
+    std::vector<std::uint8_t> module_;
+    std::map<std::size_t, FieldSlot> field_of_result_;
+};
+
+}  // namespace
+
+CaseFile::CaseFile(const std::string& path) : file_(std::fopen(path.c_str(), "wb")) {
+    CHECK(file_, "test: the file of cases can be written");
+}
+
+CaseFile::~CaseFile() { CHECK(std::fclose(file_) == 0, "test: the cases are written"); }
+
+void CaseFile::write(std::uint32_t number) {
+    CHECK(std::fwrite(&number, sizeof(number), 1, file_) == 1, "test: the cases are written");
+}
+
+void CaseFile::write(const std::vector<std::uint8_t>& bytes) {
+    write(static_cast<std::uint32_t>(bytes.size()));
+    CHECK(std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size(),
+          "test: the cases are written");
+}
+
+KernelPointer recorded_kernel(const CellKernel& kernel, Stencil stencil, const Recording& recording,
+                              CaseFile& file) {
+    return std::make_shared<RecordedKernel>(kernel, stencil, recording, file);
+}
+
+}  // namespace cascade::testing

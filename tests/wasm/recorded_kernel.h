@@ -1,0 +1,49 @@
+// A kernel that writes down what it is given and what it computes, with a WebAssembly module that
+// shall compute the same: a case for tests/wasm/run_cases.mjs.
+#pragma once
+
+#include "ir/backend.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace cascade::testing {
+
+/// Cases in a file. A case is numbers of 32 bits, little endian, and lists after their length:
+///
+/// - its name and the bytes of the module;
+/// - the memory before the calls, beginning at address 0;
+/// - the number of calls, and the list of arguments of each;
+/// - the bytes of a number, the number of results, and for each its address, the list of bytes at
+///   this address after the calls, and a list with 1 for each number that may be anything.
+class CaseFile {
+public:
+    explicit CaseFile(const std::string& path);
+    ~CaseFile();
+    CaseFile(const CaseFile&) = delete;
+
+    void write(std::uint32_t number);
+    void write(const std::vector<std::uint8_t>& bytes);
+    void write(const std::string& text) {
+        write(std::vector<std::uint8_t>(text.begin(), text.end()));
+    }
+    int cases = 0;
+
+private:
+    std::FILE* file_;
+};
+
+/// How a kernel is recorded.
+struct Recording {
+    std::string name;
+    bool is_exact = false;
+    bool is_in_place = false;  ///< Results overwrite fields where they may.
+};
+
+/// Runs a kernel by the interpreter. Each run adds a case to the file, which must live longer.
+KernelPointer recorded_kernel(const CellKernel& kernel, Stencil stencil, const Recording& recording,
+                              CaseFile& file);
+
+}  // namespace cascade::testing

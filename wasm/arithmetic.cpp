@@ -1,0 +1,83 @@
+// Products and quotients may be denormal and inexact. One just below the least normal number would
+// be rounded up to it, although x86 flushes it. Hence such an operation is also done with larger
+// operands, whose result is normal and rounded to all digits, and tells what to flush.
+//
+// The larger operands overflow only where the result is far from being denormal, since no operand
+// is denormal, or where it is zero; then what tells is infinite or NaN, and nothing is flushed.
+#include "wasm/arithmetic.h"
+
+#include <cmath>
+
+namespace cascade::wasm {
+namespace {
+
+/// A power of two by which two factors are enlarged.
+int enlarging_power(Precision precision) { return precision == Precision::single ? 32 : 256; }
+
+}  // namespace
+
+// Sums are exact where they are denormal.
+void Arithmetic::add() {
+    code_.write(Lanes::add);
+    flush();
+}
+
+void Arithmetic::subtract() {
+    code_.write(Lanes::subtract);
+    flush();
+}
+
+void Arithmetic::multiply() {
+    if (!is_exact_) return code_.write(Lanes::multiply);
+    const int power = enlarging_power(function_.precision());
+    with_larger_operands(Lanes::multiply, power, power);
+}
+
+void Arithmetic::divide() {
+    if (!is_exact_) return code_.write(Lanes::divide);
+    with_larger_operands(Lanes::divide, 2 * enlarging_power(function_.precision()), 0);
+}
+
+void Arithmetic::flush() {
+    if (!is_exact_) return;
+    const Local number = function_.keep(level_);
+    code_.get(number);
+    code_.get(number);
+    function_.give_back(number, level_);
+    flush_below(0);
+}
+
+/// The result for operands that are larger by powers of two is larger by both together.
+void Arithmetic::with_larger_operands(Lanes operation, int first_power, int second_power) {
+    const Local second = function_.keep(level_), first = function_.keep(level_);
+    code_.get(first);
+    code_.get(second);
+    code_.write(operation);
+    const auto larger = [&](Local operand, int power) {
+        code_.get(operand);
+        if (power == 0) return;
+        code_.get(function_.number(std::ldexp(1.0, power)));
+        code_.write(Lanes::multiply);
+    };
+    larger(first, first_power);
+    larger(second, second_power);
+    code_.write(operation);
+    function_.give_back(first, level_);
+    function_.give_back(second, level_);
+    flush_below(first_power + second_power);
+}
+
+/// On top of the stack are a number and what it would be if it were larger by a power of two.
+/// Leaves the number, or a zero of its sign if the larger one says that it is below the least
+/// normal number.
+void Arithmetic::flush_below(int power) {
+    const WordFormat format = function_.format();
+    code_.write(Lanes::absolute);
+    code_.get(function_.number(std::ldexp(1.0, 1 - format.bias + power)));
+    code_.write(Lanes::less);
+    code_.get(function_.constant(format.all() ^ format.sign()));
+    code_.write(Whole::bits_and);
+    code_.write(Whole::bits_and_not);
+}
+
+}  // namespace cascade::wasm

@@ -1,0 +1,253 @@
+// Instructions for each operation, and how values get from one form to another.
+#include "wasm/body.h"
+
+#include "core/check.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace cascade::wasm {
+namespace {
+
+std::span<const ValueId> operands_of(const Instruction& instruction) {
+    return std::span(instruction.operands)
+        .first(static_cast<std::size_t>(info(instruction.op).arity));
+}
+
+/// Whether the result may be a denormal number although exact arithmetic flushes.
+bool passes_words(Op op) {
+    return op == Op::field || op == Op::neighbour || op == Op::uniform ||
+           (op >= Op::cell_column && op <= Op::cell_slice) || op == Op::negate ||
+           op == Op::absolute || op == Op::select ||
+           (op >= Op::bits_add && op <= Op::bits_shift_right);
+}
+
+}  // namespace
+
+Body::Body(const CellKernel& kernel, Function& function, Cells& cells, bool is_exact)
+    : kernel_(kernel),
+      function_(function),
+      cells_(cells),
+      is_exact_(is_exact),
+      levels_(loop_levels_of(kernel)),
+      readers_(kernel.code.size()),
+      values_(kernel.code.size()) {
+    for (const ValueId id : kernel_.results) ++readers_[id];
+    for (const ValueId id : kernel_.code.ids_backwards()) {
+        if (readers_[id] == 0) continue;
+        for (const ValueId operand : operands_of(kernel_.code[id])) ++readers_[operand];
+    }
+}
+
+void Body::write(LoopLevel level) {
+    level_ = level;
+    readers_to_come_ = readers_;
+    for (const ValueId id : kernel_.code.ids()) {
+        if (levels_[id] != level || readers_[id] == 0) continue;
+        const Instruction& instruction = kernel_.code[id];
+        values_[id] = value_of(instruction);
+        for (const ValueId operand : operands_of(instruction)) release(operand);
+    }
+}
+
+void Body::write_vector() {
+    write(LoopLevel::cell);
+    for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
+        const ValueId id = kernel_.results[k];
+        cells_.store(k, number(id));
+        release(id);
+    }
+}
+
+void Body::release(ValueId id) {
+    if (levels_[id] != LoopLevel::cell || --readers_to_come_[id] > 0) return;
+    Value& value = values_[id];
+    const auto give_back = [&](std::optional<Local> local) {
+        if (local) function_.give_back(*local);
+    };
+    if (!value.is_of_source) give_back(value.is_boolean ? value.truth : value.number);
+    give_back(value.is_boolean ? value.number : value.truth);
+    give_back(value.operand);
+    value = {};
+}
+
+Local Body::number(ValueId id) {
+    Value& value = values_[id];
+    if (!value.number) {
+        Code& own = function_.at(levels_[id]);
+        own.get(*value.truth);
+        own.get(function_.constant(function_.format().one()));
+        own.write(Whole::bits_and);
+        value.number = function_.keep(levels_[id]);
+    }
+    return *value.number;
+}
+
+Local Body::operand(ValueId id) {
+    Value& value = values_[id];
+    if (!is_exact_ || !value.may_be_denormal) return number(id);
+    if (!value.operand) {
+        function_.at(levels_[id]).get(number(id));
+        Arithmetic(function_, levels_[id], is_exact_).flush();
+        value.operand = function_.keep(levels_[id]);
+    }
+    return *value.operand;
+}
+
+// Denormal numbers are not true, as in is_true() of ir/word_operations.h.
+Local Body::truth(ValueId id) {
+    Value& value = values_[id];
+    if (!value.truth) {
+        const WordFormat format = function_.format();
+        Code& own = function_.at(levels_[id]);
+        own.get(number(id));
+        own.get(function_.constant(format.all() ^ format.sign()));
+        own.write(Whole::bits_and);
+        own.get(function_.constant(format.fraction() + 1));
+        own.write(Lanes::word_greater_equal);
+        value.truth = function_.keep(levels_[id]);
+    }
+    return *value.truth;
+}
+
+Body::Value Body::value_of(const Instruction& instruction) {
+    const Op op = instruction.op;
+    Value value;
+    value.may_be_denormal = passes_words(op);
+    value.is_boolean = op == Op::mask || (op >= Op::less && op <= Op::logical_not);
+    std::optional<Local> local = source(instruction);
+    value.is_of_source = local.has_value();
+    if (op == Op::constant)
+        value.may_be_denormal = function_.format().is_denormal(instruction.payload);
+    if (!local) {
+        push(instruction);
+        local = keep();
+    }
+    (value.is_boolean ? value.truth : value.number) = local;
+    return value;
+}
+
+std::optional<Local> Body::source(const Instruction& instruction) {
+    switch (instruction.op) {
+        case Op::constant: return function_.constant(instruction.payload);
+        case Op::field: return cells_.field(instruction.field());
+        case Op::laplacian: return cells_.laplacian(instruction.field());
+        case Op::neighbour: return cells_.neighbour(Neighbour::of(instruction.slot()));
+        case Op::link_flow:
+        case Op::link_squares:
+        case Op::gradient_x:
+        case Op::gradient_y:
+        case Op::gradient_z: return cells_.link_sum(instruction);
+        case Op::mask: return cells_.mask(MaskSlot(instruction.slot()));
+        case Op::uniform: return cells_.uniform(UniformSlot(instruction.slot()));
+        case Op::cell_column: return cells_.cell_column();
+        case Op::cell_row: return cells_.cell_row();
+        case Op::cell_slice: return cells_.cell_slice();
+        default: return std::nullopt;
+    }
+}
+
+/// Leaves the result on the stack; of comparisons and logic its truth.
+void Body::push(const Instruction& instruction) {
+    const auto [a, b, c] = instruction.operands;
+    switch (instruction.op) {
+        case Op::add: push_operands(a, b); return arithmetic().add();
+        case Op::subtract: push_operands(a, b); return arithmetic().subtract();
+        case Op::multiply: push_operands(a, b); return arithmetic().multiply();
+        case Op::divide: push_operands(a, b); return arithmetic().divide();
+        case Op::negate: return push_words(Lanes::negate, {a});
+        case Op::absolute: return push_words(Lanes::absolute, {a});
+        case Op::square_root: return push_numbers(Lanes::square_root, {a});
+        case Op::round_to_even: return push_numbers(Lanes::nearest, {a});
+        case Op::scale_by_power: return push_scaled(a, b);
+        case Op::less: return push_numbers(Lanes::less, {a, b});
+        case Op::less_equal: return push_numbers(Lanes::less_equal, {a, b});
+        case Op::equal: return push_numbers(Lanes::equal, {a, b});
+        case Op::not_equal: return push_numbers(Lanes::not_equal, {a, b});
+        case Op::logical_and: return push_truths(Whole::bits_and, {a, b});
+        case Op::logical_or: return push_truths(Whole::bits_or, {a, b});
+        case Op::logical_not: return push_truths(Whole::bits_not, {a});
+        case Op::select:
+            code().get(number(b));
+            code().get(number(c));
+            code().get(truth(a));
+            return code().write(Whole::choose);
+        case Op::bits_add: return push_words(Lanes::word_add, {a, b});
+        case Op::bits_subtract: return push_words(Lanes::word_subtract, {a, b});
+        case Op::bits_multiply: return push_words(Lanes::word_multiply, {a, b});
+        case Op::bits_and: return push_words(Whole::bits_and, {a, b});
+        case Op::bits_or: return push_words(Whole::bits_or, {a, b});
+        case Op::bits_xor: return push_words(Whole::bits_xor, {a, b});
+        case Op::bits_shift_left:
+        case Op::bits_shift_right: return push_shifted(instruction);
+        case Op::bits_to_number: return push_converted(a);
+        default: CHECK(false, "an operation of the table that WebAssembly has");
+    }
+}
+
+// As scale_by_power() of ir/word_operations.h.
+void Body::push_scaled(ValueId a, ValueId b) {
+    const WordFormat format = function_.format();
+    code().get(operand(b));
+    code().get(function_.number(std::ldexp(1.5, format.fraction_bits) + 2 * format.bias));
+    code().write(Lanes::add);
+    const Local sum = keep();
+    code().get(sum);
+    push_shift(Lanes::word_shift_right, 1);
+    const Local half = keep();
+    code().get(operand(a));
+    code().get(half);
+    push_shift(Lanes::word_shift_left, format.fraction_bits);
+    arithmetic().multiply();
+    code().get(sum);
+    code().get(half);
+    code().write(Lanes::word_subtract);
+    push_shift(Lanes::word_shift_left, format.fraction_bits);
+    arithmetic().multiply();
+    function_.give_back(sum, level_);
+    function_.give_back(half, level_);
+}
+
+void Body::push_shift(Lanes shift, int amount) {
+    code().integer(amount);
+    code().write(shift);
+}
+
+// A vector has one amount for all lanes; other amounts are taken lane by lane.
+void Body::push_shifted(const Instruction& instruction) {
+    const auto [a, b, unused] = instruction.operands;
+    const bool is_left = instruction.op == Op::bits_shift_left;
+    const bool is_single = function_.precision() == Precision::single;
+    const Local words = number(a);
+    code().get(words);
+    if (kernel_.code[b].op == Op::constant) {
+        return push_shift(is_left ? Lanes::word_shift_left : Lanes::word_shift_right,
+                          static_cast<int>(kernel_.code[b].payload));
+    }
+    const Local amounts = number(b);
+    for (int lane = 0; lane < function_.lanes(); ++lane) {
+        for (const Local from : {words, amounts}) {
+            code().get(from);
+            code().write(Lanes::word_extract, lane);
+        }
+        code().write(is_single ? is_left ? Plain::shift_left : Plain::shift_right
+                     : is_left ? Plain::long_shift_left
+                               : Plain::long_shift_right);
+        code().write(Lanes::word_replace, lane);
+    }
+}
+
+// There is no instruction for vectors of words of 64 bits.
+void Body::push_converted(ValueId a) {
+    code().get(number(a));
+    if (function_.precision() == Precision::single) return code().write(Whole::numbers_of_words);
+    for (int lane = 0; lane < function_.lanes(); ++lane) {
+        code().get(number(a));
+        code().write(Lanes::word_extract, lane);
+        code().write(Plain::long_to_number);
+        code().write(Lanes::replace, lane);
+    }
+}
+
+}  // namespace cascade::wasm

@@ -1,0 +1,147 @@
+// What a kernel's operations without operands read, and where its results go.
+//
+// Internal to wasm/. A group of vectors of cells is computed together; then the loop goes on to the
+// next group. Addresses of rows belong to the group, what was loaded to the vector.
+#pragma once
+
+#include "core/grid.h"
+#include "ir/cell_kernel.h"
+#include "wasm/arithmetic.h"
+#include "wasm/function.h"
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace cascade::wasm {
+
+/// The parameters of a kernel's function, in their order: see wasm/kernel_module.h.
+enum class Parameter : std::uint32_t {
+    fields,
+    masks,
+    uniforms,
+    results,
+    column_begin,
+    column_end,
+    stride,
+    row_begin,
+    row_end,
+    shared_parameters,
+    // Of grids of several slices.
+    slice_rows = shared_parameters,
+    slice,
+    volume_parameters,
+    // Of linked cells.
+    starts = shared_parameters,
+    bases,
+    offsets,
+    weights,
+    gradient_x,
+    gradient_y,
+    gradient_z,
+    linked_parameters,
+};
+constexpr Local local_of(Parameter parameter) {
+    return Local(static_cast<std::uint32_t>(parameter));
+}
+
+/// The place of the loops: bytes from cell (0, 0, 0) of a plane of numbers.
+struct Place {
+    Local row;    ///< Of the row's first cell.
+    Local group;  ///< Of the group's first cell.
+};
+
+class Cells {
+public:
+    Cells(Function& function, const CellKernel& kernel, Stencil stencil, Place place, bool is_exact)
+        : function_(function),
+          kernel_(kernel),
+          stencil_(stencil),
+          place_(place),
+          is_exact_(is_exact) {}
+    virtual ~Cells() = default;
+
+    /// The following is about a vector of the group, by its number.
+    void begin_vector(int number);
+    void end_vector();
+
+    // The local that has the source's value in all lanes, until the end of the vector. A mask's has
+    // the bits of lanes set or clear.
+    Local uniform(UniformSlot slot);
+    Local cell_row();
+    Local cell_slice();
+    Local cell_column();
+    Local mask(MaskSlot slot);
+    Local field(FieldSlot slot) { return load({slot}); }
+    Local neighbour(Neighbour at);
+    virtual Local laplacian(FieldSlot slot) = 0;
+    /// All but `laplacian`.
+    virtual Local link_sum(const Instruction& sum) = 0;
+
+    void store(std::size_t result, Local number);
+
+protected:
+    /// A field, and the numbers of columns, rows and slices from the cell to what is read.
+    struct Reading {
+        FieldSlot slot;
+        int dx = 0, dy = 0, dz = 0;
+        friend auto operator<=>(const Reading&, const Reading&) = default;
+    };
+
+    Code& code() { return function_.at(LoopLevel::cell); }
+    Arithmetic arithmetic() { return {function_, LoopLevel::cell, is_exact_}; }
+    /// Reads what is read in a loop of its own.
+    virtual void begin_cells() {}
+
+    Local load(const Reading& reading);
+    /// The same as an operand of arithmetic.
+    Local operand(const Reading& reading);
+    /// The address of a plane in a table, of numbers pad_bytes() before its first cell.
+    Local plane(Parameter table, std::size_t slot);
+    /// Addresses of planes are that many bytes before the first cell, so that what is read west of
+    /// a cell has no negative offset.
+    std::uint32_t pad_bytes() const {
+        return static_cast<std::uint32_t>(PlaneLayout::row_pad * function_.number_bytes());
+    }
+    /// What is on top of the stack, until the end of the vector.
+    Local keep();
+    /// Puts the number of columns from the row's first cell to the vector's on the stack.
+    void push_column();
+
+    Function& function_;
+    const CellKernel& kernel_;
+    Stencil stencil_;
+    Place place_;
+    bool is_exact_;
+    int vector_ = 0;  ///< Its number in the group.
+
+private:
+    struct RowOfPlane {
+        Parameter table;
+        std::size_t slot;
+        int dy = 0, dz = 0;
+        friend auto operator<=>(const RowOfPlane&, const RowOfPlane&) = default;
+    };
+
+    std::uint32_t offset_of_vector() const {
+        return static_cast<std::uint32_t>(vector_ * Code::vector_bytes);
+    }
+    Local address(const RowOfPlane& row);
+    Local row_offset(int dy, int dz);
+    void splat_word(Code& code);
+
+    std::map<std::pair<Parameter, std::size_t>, Local> planes_;
+    std::map<std::pair<int, int>, Local> row_offsets_;
+    std::map<RowOfPlane, Local> addresses_;  ///< Of the group.
+    std::map<Reading, Local> loads_, operands_;
+    std::vector<Local> kept_;  ///< Of the vector.
+};
+
+std::unique_ptr<Cells> make_grid_cells(Function& function, const CellKernel& kernel,
+                                       Stencil stencil, Place place, bool is_exact);
+std::unique_ptr<Cells> make_linked_cells(Function& function, const CellKernel& kernel, Place place,
+                                         bool is_exact);
+
+}  // namespace cascade::wasm

@@ -1,0 +1,72 @@
+// A function while it is written: its locals, its constants, and the code of each loop level.
+//
+// Internal to wasm/. Each level has code of its own, so that what is the same in all cells can
+// still be added before the loops when a cell asks for it.
+#pragma once
+
+#include "ir/loop_levels.h"
+#include "ir/word_format.h"
+#include "wasm/code.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace cascade::wasm {
+
+enum class LocalType : std::uint8_t { vector = 0x7b, integer = 0x7f };
+
+class Function {
+public:
+    /// All parameters are integers of 32 bits.
+    Function(Precision precision, std::uint32_t parameters)
+        : precision_(precision),
+          parameters_(parameters),
+          codes_{Code(precision), Code(precision), Code(precision)} {}
+
+    Precision precision() const { return precision_; }
+    WordFormat format() const { return format_of(precision_); }
+    int number_bytes() const { return static_cast<int>(bytes_of(precision_)); }
+    /// The binary logarithm of that.
+    int number_shift() const { return precision_ == Precision::single ? 2 : 3; }
+    int lanes() const { return Code::vector_bytes / number_bytes(); }
+
+    Code& at(LoopLevel level) { return codes_[static_cast<std::size_t>(level)]; }
+
+    /// A local that may be written to at this level.
+    Local take(LoopLevel level, LocalType type = LocalType::vector);
+    /// Locals of cells are used again; those of outer levels keep their values for all cells.
+    void give_back(Local local, LoopLevel level = LoopLevel::cell);
+    /// Moves what is on top of the stack to a local.
+    Local keep(LoopLevel level, LocalType type = LocalType::vector) {
+        const Local local = take(level, type);
+        at(level).set(local);
+        return local;
+    }
+    /// A vector with the same word in all lanes.
+    Local constant(std::uint64_t word);
+    /// The same of a number, which is rounded.
+    Local number(double value) { return constant(word_of(value, precision_)); }
+
+    /// A vector with the words 0, 1, 2, ….
+    Local lane_numbers();
+
+    /// The function as the binary format has it: its locals, then this code.
+    Bytes with_locals(const Code& code) const;
+
+private:
+    Local declare(LocalType type);
+    std::vector<Local>& free_of(LocalType type) { return free_[type == LocalType::vector]; }
+
+    Precision precision_;
+    std::uint32_t parameters_;
+    std::array<Code, 3> codes_;  ///< By loop level.
+    std::vector<LocalType> types_;
+    std::array<std::vector<Local>, 2> free_;
+    std::map<std::uint64_t, Local> constants_;
+    std::optional<Local> lane_numbers_;
+};
+
+}  // namespace cascade::wasm

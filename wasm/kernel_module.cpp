@@ -1,0 +1,150 @@
+// The loops over rows and cells, and the sections of the module: WebAssembly Core Specification
+// 2.0, section 5.5.
+#include "wasm/kernel_module.h"
+
+#include "ir/multiply_add.h"
+#include "wasm/body.h"
+
+namespace cascade {
+namespace wasm {
+namespace {
+
+constexpr std::size_t most_instructions = 20000;
+
+/// Vectors that are computed before the loop goes on, so that counting and addresses take little
+/// time: at most one row pad, which a kernel may write after the last cell.
+int vectors_of_group(const CellKernel& kernel) {
+    constexpr std::size_t most_together = 512;
+    const std::size_t size = kernel.code.size();
+    return 4 * size <= most_together ? 4 : 2 * size <= most_together ? 2 : 1;
+}
+
+std::uint32_t parameter_count(Stencil stencil) {
+    return static_cast<std::uint32_t>(stencil.links ? Parameter::linked_parameters
+                                      : stencil.z   ? Parameter::volume_parameters
+                                                    : Parameter::shared_parameters);
+}
+
+/// Puts the bytes from the first cell of the plane to a column of the present row on the stack.
+void push_place(Code& code, const Function& function, Local row, Parameter column) {
+    code.get(row);
+    code.get(local_of(column));
+    code.integer(function.number_shift());
+    code.write(Plain::shift_left);
+    code.write(Plain::add);
+}
+
+Bytes kernel_function(const CellKernel& kernel, Stencil stencil, bool is_exact) {
+    Function function(kernel.precision, parameter_count(stencil));
+    const auto integer = [&] { return function.take(LoopLevel::row, LocalType::integer); };
+    const Place place{integer(), integer()};
+    const Local end = integer(), row = local_of(Parameter::row_begin);
+    const auto cells = stencil.links ? make_linked_cells(function, kernel, place, is_exact)
+                                     : make_grid_cells(function, kernel, stencil, place, is_exact);
+    Body body(kernel, function, *cells, is_exact);
+    body.write(LoopLevel::call);
+    body.write(LoopLevel::row);
+    const int vectors = vectors_of_group(kernel);
+    for (int vector = 0; vector < vectors; ++vector) {
+        cells->begin_vector(vector);
+        body.write_vector();
+        cells->end_vector();
+    }
+
+    Code code(kernel.precision);
+    code.write(function.at(LoopLevel::call));
+    code.open(Plain::block);
+    code.get(row);
+    code.get(local_of(Parameter::row_end));
+    code.write(Plain::greater_equal);
+    code.branch_if();
+    code.open(Plain::loop);
+    code.get(row);
+    code.get(local_of(Parameter::stride));
+    code.write(Plain::multiply);
+    code.integer(function.number_shift());
+    code.write(Plain::shift_left);
+    code.set(place.row);
+    push_place(code, function, place.row, Parameter::column_begin);
+    code.set(place.group);
+    push_place(code, function, place.row, Parameter::column_end);
+    code.set(end);
+    code.write(function.at(LoopLevel::row));
+    code.open(Plain::loop);
+    code.write(function.at(LoopLevel::cell));
+    code.get(place.group);
+    code.integer(vectors * Code::vector_bytes);
+    code.write(Plain::add);
+    code.tee(place.group);
+    code.get(end);
+    code.write(Plain::less_unsigned);
+    code.branch_if();
+    code.close();
+    code.get(row);
+    code.integer(1);
+    code.write(Plain::add);
+    code.tee(row);
+    code.get(local_of(Parameter::row_end));
+    code.write(Plain::less);
+    code.branch_if();
+    code.close();
+    code.close();
+    code.close();  // The function.
+    return function.with_locals(code);
+}
+
+enum class Section : std::uint8_t {
+    types = 1,
+    imports = 2,
+    functions = 3,
+    exports = 7,
+    codes = 10
+};
+
+/// A section of one entry.
+void append_section(Bytes& to, Section section, const Bytes& entry) {
+    Bytes content{1};
+    append(content, entry);
+    to.push_back(static_cast<std::uint8_t>(section));
+    append_sized(to, content);
+}
+
+/// A module with one function, which is exported, and the memory of its host.
+Bytes module_of(const Bytes& function, std::uint32_t parameters) {
+    constexpr std::uint8_t function_type = 0x60, is_function = 0x00, is_memory = 0x02;
+    Bytes type{function_type};
+    append_sized(type, Bytes(parameters, static_cast<std::uint8_t>(LocalType::integer)));
+    type.push_back(0);  // Results.
+    Bytes memory;
+    append_name(memory, "env");
+    append_name(memory, "memory");
+    append(memory, {is_memory, 0, 0});  // Of at least no pages, and any number.
+    Bytes exported;
+    append_name(exported, "run");
+    append(exported, {is_function, 0});
+    Bytes code;
+    append_sized(code, function);
+
+    Bytes module{0, 'a', 's', 'm', 1, 0, 0, 0};
+    append_section(module, Section::types, type);
+    append_section(module, Section::imports, memory);
+    append_section(module, Section::functions, {0});
+    append_section(module, Section::exports, exported);
+    append_section(module, Section::codes, code);
+    return module;
+}
+
+}  // namespace
+}  // namespace wasm
+
+Result<std::vector<std::uint8_t>> wasm_module(const CellKernel& kernel, Stencil stencil,
+                                              const WasmOptions& options) {
+    if (multiplies_and_adds(kernel)) return failure("WebAssembly has no multiply-add");
+    if (kernel.code.size() > wasm::most_instructions) {
+        return failure("the kernel is too large to be compiled");
+    }
+    return wasm::module_of(wasm::kernel_function(kernel, stencil, options.is_exact),
+                           wasm::parameter_count(stencil));
+}
+
+}  // namespace cascade
