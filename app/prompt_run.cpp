@@ -97,7 +97,7 @@ Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) co
             return tl::unexpected(started.error());
         }
         const bool is_done = state.steps >= after.stages[k].iterations;
-        simulation.restore(k, {copies(state.species), state.steps, is_done, false, {}});
+        simulation.restore(k, {copies(state.species), state.steps, state.t, is_done, false, {}});
     }
     return created;
 }

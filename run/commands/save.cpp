@@ -242,11 +242,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (auto started = simulation.start_stage(k); !started) return started;
             auto species = read_species(folder, *json, simulation, k);
             if (!species) return tl::unexpected(species.error());
-            StageMoment moment{std::move(*species), steps, done, condition_met, {}};
-            if (!stages[k].contains("time")) {
-                simulation.restore(k, std::move(moment));
-                continue;
-            }
+            StageMoment moment{std::move(*species), steps, 0, done, condition_met, {}};
             const auto time =
                 saved_time_from(stages[k].at("time"), script.program->stages[k].time.solver);
             if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
@@ -259,7 +255,8 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
                 }
                 watch.remember(std::move(*looked_at), *time->last_look, time->formations);
             }
-            moment.time = {time->t, time->state, std::move(watch)};
+            moment.t = time->t;
+            moment.memory = {time->state, std::move(watch)};
             simulation.restore(k, std::move(moment));
         }
     } catch (const nlohmann::json::exception&) {

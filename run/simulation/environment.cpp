@@ -58,6 +58,11 @@ Result<void> check_memory_of(Environment& here, std::uint64_t limit) {
 Result<void> make_cells(Environment& here, Script& script, const SimulationOptions& options,
                         RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
+    if (options.known_model) {
+        here.model = options.known_model;
+        here.grid = here.model->grid;
+        return {};
+    }
     Team makers(here.threads);
     bool is_refused = false;  // By a check, which says why.
     const auto check = [&](const SurfaceMesh& mesh) {

@@ -159,12 +159,32 @@ void Simulation::restore(std::uint32_t stage, StageMoment moment) {
     CHECK(moment.species.size() == state.species.size(), "every species of the stage is given");
     state.species = std::move(moment.species);
     state.course = {};
-    state.go_to(moment.steps, moment.time ? moment.time->t : state.t);
+    state.go_to(moment.steps, moment.t);
     state.done = moment.done;
     state.condition_met = moment.condition_met;
-    if (!moment.time) return;
-    state.time = moment.time->state;
-    state.watch = std::move(moment.time->watch);
+    state.time = {};
+    state.watch = {};
+    if (!moment.memory) return;
+    state.time = moment.memory->time;
+    state.watch = std::move(moment.memory->watch);
+}
+
+void Simulation::end_stage(std::uint32_t stage) {
+    self_->end_run();
+    self_->states[stage].done = true;
+}
+
+void Simulation::set_field(std::uint32_t stage, ItemId item, Field values) {
+    self_->end_run();
+    StageState& state = self_->states[stage];
+    const System& system = program().system_of(stage);
+    if (const auto species = state.species_of_item[item]) {
+        state.species[species->index()] = std::move(values);
+        return;
+    }
+    CHECK(!program().stages[stage].uniform[item], "only an item that varies has a field");
+    if (item == system.frozen_item()) state.frozen = to_mask(values);
+    state.fields[item] = std::move(values);
 }
 
 std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t stage) const {

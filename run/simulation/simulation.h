@@ -53,6 +53,8 @@ struct SimulationOptions {
     /// waiting is faster. Affects the time of a step, but no result.
     bool starts_interpreted = false;
     std::uint64_t memory_limit = 0;  ///< The most bytes for all fields; 0: the free memory.
+    /// The cells of the script's model, where another simulation has made them; else null.
+    std::shared_ptr<const ModelCells> known_model = nullptr;
     /// The choice of operands that are written to planes. No result depends on it.
     PlanOptions planning = {Materialise::when_cheaper, false, true};
     /// The tiling; none: chosen by size and by time. No result depends on it.
@@ -68,16 +70,17 @@ enum class StageEnd { finished, stopped, cancelled };
 
 /// A moment of a stage from which its run can go on.
 struct StageMoment {
-    struct Time {
-        double t = 0;
-        TimeState state;
+    /// What steps of chosen length and `until: steady(…)` remember.
+    struct Memory {
+        TimeState time;
         SteadyWatch watch;
     };
     std::vector<Field> species;
     std::int64_t steps = 0;  ///< That are complete.
+    double t = 0;            ///< The stage's time.
     bool done = false;
-    bool condition_met = false;  ///< Was it ended by `until`?
-    std::optional<Time> time;    ///< Without it, steps are taken as of the stage's speed.
+    bool condition_met = false;    ///< Was it ended by `until`?
+    std::optional<Memory> memory;  ///< Without it, steps are chosen as at the start of a stage.
 };
 
 /// Runs the stages of a checked program, one after the other. Owns all fields.
@@ -116,8 +119,16 @@ public:
     /// be compiled and were interpreted.
     void settle(RunControl& control);
 
-    /// Makes a started stage go on from another moment (resume, the prompt's :load).
+    /// Makes a started stage go on from another moment.
     void restore(std::uint32_t stage, StageMoment moment);
+
+    /// Ends a started stage at its present step.
+    void end_stage(std::uint32_t stage);
+
+    /// Gives a species other values, or a parameter or `frozen` that varies, in a started stage.
+    /// Values outside of a mask must be 0. What was computed from the old values when the stage
+    /// started is kept: other parameters, and values of sides.
+    void set_field(std::uint32_t stage, ItemId item, Field values);
 
     /// Evaluates a formula for pictures over the present state: one field, or three for a colour.
     /// Outside of the mask it is NaN, unless it is the same in all cells.

@@ -136,8 +136,9 @@ Result<void> start_stage(const Environment& environment, std::span<StageState> s
     start_uniform_items(view, state);
     start_varying_items(view, state);
     if (auto sides = find_sides(view, state); !sides) return sides;
+    if (auto good = check_speed(view); !good) return good;
     state.started = true;
-    return check_speed(view);
+    return {};
 }
 
 }  // namespace cascade

@@ -74,13 +74,14 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     if (state_.steps > 0 && state_.time.control.step > 0) return;
     state_.time = {};
     state_.time.clock.precision = program.domain.precision;
+    state_.time.clock.base_step = state_.steps;
+    state_.time.clock.base_time = state_.t;
     state_.time.clock.step = uniform_speed_ ? speed_ : 0;
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
-    state_.go_to(state_.steps, state_.time.clock.at(state_.steps));
     if (chooses_by_error()) set_first_step();
     if (program.domain.model) state_.time.stages = substeps(program, stage);
-    if (state_.steps == 0 && stage_.time.steady) state_.watch.begin(state_.species);
+    if (stage_.time.steady) state_.watch.begin(state_.species);
 }
 
 /// Does the state of the species determine steps or stages?

@@ -247,8 +247,8 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
     std::vector<Field> copies;
     for (const Field& field : first->state(0).species) copies.push_back(field.clone());
     const StageState& state = first->state(0);
-    second->restore(0, {std::move(copies), 11, false, false,
-                        StageMoment::Time{state.t, state.time, {}}});
+    second->restore(0, {std::move(copies), 11, state.t, false, false,
+                        StageMoment::Memory{state.time, {}}});
     ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
     EXPECT_EQ(same_bits(one.species(), second->state(0).species), "");
 }

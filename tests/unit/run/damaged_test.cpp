@@ -107,7 +107,7 @@ TEST_F(DamagedTest, AStartThatIsNotFiniteIsToldAtAnyStep) {
     std::vector<Field> species;
     for (const Field& field : (*simulation)->state(0).species) species.push_back(field.clone());
     species[1].at(3, 2) = INFINITY;
-    (*simulation)->restore(0, {std::move(species), 70, false, false, {}});
+    (*simulation)->restore(0, {std::move(species), 70, 70, false, false, {}});
     RunControl control;
     const auto end = (*simulation)->advance_stage(0, 300, control, {});
     ASSERT_FALSE(end);

@@ -74,7 +74,7 @@ private:
         species[moved].row(row)[column] += by;
         std::vector<Field> before;
         for (const Field& field : species) before.push_back(field.clone());
-        simulation_->restore(0, {std::move(species), 0, false, false, StageMoment::Time{}});
+        simulation_->restore(0, {std::move(species), 0, 0, false, false, {}});
         RunControl control;
         EXPECT_TRUE(simulation_->advance_stage(0, 1, control, {}));
         Vector rates;

@@ -25,7 +25,8 @@ std::vector<std::vector<double>> draws_from(std::int64_t first, const std::strin
         EXPECT_TRUE((*simulation)->start_stage(0));
         std::vector<Field> species;
         species.push_back((*simulation)->state(0).species[0].clone());
-        (*simulation)->restore(0, {std::move(species), step, false, false, {}});
+        (*simulation)
+            ->restore(0, {std::move(species), step, static_cast<double>(step), false, false, {}});
         RunControl control;
         EXPECT_TRUE((*simulation)->advance_stage(0, step + 1, control, {}));
         std::vector<double>& row = draws.emplace_back();

@@ -56,7 +56,7 @@ TEST_F(RunningStage, StatesThatAreReplacedAreGoneOnFrom) {
     const double t = first->state(0).t;
     advance(*first, 0, 45);
     // Back to step 20, in the middle of a stage that runs.
-    first->restore(0, {std::move(kept), 20, false, false, StageMoment::Time{t, time, {}}});
+    first->restore(0, {std::move(kept), 20, t, false, false, StageMoment::Memory{time, {}}});
     advance(*first, 0, 60);
     advance(*second, 0, 60);
     EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");

@@ -1,0 +1,62 @@
+// The values of a run at one moment, apart from its simulation, and a simulation that goes on from
+// them.
+#pragma once
+
+#include "core/plane.h"
+#include "core/result.h"
+#include "run/simulation/simulation.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// The names of items of a stage whose values were painted.
+using PaintedNames = std::set<std::string>;
+
+/// A stage that has started.
+struct KeptStage {
+    std::string name;
+    std::vector<std::string> species;  ///< Their names, in the order of the moment's fields.
+    StageMoment moment;
+    std::map<std::string, Field> painted;  ///< By name; without fields for species.
+};
+
+struct KeptState {
+    std::vector<KeptStage> stages;
+    /// Is the last of them the stage in which steps are taken now? Otherwise all have ended.
+    bool is_running = true;
+
+    std::size_t bytes() const;
+};
+
+/// Copies all values that a simulation cannot compute anew. `painted` has an entry for each stage.
+KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& painted);
+
+/// How a simulation goes on from a kept state.
+enum class Continuation {
+    same,     ///< Of the same program, with the same bits as if nothing had happened.
+    changed,  ///< Of a changed program: lengths of steps are chosen anew.
+};
+
+/// Starts the stages of `simulation`, of which none has started, that have a counterpart in
+/// `state`: that of the same name, or at the same place where it was given another name. Parameters
+/// are computed anew but where they were painted; species take the values of those of the same
+/// name, the others those of their start. The current stage is started anew where it has taken no
+/// step, but for what was painted. Returns what is painted, for each stage that was started. Fails
+/// if a stage cannot be started.
+Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState& state,
+                                        Continuation how);
+
+/// Can a run of `after` go on from the values of a run of `before`? Their cells must be the same:
+/// the grid, the mask, the model, and the precision and seed of the run.
+bool have_same_cells(const Program& before, const Program& after);
+
+/// Do two programs grow on the same cells of the same model? False if there is none.
+bool have_same_model(const Program& before, const Program& after);
+
+}  // namespace cascade

@@ -1,0 +1,428 @@
+// Every change ends in a script and kept values, from which a new simulation goes on. Kernels and
+// the cells of a model pass from one simulation to the next, so that only what differs is made.
+#include "run/session/live_run.h"
+
+#include "lang/check/check.h"
+#include "lang/syntax/parse.h"
+#include "run/domain/domain_mask.h"
+#include "solvers/finite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+Refusal refusal(Failure failure) {
+    Refusal refused;
+    refused.failure = std::move(failure);
+    return refused;
+}
+
+tl::unexpected<Refusal> refuse(Failure failure) {
+    return tl::unexpected(refusal(std::move(failure)));
+}
+
+tl::unexpected<Refusal> refuse(std::string message, std::string hint = "") {
+    return refuse(Failure{std::move(message), std::move(hint)});
+}
+
+/// The errors of a script that is not used. Its warnings are of no interest then.
+tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure = {}) {
+    Refusal refused;
+    refused.diagnostics = std::move(script.diagnostics);
+    refused.sources = std::move(script.sources);
+    // The messages say all that the failure would.
+    if (!refused.diagnostics.has_errors()) refused.failure = std::move(failure);
+    return tl::unexpected(std::move(refused));
+}
+
+/// The name in `NAME=EXPR` or `NAME: EXPR`, without blanks around it.
+std::string_view name_of_setting(std::string_view setting) {
+    setting = setting.substr(0, setting.find_first_of("=:"));
+    const std::size_t begin = setting.find_first_not_of(" \t");
+    if (begin == std::string_view::npos) return {};
+    return setting.substr(begin, setting.find_last_not_of(" \t") + 1 - begin);
+}
+
+/// A script with another text. Settings from outside that no longer mean anything are dropped:
+/// their parameter may have gone with the old text.
+Script with_text(const Script& old, const std::string& text) {
+    Script script = load_script(old.name, text, old.folder, old.overrides);
+    if (script.program || old.overrides.sets.empty()) return script;
+    Overrides overrides = old.overrides;
+    overrides.sets.clear();
+    if (!load_script(old.name, text, old.folder, overrides).program) return script;
+    for (const std::string& set : old.overrides.sets) {
+        overrides.sets.push_back(set);
+        if (!load_script(old.name, text, old.folder, overrides).program) overrides.sets.pop_back();
+    }
+    return load_script(old.name, text, old.folder, std::move(overrides));
+}
+
+}  // namespace
+
+std::string Refusal::messages(bool colour) const {
+    RenderStyle style;
+    style.colour = colour;
+    std::string text = render(diagnostics, sources, style);
+    if (!failure) return text;
+    text += fmt::format("{}\n", failure->message);
+    if (!failure->hint.empty()) text += fmt::format("  {}\n", failure->hint);
+    return text;
+}
+
+Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunControl& control) const {
+    SimulationOptions options = options_;
+    options.control = &control;
+    const bool is_known = simulation_ && have_same_model(*script_->program, *script.program);
+    if (is_known) options.known_model = simulation_->model();
+    auto made = Simulation::create(script, options);
+    if (!made) return refuse(std::move(script), made.error());
+    return std::move(*made);
+}
+
+Accepted<void> LiveRun::start_over(Script script, RunControl& control) {
+    return adopt(std::move(script), {}, Continuation::changed, control);
+}
+
+/// Goes on with another script from these values; without any, from its start.
+Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuation how,
+                              RunControl& control) {
+    if (!changed.program) return refuse(std::move(changed));
+    if (changed.program->stages.empty()) {
+        return refuse("this script has no stage to run", example_of_stage(*changed.program));
+    }
+    auto script = std::make_unique<Script>(std::move(changed));
+    auto simulation = simulate(*script, control);
+    if (!simulation) return tl::unexpected(std::move(simulation.error()));
+    auto painted = go_on(**simulation, values, how);
+    if (painted && painted->empty()) {
+        if (auto started = (*simulation)->start_stage(0); !started) {
+            painted = tl::unexpected(started.error());
+        }
+    }
+    if (!painted) return refuse(std::move(*script), painted.error());
+    stage_ = painted->empty() ? 0 : static_cast<std::uint32_t>(painted->size() - 1);
+    painted_ = std::move(*painted);
+    painted_.resize(script->program->stages.size());
+    // The old simulation refers to the old script, so it must be destroyed first.
+    simulation_ = std::move(*simulation);
+    script_ = std::move(script);
+    return {};
+}
+
+Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const SimulationOptions& options,
+                                                  RunControl& control) {
+    std::unique_ptr<LiveRun> run(new LiveRun);
+    run->options_ = options;
+    if (!run->options_.stepper) {
+        auto stepper = make_stepper(options);
+        if (!stepper) return refuse(stepper.error());
+        run->options_.stepper = std::move(*stepper);
+    }
+    run->log_.name = script.name;
+    run->log_.text = script.text;
+    run->log_.overrides = script.overrides;
+    if (auto started = run->start_over(std::move(script), control); !started) {
+        return tl::unexpected(std::move(started.error()));
+    }
+    return run;
+}
+
+Accepted<std::unique_ptr<LiveRun>> LiveRun::play(const SessionLog& log,
+                                                 const std::filesystem::path& folder,
+                                                 const SimulationOptions& options,
+                                                 RunControl& control) {
+    auto run = begin(load_script(log.name, log.text, folder, log.overrides), options, control);
+    if (!run) return run;
+    Accepted<void> done;
+    for (const auto& logged : log.changes) {
+        done = (*run)->run_to(logged->at, control);
+        if (done) done = (*run)->make(logged->change, (*run)->values(), control);
+        if (!done) return tl::unexpected(std::move(done.error()));
+    }
+    done = (*run)->run_to(log.end, control);
+    if (!done) return tl::unexpected(std::move(done.error()));
+    (*run)->log_ = log;
+    return run;
+}
+
+bool LiveRun::is_over() const { return state().done && stage_ + 1 == script_->stage_count(); }
+
+Accepted<void> LiveRun::start_stage(std::uint32_t stage) {
+    if (auto started = simulation_->start_stage(stage); !started) return refuse(started.error());
+    painted_[stage].clear();
+    stage_ = stage;
+    return {};
+}
+
+Result<StageEnd> LiveRun::advance(std::int64_t count, RunControl& control,
+                                  const Watching& watching) {
+    while (true) {
+        if (!state().done) {
+            if (count <= 0) return StageEnd::stopped;
+            const std::int64_t before = state().steps;
+            const std::int64_t iterations = script_->program->stages[stage_].iterations;
+            const std::int64_t last = before + std::min(count, iterations - before);
+            const auto end =
+                simulation_->advance_stage(stage_, last, control, watching.observe, watching.every);
+            if (!end || *end != StageEnd::finished) return end;
+            count -= state().steps - before;
+            if (watching.stage_ended) watching.stage_ended(stage_);
+        }
+        if (is_over()) return StageEnd::finished;
+        if (count <= 0) return StageEnd::stopped;
+        if (auto started = start_stage(stage_ + 1); !started) {
+            return tl::unexpected(*started.error().failure);
+        }
+    }
+}
+
+Accepted<void> LiveRun::run_to(RunPlace place, RunControl& control) {
+    const auto does_not_fit = [&] {
+        return refuse(fmt::format("the session goes on at step {} of stage {}, which this run does "
+                                  "not reach",
+                                  place.steps, place.stage + 1),
+                      "its script, or a file that it reads, has changed");
+    };
+    while (true) {
+        const bool is_there = stage_ == place.stage;
+        if (place < this->place() || (is_there && state().done && state().steps < place.steps)) {
+            return does_not_fit();
+        }
+        if (is_there && state().steps == place.steps) return {};
+        if (!is_there && state().done) {
+            if (stage_ + 1 >= script_->stage_count()) return does_not_fit();
+            if (auto started = start_stage(stage_ + 1); !started) return started;
+            continue;
+        }
+        const std::int64_t iterations = script_->program->stages[stage_].iterations;
+        const std::int64_t last = is_there ? std::min(place.steps, iterations) : iterations;
+        const auto end = simulation_->advance_stage(stage_, last, control, {});
+        if (!end) return refuse(end.error());
+        if (*end == StageEnd::cancelled) return refuse("stopped");
+        if (!is_there && *end != StageEnd::finished) return does_not_fit();
+    }
+}
+
+Accepted<void> LiveRun::make(const Change& change, const KeptState& values, RunControl& control) {
+    if (const auto* text = std::get_if<SetText>(&change)) return make(*text, values, control);
+    if (const auto* number = std::get_if<SetNumber>(&change)) return make(*number, values, control);
+    if (const auto* paint = std::get_if<Paint>(&change)) return make(*paint);
+    return make(std::get<NextStage>(change));
+}
+
+Accepted<void> LiveRun::make(const SetText& change, const KeptState& values, RunControl& control) {
+    Script script = with_text(*script_, change.text);
+    if (!script.program) return refuse(std::move(script));
+    const bool goes_on = have_same_cells(*script_->program, *script.program);
+    return adopt(std::move(script), goes_on ? values : KeptState(), Continuation::changed, control);
+}
+
+Accepted<void> LiveRun::make(const SetNumber& change, const KeptState& values,
+                             RunControl& control) {
+    Overrides overrides = script_->overrides;
+    // The last setting of a name wins, so earlier ones need not be kept.
+    std::erase_if(overrides.sets, [&](const std::string& set) {
+        return name_of_setting(set) == name_of_setting(change.name);
+    });
+    overrides.sets.push_back(fmt::format("{}={}", change.name, change.expression));
+    Script script =
+        load_script(script_->name, script_->text, script_->folder, std::move(overrides));
+    return adopt(std::move(script), values, Continuation::changed, control);
+}
+
+Accepted<void> LiveRun::make(const Paint& change) {
+    const Program& program = *script_->program;
+    const System& system = program.system_of(stage_);
+    std::optional<ItemId> item;
+    for (const ItemId each : system.items()) {
+        if (system.item_name(each) == change.item) item = each;
+    }
+    const Stage& stage = program.stages[stage_];
+    if (!item || *item == system.speed_item()) {
+        return refuse(fmt::format("stage '{}' has nothing called '{}' that can be painted",
+                                  stage.name, change.item),
+                      "species, parameters and 'frozen' can be");
+    }
+    if (!system.is_species(*item) && stage.uniform[*item]) {
+        return refuse(fmt::format("'{}' is one number for all cells", change.item),
+                      fmt::format("'{0}: {0} + 0*x' in the stage gives each cell its own",
+                                  change.item));
+    }
+    Diagnostics errors;
+    const SourceId source = script_->sources.add("<paint>", change.expression);
+    std::optional<Formula> formula;
+    if (const auto parsed = parse_expression(source, script_->sources, script_->tree, errors)) {
+        formula =
+            check_view(script_->tree, *parsed, stage_, stage_, program, script_->sources, errors);
+    }
+    if (formula && formula->nodes.back().type != ValueType::number) {
+        errors.error(formula->nodes.back().span, "this is not a number");
+    }
+    if (!formula || errors.has_errors()) {
+        Refusal refused;
+        refused.diagnostics = std::move(errors);
+        refused.sources = script_->sources;
+        return tl::unexpected(std::move(refused));
+    }
+    Field values = std::move(simulation_->evaluate(*formula, stage_)[0]);
+    if (const DomainMask* mask = simulation_->mask()) values = with_outside(values, *mask, 0);
+    if (first_not_finite(values)) {
+        return refuse(fmt::format("'{}' would not be finite in every cell", change.item));
+    }
+    simulation_->set_field(stage_, *item, std::move(values));
+    painted_[stage_].insert(change.item);
+    return {};
+}
+
+Accepted<void> LiveRun::make(const NextStage&) {
+    if (stage_ + 1 >= script_->stage_count()) {
+        return refuse(
+            fmt::format("stage '{}' is the last one", script_->program->stages[stage_].name));
+    }
+    const std::uint32_t ended = stage_;
+    if (auto started = start_stage(ended + 1); !started) return started;
+    simulation_->end_stage(ended);
+    return {};
+}
+
+LiveRun::Moment LiveRun::present() const {
+    return {log(), script_->text, script_->overrides, values()};
+}
+
+void LiveRun::add_to_log(const Change& change, RunPlace at) {
+    // Of changes of one number, or of the whole text, at one step the last one counts.
+    while (!log_.changes.empty() && log_.changes.back()->at == at) {
+        const Change& last = log_.changes.back()->change;
+        const auto* number = std::get_if<SetNumber>(&change);
+        const auto* last_number = std::get_if<SetNumber>(&last);
+        const bool is_replaced =
+            (std::holds_alternative<SetText>(change) && std::holds_alternative<SetText>(last)) ||
+            (number != nullptr && last_number != nullptr && number->name == last_number->name);
+        if (!is_replaced) break;
+        log_.changes.pop_back();
+    }
+    log_.changes.push_back(std::make_shared<const LoggedChange>(LoggedChange{at, change}));
+}
+
+Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool joins_last) {
+    Moment before = present();
+    const RunPlace at = place();
+    if (auto made = make(change, *before.values, control); !made) return made;
+    if (place() == RunPlace() && at != RunPlace()) {
+        // The run began anew, so what was done before no longer matters.
+        log_ = {script_->name, script_->text, script_->overrides, {}, {}};
+    } else {
+        add_to_log(change, at);
+    }
+    if (!joins_last || past_.empty()) remember(std::move(before));
+    future_.clear();
+    return {};
+}
+
+Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
+    if (stage >= script_->stage_count()) {
+        return refuse(fmt::format("there is no stage {}", stage + 1));
+    }
+    if (stage > stage_) {
+        bool joins_last = false;
+        while (stage_ < stage) {
+            if (auto next = apply(NextStage{}, control, joins_last); !next) return next;
+            joins_last = true;
+        }
+        return {};
+    }
+    Moment before = present();
+    KeptState kept = values();
+    kept.stages.resize(stage);
+    kept.is_running = false;
+    Script script = load_script(script_->name, script_->text, script_->folder, script_->overrides);
+    if (auto adopted = adopt(std::move(script), kept, Continuation::changed, control); !adopted) {
+        return adopted;
+    }
+    if (stage > 0) {
+        if (auto started = start_stage(stage); !started) {
+            // The values of the stage before are as they were.
+            const auto back = return_to(before, control);
+            return back ? started : back;
+        }
+    }
+    const auto changes = std::exchange(log_.changes, {});
+    for (const auto& logged : changes) {
+        const bool is_of_script = std::holds_alternative<SetText>(logged->change) ||
+                                  std::holds_alternative<SetNumber>(logged->change);
+        if (logged->at.stage < stage) {
+            log_.changes.push_back(logged);
+        } else if (is_of_script) {
+            add_to_log(logged->change, {stage, 0});
+        }
+    }
+    remember(std::move(before));
+    future_.clear();
+    return {};
+}
+
+Accepted<void> LiveRun::return_to(Moment& moment, RunControl& control) {
+    if (!moment.values) {
+        auto again = play(moment.log, script_->folder, options_, control);
+        if (!again) return tl::unexpected(std::move(again.error()));
+        simulation_ = std::move((*again)->simulation_);
+        script_ = std::move((*again)->script_);
+        painted_ = std::move((*again)->painted_);
+        stage_ = (*again)->stage_;
+    } else {
+        Script script = load_script(script_->name, moment.text, script_->folder, moment.overrides);
+        auto adopted = adopt(std::move(script), *moment.values, Continuation::same, control);
+        if (!adopted) return adopted;
+    }
+    log_ = std::move(moment.log);
+    return {};
+}
+
+Accepted<void> LiveRun::undo(RunControl& control) {
+    if (past_.empty()) return refuse("nothing is left to undo");
+    Moment now = present();
+    if (auto back = return_to(past_.back(), control); !back) return back;
+    past_.pop_back();
+    future_.push_back(std::move(now));
+    forget_old_values();
+    return {};
+}
+
+Accepted<void> LiveRun::redo(RunControl& control) {
+    if (future_.empty()) return refuse("nothing was undone");
+    Moment now = present();
+    if (auto forward = return_to(future_.back(), control); !forward) return forward;
+    future_.pop_back();
+    past_.push_back(std::move(now));
+    forget_old_values();
+    return {};
+}
+
+void LiveRun::remember(Moment moment) {
+    past_.push_back(std::move(moment));
+    forget_old_values();
+}
+
+void LiveRun::forget_old_values() {
+    std::size_t bytes = 0;
+    for (std::vector<Moment>* moments : {&past_, &future_}) {
+        for (auto moment = moments->rbegin(); moment != moments->rend(); ++moment) {
+            if (moment->values) bytes += moment->values->bytes();
+            if (bytes > undo_memory_) moment->values.reset();
+        }
+    }
+}
+
+SessionLog LiveRun::log() const {
+    SessionLog log = log_;
+    log.end = place();
+    return log;
+}
+
+}  // namespace cascade

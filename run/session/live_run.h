@@ -1,0 +1,132 @@
+// A cascade that runs and is changed while it runs: the one class under the prompt, the page and
+// the public library.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "core/run_control.h"
+#include "run/script/script.h"
+#include "run/session/change.h"
+#include "run/session/kept_state.h"
+#include "run/session/session_log.h"
+#include "run/simulation/simulation.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// Why a change was refused: messages about a text, or a failure, or both.
+struct Refusal {
+    Diagnostics diagnostics;
+    Sources sources;  ///< Of the diagnostics.
+    std::optional<Failure> failure;
+
+    /// All of it as text, as the command line draws it.
+    std::string messages(bool colour) const;
+};
+
+template <typename T>
+using Accepted = tl::expected<T, Refusal>;
+
+/// What a caller wants to know while steps are taken. Functions may be empty.
+struct Watching {
+    std::function<void()> observe;  ///< At multiples of `every`, as Simulation::advance_stage().
+    std::int64_t every = 0;
+    std::function<void(std::uint32_t stage)> stage_ended;
+};
+
+/// Owns a script and its simulation. Every change is logged with the step at which it was made, so
+/// that the log, played again, gives the same bits. What is done can be undone. One thread at a
+/// time; a RunControl may cancel what takes long, from any thread.
+class LiveRun {
+public:
+    /// Starts the first stage of a checked script. Refused if there is none.
+    static Accepted<std::unique_ptr<LiveRun>> begin(Script script, const SimulationOptions& options,
+                                                    RunControl& control);
+    /// Plays a session again up to its end. Files of its script are looked up in `folder`.
+    static Accepted<std::unique_ptr<LiveRun>> play(const SessionLog& log,
+                                                   const std::filesystem::path& folder,
+                                                   const SimulationOptions& options,
+                                                   RunControl& control);
+
+    const Script& script() const { return *script_; }
+    /// For painters, which add what they are asked to draw to the sources of the script.
+    Script& script() { return *script_; }
+    const Simulation& simulation() const { return *simulation_; }
+    RunPlace place() const { return {stage_, state().steps}; }
+    /// Has every stage ended?
+    bool is_over() const;
+
+    /// Takes up to `count` steps, from stage to stage. `stopped`: so many were taken; `finished`:
+    /// the last stage has ended. If values are not finite it fails, and the run is back at the last
+    /// step at which they were.
+    Result<StageEnd> advance(std::int64_t count, RunControl& control,
+                             const Watching& watching = {});
+
+    /// Makes a change at the present step. Where it is refused, nothing has changed. With
+    /// `joins_last`, undo() takes it back together with the change before, as the parts of one
+    /// stroke or of one move of a slider. A change of the domain's cells begins the run anew.
+    Accepted<void> apply(const Change& change, RunControl& control, bool joins_last = false);
+
+    /// Goes to the start of a stage: back, where texts and numbers stay as they are and strokes
+    /// made since are taken back, or on, where the stages before it end as they are.
+    Accepted<void> go_to(std::uint32_t stage, RunControl& control);
+
+    /// Goes back to the moment before the last change, or forward again. Refused if there is none.
+    /// Values of many changes ago are grown again.
+    Accepted<void> undo(RunControl& control);
+    Accepted<void> redo(RunControl& control);
+    bool can_undo() const { return !past_.empty(); }
+    bool can_redo() const { return !future_.empty(); }
+
+    /// All that was done, up to the present place.
+    SessionLog log() const;
+
+    /// The most bytes of values that are kept for undo(); older moments are grown again.
+    void set_undo_memory(std::size_t bytes) { undo_memory_ = bytes; }
+
+private:
+    /// A moment to which undo() or redo() leads.
+    struct Moment {
+        SessionLog log;
+        std::string text;
+        Overrides overrides;
+        std::optional<KeptState> values;  ///< None: they are grown again.
+    };
+
+    LiveRun() = default;
+    const StageState& state() const { return simulation_->state(stage_); }
+    Accepted<std::unique_ptr<Simulation>> simulate(Script& script, RunControl& control) const;
+    Accepted<void> start_over(Script script, RunControl& control);
+    Accepted<void> adopt(Script script, const KeptState& values, Continuation how,
+                         RunControl& control);
+    Accepted<void> make(const Change& change, const KeptState& values, RunControl& control);
+    Accepted<void> make(const SetText& change, const KeptState& values, RunControl& control);
+    Accepted<void> make(const SetNumber& change, const KeptState& values, RunControl& control);
+    Accepted<void> make(const Paint& change);
+    Accepted<void> make(const NextStage& change);
+    Accepted<void> start_stage(std::uint32_t stage);
+    Accepted<void> run_to(RunPlace place, RunControl& control);
+    Accepted<void> return_to(Moment& moment, RunControl& control);
+    KeptState values() const { return keep(*simulation_, painted_); }
+    Moment present() const;
+    void remember(Moment moment);
+    void forget_old_values();
+    void add_to_log(const Change& change, RunPlace at);
+
+    SimulationOptions options_;  ///< With the stepper of all simulations.
+    std::unique_ptr<Script> script_;
+    std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
+    std::uint32_t stage_ = 0;
+    std::vector<PaintedNames> painted_;  ///< By stage.
+    SessionLog log_;                     ///< Its end is not kept up to date.
+    std::vector<Moment> past_, future_;
+    std::size_t undo_memory_ = std::size_t{256} << 20;
+};
+
+}  // namespace cascade

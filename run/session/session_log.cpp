@@ -1,0 +1,189 @@
+// A line for each change. Scripts, which have several lines, follow a line with their number.
+#include "run/session/session_log.h"
+
+#include "run/script/embedded_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+constexpr std::string_view first_line = "cascade session 1";
+
+/// Line breaks of an expression are blanks.
+std::string in_one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::replace(text.begin(), text.end(), '\r', ' ');
+    return text;
+}
+
+std::string counted_lines(const std::string& text) {
+    const auto breaks = std::count(text.begin(), text.end(), '\n');
+    return fmt::format("{}\n{}\n", breaks + 1, text);
+}
+
+std::string print(const Change& change) {
+    if (const auto* text = std::get_if<SetText>(&change)) {
+        return "text " + counted_lines(text->text);
+    }
+    if (const auto* number = std::get_if<SetNumber>(&change)) {
+        return fmt::format("set {}={}\n", number->name, in_one_line(number->expression));
+    }
+    if (const auto* paint = std::get_if<Paint>(&change)) {
+        return fmt::format("paint {}={}\n", paint->item, in_one_line(paint->expression));
+    }
+    return "next\n";
+}
+
+/// Reads the lines of a log one after the other.
+class LogReader {
+public:
+    explicit LogReader(std::string_view text) : rest_(text) {}
+
+    bool at_end() const { return rest_.empty(); }
+
+    std::string_view line() {
+        ++number_;
+        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+        const std::string_view line = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        return line;
+    }
+
+    /// As many lines as `count` says, without the last line break.
+    std::optional<std::string> lines(std::string_view count) {
+        const auto wanted = whole(count);
+        if (!wanted || *wanted < 1) return std::nullopt;
+        std::string text;
+        for (std::int64_t k = 0; k < *wanted; ++k) {
+            if (at_end()) return std::nullopt;
+            if (k > 0) text += '\n';
+            text += line();
+        }
+        return text;
+    }
+
+    static std::optional<std::int64_t> whole(std::string_view word) {
+        std::int64_t number = 0;
+        const auto read = std::from_chars(word.data(), word.data() + word.size(), number);
+        if (read.ec != std::errc() || read.ptr != word.data() + word.size()) return std::nullopt;
+        return number < 0 ? std::nullopt : std::optional(number);
+    }
+
+    /// "1 250": the stage, from 1, and the number of steps.
+    static std::optional<RunPlace> place(std::string_view words) {
+        const std::size_t blank = words.find(' ');
+        if (blank == std::string_view::npos) return std::nullopt;
+        const auto stage = whole(words.substr(0, blank));
+        const auto steps = whole(words.substr(blank + 1));
+        if (!stage || !steps || *stage < 1 || *stage > UINT32_MAX) return std::nullopt;
+        return RunPlace{static_cast<std::uint32_t>(*stage - 1), *steps};
+    }
+
+    auto wrong(std::string_view why) const {
+        return failure(fmt::format("line {} of the session: {}", number_, why),
+                       "a session is written by ':log' and by pages, not by hand");
+    }
+
+private:
+    std::string_view rest_;
+    int number_ = 0;
+};
+
+/// The word before the first blank, and what follows it.
+std::pair<std::string_view, std::string_view> split(std::string_view line) {
+    const std::size_t blank = line.find(' ');
+    if (blank == std::string_view::npos) return {line, {}};
+    return {line.substr(0, blank), line.substr(blank + 1)};
+}
+
+/// "NAME=EXPRESSION" in two parts.
+std::optional<std::pair<std::string, std::string>> assignment(std::string_view words) {
+    const std::size_t equals = words.find('=');
+    if (equals == std::string_view::npos || equals == 0) return std::nullopt;
+    return std::pair(std::string(words.substr(0, equals)), std::string(words.substr(equals + 1)));
+}
+
+/// The change of a line; nothing if the line is none.
+std::optional<Change> read_change(std::string_view word, std::string_view rest, LogReader& reader) {
+    if (word == "next" && rest.empty()) return NextStage{};
+    if (word == "text") {
+        auto text = reader.lines(rest);
+        if (!text) return std::nullopt;
+        return SetText{std::move(*text)};
+    }
+    const auto parts = assignment(rest);
+    if (parts && word == "set") return SetNumber{parts->first, parts->second};
+    if (parts && word == "paint") return Paint{parts->first, parts->second};
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool is_session_log(std::string_view text) {
+    return text.starts_with(first_line) && text.substr(first_line.size()).starts_with('\n');
+}
+
+std::string print_session_log(const SessionLog& log) {
+    std::string text =
+        fmt::format("{}\nname {}\noptions {}\nscript {}", first_line, in_one_line(log.name),
+                    overrides_to_json(log.overrides), counted_lines(log.text));
+    std::optional<RunPlace> at;
+    for (const auto& logged : log.changes) {
+        if (at != logged->at) {
+            text += fmt::format("at {} {}\n", logged->at.stage + 1, logged->at.steps);
+        }
+        at = logged->at;
+        text += print(logged->change);
+    }
+    return text + fmt::format("end {} {}\n", log.end.stage + 1, log.end.steps);
+}
+
+Result<SessionLog> parse_session_log(std::string_view text) {
+    LogReader reader(text);
+    if (reader.line() != first_line) {
+        return reader.wrong(fmt::format("it should be '{}'", first_line));
+    }
+    SessionLog log;
+    const auto header = [&](std::string_view word) -> std::optional<std::string_view> {
+        const auto [first, rest] = split(reader.line());
+        return first == word ? std::optional(rest) : std::nullopt;
+    };
+    const auto name = header("name");
+    if (!name) return reader.wrong("it should begin with 'name'");
+    log.name = *name;
+    const auto options = header("options");
+    if (!options) return reader.wrong("it should begin with 'options'");
+    auto overrides = overrides_from_json(std::string(*options));
+    if (!overrides) return reader.wrong(overrides.error().message);
+    log.overrides = std::move(*overrides);
+    const auto count = header("script");
+    auto script = count ? reader.lines(*count) : std::nullopt;
+    if (!script) return reader.wrong("it should be 'script' and the number of its lines");
+    log.text = std::move(*script);
+    RunPlace at;
+    while (!reader.at_end()) {
+        const auto [word, rest] = split(reader.line());
+        if (word == "at" || word == "end") {
+            const auto place = LogReader::place(rest);
+            if (!place) return reader.wrong("it should name a stage and a step, as in 'at 1 250'");
+            at = *place;
+            if (word == "at") continue;
+            log.end = at;
+            if (!reader.at_end()) return reader.wrong("something follows the end");
+            return log;
+        }
+        auto change = read_change(word, rest, reader);
+        if (!change) return reader.wrong("it is no change of a session");
+        log.changes.push_back(
+            std::make_shared<const LoggedChange>(LoggedChange{at, std::move(*change)}));
+    }
+    return reader.wrong("the session has no end");
+}
+
+}  // namespace cascade
