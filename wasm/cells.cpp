@@ -3,12 +3,6 @@
 
 namespace cascade::wasm {
 
-void Cells::begin_vector(int number) {
-    vector_ = number;
-    if (number == 0) addresses_.clear();
-    begin_cells();
-}
-
 void Cells::end_vector() {
     for (const Local local : kept_) function_.give_back(local);
     kept_.clear();

@@ -63,8 +63,11 @@ public:
           is_exact_(is_exact) {}
     virtual ~Cells() = default;
 
+    /// Computes what is computed for a group of so many vectors before all other values: Laplacians
+    /// and sums over links.
+    virtual void begin_group(int vectors) = 0;
     /// The following is about a vector of the group, by its number.
-    void begin_vector(int number);
+    void begin_vector(int number) { vector_ = number; }
     void end_vector();
 
     // The local that has the source's value in all lanes, until the end of the vector. A mask's has
@@ -92,8 +95,6 @@ protected:
 
     Code& code() { return function_.at(LoopLevel::cell); }
     Arithmetic arithmetic() { return {function_, LoopLevel::cell, is_exact_}; }
-    /// Reads what is read in a loop of its own.
-    virtual void begin_cells() {}
 
     Local load(const Reading& reading);
     /// The same as an operand of arithmetic.

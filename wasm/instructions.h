@@ -50,6 +50,7 @@ enum class Whole : std::uint8_t {
     bits_or = 0x50,
     bits_xor = 0x51,
     choose = 0x52,  ///< By bits.
+    any = 0x53,     ///< Is a bit set?
     load_32_zero = 0x5c,
     widen_8 = 0x89,  ///< The lower half of the lanes, without sign.
     widen_16 = 0xa9,

@@ -12,11 +12,10 @@ namespace {
 constexpr std::size_t most_instructions = 20000;
 
 /// Vectors that are computed before the loop goes on, so that counting and addresses take little
-/// time: at most one row pad, which a kernel may write after the last cell.
+/// time. Together they are no longer than what a kernel may write after the last cell of a row.
 int vectors_of_group(const CellKernel& kernel) {
-    constexpr std::size_t most_together = 512;
-    const std::size_t size = kernel.code.size();
-    return 4 * size <= most_together ? 4 : 2 * size <= most_together ? 2 : 1;
+    constexpr std::size_t largest_in_pairs = 256;
+    return kernel.code.size() <= largest_in_pairs ? 2 : 1;
 }
 
 std::uint32_t parameter_count(Stencil stencil) {
@@ -45,6 +44,7 @@ Bytes kernel_function(const CellKernel& kernel, Stencil stencil, bool is_exact) 
     body.write(LoopLevel::call);
     body.write(LoopLevel::row);
     const int vectors = vectors_of_group(kernel);
+    cells->begin_group(vectors);
     for (int vector = 0; vector < vectors; ++vector) {
         cells->begin_vector(vector);
         body.write_vector();
