@@ -2,7 +2,7 @@
 #include "jit/code.h"
 
 #include "ir/multiply_add.h"
-#include "jit/kernel_parts.h"
+#include "ir/kernel_parts.h"
 #include "jit/skeleton_grid.h"
 #include "jit/skeleton_linked.h"
 #include "jit/target_machine.h"

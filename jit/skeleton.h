@@ -18,7 +18,7 @@
 #include "jit/alias_scopes.h"
 #include "jit/carried_vectors.h"
 #include "jit/emit_body.h"
-#include "jit/kernel_parts.h"
+#include "ir/kernel_parts.h"
 #include "jit/kernel_shape.h"
 
 #include <llvm/ADT/STLFunctionalExtras.h>

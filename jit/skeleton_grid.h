@@ -9,7 +9,7 @@
 // cells that are computed.
 #pragma once
 
-#include "jit/kernel_parts.h"
+#include "ir/kernel_parts.h"
 #include "jit/kernel_shape.h"
 
 #include <llvm/IR/Module.h>

@@ -14,7 +14,7 @@
 // and end at multiples of PlaneLayout::row_pad.
 #pragma once
 
-#include "jit/kernel_parts.h"
+#include "ir/kernel_parts.h"
 #include "jit/kernel_shape.h"
 
 #include <llvm/IR/Module.h>

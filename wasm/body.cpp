@@ -25,14 +25,15 @@ bool passes_words(Op op) {
 
 }  // namespace
 
-Body::Body(const CellKernel& kernel, Function& function, Cells& cells, bool is_exact)
-    : kernel_(kernel),
+Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exact)
+    : part_(part),
+      kernel_(part.kernel),
       function_(function),
       cells_(cells),
       is_exact_(is_exact),
-      levels_(loop_levels_of(kernel)),
-      readers_(kernel.code.size()),
-      values_(kernel.code.size()) {
+      levels_(loop_levels_of(kernel_)),
+      readers_(kernel_.code.size()),
+      values_(kernel_.code.size()) {
     for (const ValueId id : kernel_.results) ++readers_[id];
     for (const ValueId id : kernel_.code.ids_backwards()) {
         if (readers_[id] == 0) continue;
@@ -43,21 +44,27 @@ Body::Body(const CellKernel& kernel, Function& function, Cells& cells, bool is_e
 void Body::write(LoopLevel level) {
     level_ = level;
     readers_to_come_ = readers_;
+    const std::vector<ValueId>& results = kernel_.results;
+    std::size_t stored = 0;
     for (const ValueId id : kernel_.code.ids()) {
-        if (levels_[id] != level || readers_[id] == 0) continue;
-        const Instruction& instruction = kernel_.code[id];
-        values_[id] = value_of(instruction);
-        for (const ValueId operand : operands_of(instruction)) release(operand);
+        if (levels_[id] == level && readers_[id] > 0) define(id);
+        if (level != LoopLevel::cell || !part_.is_in_order) continue;
+        while (stored < results.size() && results[stored] <= id) store(stored++);
     }
+    if (level != LoopLevel::cell) return;
+    while (stored < results.size()) store(stored++);
 }
 
-void Body::write_vector() {
-    write(LoopLevel::cell);
-    for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
-        const ValueId id = kernel_.results[k];
-        cells_.store(k, number(id));
-        release(id);
-    }
+void Body::define(ValueId id) {
+    const Instruction& instruction = kernel_.code[id];
+    values_[id] = value_of(instruction);
+    for (const ValueId operand : operands_of(instruction)) release(operand);
+}
+
+void Body::store(std::size_t result) {
+    const ValueId id = kernel_.results[result];
+    cells_.store(part_.results[result], number(id));
+    release(id);
 }
 
 void Body::release(ValueId id) {

@@ -4,6 +4,7 @@
 // (ir/word_operations.h), one by one, so that both have the same bits with denormal numbers, too.
 #pragma once
 
+#include "ir/kernel_parts.h"
 #include "wasm/cells.h"
 
 #include <initializer_list>
@@ -14,12 +15,11 @@ namespace cascade::wasm {
 
 class Body {
 public:
-    Body(const CellKernel& kernel, Function& function, Cells& cells, bool is_exact);
+    Body(const KernelPart& part, Function& function, Cells& cells, bool is_exact);
 
-    /// Writes the values of a loop level that is not that of cells.
+    /// Writes the values of a loop level, outer levels first; that of cells once for each vector,
+    /// with the stores of results.
     void write(LoopLevel level);
-    /// Writes the values of the cells of a vector, and their stores.
-    void write_vector();
 
 private:
     /// A value in up to three forms, of which those that are needed are made.
@@ -32,6 +32,8 @@ private:
         bool may_be_denormal = false;
     };
 
+    void define(ValueId id);
+    void store(std::size_t result);
     void release(ValueId id);
 
     // The forms of a value. They are made at the value's own loop level.
@@ -69,6 +71,7 @@ private:
     Arithmetic arithmetic() { return {function_, level_, is_exact_}; }
     Local keep() { return function_.keep(level_); }
 
+    const KernelPart& part_;
     const CellKernel& kernel_;
     Function& function_;
     Cells& cells_;

@@ -54,6 +54,11 @@ public:
         }
     }
 
+    void call(std::size_t function) {
+        write(Plain::call);
+        append_unsigned(bytes_, function);
+    }
+
     /// Loads and stores, `offset` bytes after the address on the stack.
     template <typename Instruction>
     void access(Instruction instruction, std::uint32_t offset) {

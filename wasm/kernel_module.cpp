@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t most_instructions = 20000;
 
 /// Vectors that are computed before the loop goes on, so that counting and addresses take little
-/// time. Together they are no longer than what a kernel may write after the last cell of a row.
+/// time: two of small kernels. A kernel may write that far after the last cell of a row.
 int vectors_of_group(const CellKernel& kernel) {
-    constexpr std::size_t largest_in_pairs = 256;
+    constexpr std::size_t largest_in_pairs = 64;
     return kernel.code.size() <= largest_in_pairs ? 2 : 1;
 }
 
@@ -33,21 +33,23 @@ void push_place(Code& code, const Function& function, Local row, Parameter colum
     code.write(Plain::add);
 }
 
-Bytes kernel_function(const CellKernel& kernel, Stencil stencil, bool is_exact) {
+/// The function of a part: its loops.
+Bytes function_of(const KernelPart& part, Stencil stencil, bool is_exact) {
+    const CellKernel& kernel = part.kernel;
     Function function(kernel.precision, parameter_count(stencil));
     const auto integer = [&] { return function.take(LoopLevel::row, LocalType::integer); };
     const Place place{integer(), integer()};
     const Local end = integer(), row = local_of(Parameter::row_begin);
     const auto cells = stencil.links ? make_linked_cells(function, kernel, place, is_exact)
                                      : make_grid_cells(function, kernel, stencil, place, is_exact);
-    Body body(kernel, function, *cells, is_exact);
+    Body body(part, function, *cells, is_exact);
     body.write(LoopLevel::call);
     body.write(LoopLevel::row);
     const int vectors = vectors_of_group(kernel);
     cells->begin_group(vectors);
     for (int vector = 0; vector < vectors; ++vector) {
         cells->begin_vector(vector);
-        body.write_vector();
+        body.write(LoopLevel::cell);
         cells->end_vector();
     }
 
@@ -101,16 +103,31 @@ enum class Section : std::uint8_t {
     codes = 10
 };
 
-/// A section of one entry.
-void append_section(Bytes& to, Section section, const Bytes& entry) {
-    Bytes content{1};
-    append(content, entry);
+void append_section(Bytes& to, Section section, const std::vector<Bytes>& entries) {
+    Bytes content;
+    append_unsigned(content, entries.size());
+    for (const Bytes& entry : entries) append(content, entry);
     to.push_back(static_cast<std::uint8_t>(section));
     append_sized(to, content);
 }
 
-/// A module with one function, which is exported, and the memory of its host.
-Bytes module_of(const Bytes& function, std::uint32_t parameters) {
+/// A function that hands its arguments to all others, one after another.
+Bytes calls_of(std::size_t functions, std::uint32_t parameters) {
+    Code code(Precision::single);
+    for (std::size_t function = 0; function < functions; ++function) {
+        for (std::uint32_t k = 0; k < parameters; ++k) code.get(Local(k));
+        code.call(function);
+    }
+    code.close();
+    Bytes function;
+    append_unsigned(function, 0);  // Locals.
+    append(function, code.bytes());
+    return function;
+}
+
+/// A module with the memory of its host and functions of the same parameters, of which it exports
+/// the last one.
+Bytes module_of(const std::vector<Bytes>& functions, std::uint32_t parameters) {
     constexpr std::uint8_t function_type = 0x60, is_function = 0x00, is_memory = 0x02;
     Bytes type{function_type};
     append_sized(type, Bytes(parameters, static_cast<std::uint8_t>(LocalType::integer)));
@@ -121,16 +138,17 @@ Bytes module_of(const Bytes& function, std::uint32_t parameters) {
     append(memory, {is_memory, 0, 0});  // Of at least no pages, and any number.
     Bytes exported;
     append_name(exported, "run");
-    append(exported, {is_function, 0});
-    Bytes code;
-    append_sized(code, function);
+    exported.push_back(is_function);
+    append_unsigned(exported, functions.size() - 1);
+    std::vector<Bytes> codes;
+    for (const Bytes& function : functions) append_sized(codes.emplace_back(), function);
 
     Bytes module{0, 'a', 's', 'm', 1, 0, 0, 0};
-    append_section(module, Section::types, type);
-    append_section(module, Section::imports, memory);
-    append_section(module, Section::functions, {0});
-    append_section(module, Section::exports, exported);
-    append_section(module, Section::codes, code);
+    append_section(module, Section::types, {type});
+    append_section(module, Section::imports, {memory});
+    append_section(module, Section::functions, std::vector<Bytes>(functions.size(), {0}));
+    append_section(module, Section::exports, {exported});
+    append_section(module, Section::codes, codes);
     return module;
 }
 
@@ -143,8 +161,13 @@ Result<std::vector<std::uint8_t>> wasm_module(const CellKernel& kernel, Stencil 
     if (kernel.code.size() > wasm::most_instructions) {
         return failure("the kernel is too large to be compiled");
     }
-    return wasm::module_of(wasm::kernel_function(kernel, stencil, options.is_exact),
-                           wasm::parameter_count(stencil));
+    const std::uint32_t parameters = wasm::parameter_count(stencil);
+    std::vector<wasm::Bytes> functions;
+    for (const KernelPart& part : parts_of(kernel)) {
+        functions.push_back(wasm::function_of(part, stencil, options.is_exact));
+    }
+    if (functions.size() > 1) functions.push_back(wasm::calls_of(functions.size(), parameters));
+    return wasm::module_of(functions, parameters);
 }
 
 }  // namespace cascade

@@ -3,6 +3,7 @@
 //
 //   wasm_cases kept|exact FILE
 #include "core/floating_point.h"
+#include "ir/builder.h"
 #include "lang/library/library.h"
 #include "lang/lower/lower.h"
 #include "run/script/script.h"
@@ -23,6 +24,19 @@
 
 namespace cascade::testing {
 namespace {
+
+/// A step of species that diffuse, each of which feeds on the next one.
+CellKernel ring_of_species(std::size_t species, Precision precision) {
+    KernelBuilder builder(precision);
+    const auto slot = [&](std::size_t k) {
+        return builder.field_slot(fmt::format("u{}", k % species));
+    };
+    for (std::size_t k = 0; k < species; ++k) {
+        const ValueId food = builder.multiply(builder.field(slot(k)), builder.field(slot(k + 1)));
+        builder.result(fmt::format("u{}", k), builder.add(food, builder.laplacian(slot(k))));
+    }
+    return std::move(builder).finish();
+}
 
 class Cases {
 public:
@@ -84,14 +98,16 @@ public:
         }
     }
 
-    /// Adds a huge kernel, which is written without groups, and whose constants are many.
-    void add_huge() {
-        RandomKernelOptions options;
-        options.operations = 3000;
-        options.multiply_adds = false;
+    /// Adds kernels of many instructions, and of more results than a function has.
+    void add_large() {
         for (const std::uint64_t seed : {1, 2}) {
+            RandomKernelOptions options;
+            options.operations = 3000;
+            options.multiply_adds = false;
             options.precision = seed == 1 ? Precision::single : Precision::binary64;
             add(random_kernel(seed, options), {50, 3}, seed, fmt::format("huge kernel {}", seed));
+            add(ring_of_species(20, options.precision), {50, 3}, seed,
+                fmt::format("ring of species {}", seed));
         }
     }
 
@@ -150,7 +166,7 @@ bool make_cases(bool is_exact, const std::string& path) {
             links.add_random(first, 150, precision, true);
         }
     }
-    grids.add_huge();
+    grids.add_large();
     if (!add_scripts(grids, seed)) return false;
     std::printf("%d cases\n", file.cases);
     const std::string missing = grids.missing(false) + links.missing(true);

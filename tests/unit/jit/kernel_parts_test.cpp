@@ -1,5 +1,5 @@
 // Kernels of many results: how they are divided, and that this changes no bit.
-#include "jit/kernel_parts.h"
+#include "ir/kernel_parts.h"
 
 #include "ir/builder.h"
 #include "ir/interpreter.h"

@@ -1,6 +1,6 @@
 // Results are ordered so that those with common operations are neighbours, and cut into parts of
 // equal numbers.
-#include "jit/kernel_parts.h"
+#include "ir/kernel_parts.h"
 
 #include <algorithm>
 #include <numeric>

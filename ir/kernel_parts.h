@@ -1,11 +1,9 @@
-// Kernels of many results in parts, each of which is a function of a few results.
+// Kernels of many results in parts, each of which becomes a function of a few results.
 //
 // A step of 64 species in one loop keeps 64 rates, own values and addresses at once, far more than
 // there are registers, and walks through hundreds of rows side by side. Parts of 8 results take
 // half to two thirds of its time. Values that results of several parts are computed from are
 // computed in each of these parts, so a kernel stays whole where they are most of its work.
-//
-// Internal to jit/.
 #pragma once
 
 #include "ir/cell_kernel.h"
