@@ -1,4 +1,4 @@
-// Allocation of planes, and filling of their halos.
+// Filling of halos, and conversion of planes.
 #include "core/plane.h"
 
 #include "core/check.h"
@@ -6,35 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cstdlib>
 #include <cstring>
-#include <new>
-
-#include <sys/mman.h>
 
 namespace cascade {
 namespace {
-
-constexpr std::size_t cache_line = 64;
-constexpr std::size_t huge_page = std::size_t{2} << 20;
-
-/// Bytes from the start of a memory block to the plane in it. Planes that start at equal offsets in
-/// their pages map their rows to the same cache sets, which have too few ways for a tile of five
-/// planes; and the processor mistakes a load from one plane for a store to another, because it
-/// first compares only the low 12 bits of addresses. So each plane is shifted by a different part
-/// of 128 KiB, a way of a second-level cache, or of a page if the plane is too small for that.
-/// Multiples of 783 are spread evenly over 2048 lines as well as over 64.
-std::size_t next_shift(std::size_t bytes) {
-    constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
-    static std::atomic<std::size_t> planes{0};
-    std::size_t lines = 1;  // This line holds the block's address.
-    if (bytes >= small_plane) {
-        const std::size_t place = 783 * planes.fetch_add(1, std::memory_order_relaxed);
-        lines += place % (bytes >= 2 * huge_page ? lines_of_way : lines_of_page);
-    }
-    return lines * cache_line;
-}
 
 /// The first or last cell of an axis of `count` cells, which determines the cell beyond a side.
 std::int64_t source_of(const SideRule& rule, Side side, std::int64_t count) {
@@ -188,28 +163,6 @@ void fill_slices(const HaloFill<Number>& fill, const PlaneLayout& layout, RowRan
 }
 
 }  // namespace
-
-void* allocate_plane(std::size_t bytes) {
-    const bool is_large = bytes >= 2 * huge_page;
-    const std::size_t alignment = is_large ? huge_page : cache_line;
-    const std::size_t shift = next_shift(bytes);
-    const std::size_t rounded = (bytes + shift + alignment - 1) / alignment * alignment;
-    void* block = std::aligned_alloc(alignment, rounded);
-    if (block == nullptr) throw std::bad_alloc();
-    // Advice only: the plane works without huge pages, but slower.
-    if (is_large) madvise(block, rounded, MADV_HUGEPAGE);
-    char* const plane = static_cast<char*>(block) + shift;
-    std::memcpy(plane - sizeof block, &block, sizeof block);
-    std::memset(plane, 0, bytes);
-    return plane;
-}
-
-void free_plane(void* plane) {
-    if (plane == nullptr) return;
-    void* block = nullptr;
-    std::memcpy(&block, static_cast<char*>(plane) - sizeof block, sizeof block);
-    std::free(block);
-}
 
 Field Field::converted(Precision precision) const {
     if (precision == this->precision()) return clone();

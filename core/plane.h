@@ -17,7 +17,9 @@
 namespace cascade {
 
 /// Zeroed memory, aligned to 64 bytes. Large planes use huge pages if the system has them, because
-/// a step walks through eight and more planes at once. Throws std::bad_alloc.
+/// a step walks through eight and more planes at once. Their memory is first touched where it is
+/// first used, so threads share that work, and planes that are not used take none. Throws
+/// std::bad_alloc.
 void* allocate_plane(std::size_t bytes);
 void free_plane(void* plane);
 

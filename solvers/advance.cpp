@@ -44,18 +44,19 @@ public:
     StageOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
                          const Observer& observe) {
         outcome_ = {};
-        if (!is_known_to_be_finite_) {
+        stepper_.planes().take_back(species_);
+        if (!is_known_to_be_finite_ && !stepper_.is_finite()) {
+            stepper_.planes().lend(species_);
             outcome_.not_finite = find_not_finite(species_, clock_.step, clock_.step);
             outcome_.steps = clock_.step;
-            if (outcome_.not_finite) return std::move(outcome_);
-            is_known_to_be_finite_ = true;
+            return std::move(outcome_);
         }
+        is_known_to_be_finite_ = true;
         schedule_.last_step = last_step;
         schedule_.interval = interval;
         progress_.steps = std::max(steps_of_stage_, last_step);
         may_check_later_ =
             control.checks_later && last_step < steps_of_stage_ && stepper_.planes().keeps();
-        stepper_.planes().take_back(species_);
         clock_.go_on();
         tuner_.go_on();
         report(control, false);

@@ -1,0 +1,85 @@
+// Small planes come from the heap, large ones straight from the system, which clears their pages
+// when a thread first touches them.
+#include "core/plane.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include <sys/mman.h>
+
+namespace cascade {
+namespace {
+
+constexpr std::size_t cache_line = 64;
+constexpr std::size_t huge_page = std::size_t{2} << 20;
+
+/// Stands before each plane, in the last bytes of a cache line of its own.
+struct Block {
+    void* begin;
+    std::size_t mapped_bytes;  ///< 0 if the block is of the heap.
+};
+
+/// Bytes from the start of a memory block to the plane in it. Planes that start at equal offsets in
+/// their pages map their rows to the same cache sets, which have too few ways for a tile of five
+/// planes; and the processor mistakes a load from one plane for a store to another, because it
+/// first compares only the low 12 bits of addresses. So each plane is shifted by a different part
+/// of 128 KiB, a way of a second-level cache, or of a page if the plane is too small for that.
+/// Multiples of 783 are spread evenly over 2048 lines as well as over 64.
+std::size_t next_shift(std::size_t bytes) {
+    constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
+    static std::atomic<std::size_t> planes{0};
+    std::size_t lines = 1;  // This line holds the block.
+    if (bytes >= small_plane) {
+        const std::size_t place = 783 * planes.fetch_add(1, std::memory_order_relaxed);
+        lines += place % (bytes >= 2 * huge_page ? lines_of_way : lines_of_page);
+    }
+    return lines * cache_line;
+}
+
+std::size_t round_up(std::size_t bytes, std::size_t unit) {
+    return (bytes + unit - 1) / unit * unit;
+}
+
+/// Zeroed pages that begin with a huge one; null if there are none.
+void* map_pages(std::size_t bytes) {
+    // Of any huge_page more bytes, enough lie after the first place that a huge page can have.
+    const std::size_t reserved = bytes + huge_page;
+    void* const all =
+        ::mmap(nullptr, reserved, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (all == MAP_FAILED) return nullptr;
+    const std::size_t before =
+        (huge_page - reinterpret_cast<std::uintptr_t>(all) % huge_page) % huge_page;
+    char* const begin = static_cast<char*>(all) + before;
+    if (before > 0) ::munmap(all, before);
+    ::munmap(begin + bytes, huge_page - before);
+    // Advice only: the plane works without huge pages, but slower.
+    ::madvise(begin, bytes, MADV_HUGEPAGE);
+    return begin;
+}
+
+}  // namespace
+
+void* allocate_plane(std::size_t bytes) {
+    const bool is_large = bytes >= 2 * huge_page;
+    const std::size_t shift = next_shift(bytes);
+    const std::size_t rounded = round_up(bytes + shift, is_large ? huge_page : cache_line);
+    void* const begin = is_large ? map_pages(rounded) : std::aligned_alloc(cache_line, rounded);
+    if (begin == nullptr) throw std::bad_alloc();
+    const Block block{begin, is_large ? rounded : 0};
+    char* const plane = static_cast<char*>(begin) + shift;
+    std::memcpy(plane - sizeof block, &block, sizeof block);
+    if (!is_large) std::memset(plane, 0, bytes);
+    return plane;
+}
+
+void free_plane(void* plane) {
+    if (plane == nullptr) return;
+    Block block;
+    std::memcpy(&block, static_cast<char*>(plane) - sizeof block, sizeof block);
+    if (block.mapped_bytes > 0) ::munmap(block.begin, block.mapped_bytes);
+    else std::free(block.begin);
+}
+
+}  // namespace cascade

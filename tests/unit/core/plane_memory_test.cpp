@@ -1,0 +1,83 @@
+// Memory of planes: zeroed, aligned, and touched only where it is used.
+#include "core/plane.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace cascade {
+namespace {
+
+using Memory = std::unique_ptr<std::uint8_t[], decltype(&free_plane)>;
+
+Memory plane_of(std::size_t bytes) {
+    return {static_cast<std::uint8_t*>(allocate_plane(bytes)), free_plane};
+}
+
+/// Sizes on both sides of where planes are shifted and of where they come from the system.
+constexpr std::size_t sizes[] = {0,       1,       63,      65535,    65536,
+                                 4194303, 4194304, 6291455, 16777216, 33554433};
+
+TEST(PlaneMemory, IsZeroAndAlignedEvenWhereItWasInUseBefore) {
+    for (int turn = 0; turn < 3; ++turn) {
+        for (const std::size_t bytes : sizes) {
+            const Memory memory = plane_of(bytes);
+            EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory.get()) % 64, 0u) << bytes;
+            EXPECT_TRUE(std::all_of(memory.get(), memory.get() + bytes, [](std::uint8_t byte) {
+                return byte == 0;
+            })) << bytes;
+            std::fill_n(memory.get(), bytes, std::uint8_t{255});
+        }
+    }
+}
+
+TEST(PlaneMemory, PlanesDoNotOverlap) {
+    std::vector<Memory> planes;
+    for (const std::size_t bytes : sizes) {
+        planes.push_back(plane_of(bytes));
+        std::fill_n(planes.back().get(), bytes, static_cast<std::uint8_t>(planes.size()));
+    }
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        EXPECT_TRUE(std::all_of(planes[k].get(), planes[k].get() + sizes[k],
+                                [&](std::uint8_t byte) { return byte == k + 1; }))
+            << sizes[k];
+        planes[k].reset();
+    }
+}
+
+/// Whole pages of a plane that are in memory.
+std::size_t resident_pages(const std::uint8_t* plane, std::size_t bytes) {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const std::size_t to_page = (page - reinterpret_cast<std::uintptr_t>(plane) % page) % page;
+    std::vector<unsigned char> is_resident((bytes - to_page) / page);
+    // mincore() takes the address of memory that it does not change.
+    void* const first = const_cast<std::uint8_t*>(plane) + to_page;
+    if (::mincore(first, is_resident.size() * page, is_resident.data()) != 0) return SIZE_MAX;
+    return static_cast<std::size_t>(std::count_if(is_resident.begin(), is_resident.end(),
+                                                  [](unsigned char is) { return (is & 1) != 0; }));
+}
+
+TEST(PlaneMemory, OfALargePlaneIsTouchedWhereItIsUsed) {
+    constexpr std::size_t bytes = std::size_t{64} << 20, huge_page = std::size_t{2} << 20;
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const Memory memory = plane_of(bytes);
+    EXPECT_LE(resident_pages(memory.get(), bytes), huge_page / page) << "the start alone";
+    memory[bytes / 2] = 1;
+    EXPECT_LE(resident_pages(memory.get(), bytes), 2 * huge_page / page);
+    std::fill_n(memory.get(), bytes, std::uint8_t{1});
+    EXPECT_EQ(resident_pages(memory.get(), bytes), bytes / page - 1);
+}
+
+TEST(PlaneMemory, ThatDoesNotExistIsRefused) {
+    // More than an address can reach.
+    EXPECT_THROW(plane_of(std::size_t{1} << 60), std::bad_alloc);
+}
+
+}  // namespace
+}  // namespace cascade
