@@ -13,6 +13,8 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t cells_of_block = 64;
+/// Of grids with more cells only some bands of blocks are looked at.
+constexpr std::int64_t most_cells = std::int64_t{1} << 22;
 /// The limits of correlation, for neighbours on a grid and for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;
 
@@ -72,11 +74,13 @@ public:
     /// The part of the blocks whose cells alternate along an axis.
     double on_grid() {
         const auto sides = block_sides(layout_);
-        const auto cut = [&](std::int64_t count, std::int64_t side) {
-            return stretches(count, side, std::max<std::int64_t>(side / 2, 1));
+        const auto cut = [&](std::int64_t count, std::int64_t side, std::int64_t apart = 1) {
+            return stretches(count, side, std::max<std::int64_t>(side / 2, 1) * apart);
         };
+        const std::int64_t cells = layout_.width * layout_.row_count();
+        const std::int64_t apart = (cells + most_cells - 1) / most_cells;
         for (const Stretch k : cut(layout_.depth, sides[2])) {
-            for (const Stretch j : cut(layout_.height, sides[1])) {
+            for (const Stretch j : cut(layout_.height, sides[1], apart)) {
                 for (const Stretch i : cut(layout_.width, sides[0])) look_at({i, j, k});
             }
         }
@@ -196,6 +200,7 @@ private:
 double alternating_part(const Field& field, const Mask* inside, const Links* links) {
     if (field.empty()) return 0;
     const double deviation = moments(field, inside).deviation;
+    if (!(deviation > 0)) return 0;
     return field.visit([&](const auto& plane) {
         using Number = std::remove_cvref_t<decltype(*plane.origin())>;
         Blocks blocks(plane, inside, deviation);

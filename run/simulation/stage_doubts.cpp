@@ -155,13 +155,13 @@ std::optional<std::string> find_chequerboard(const StageView& view, bool flicker
     const Links* links = here.model ? &here.model->links : nullptr;
     const StageTime& time = view.stage().time;
     const auto alternates = [&](const Field& field) {
+        if (alternating_part(field, here.counted(), links) < chequerboard_threshold) return false;
         // What has died away is rounding, or errors within the solver's tolerance, of which the
         // fastest waves may well be left.
         const FieldMoments values = moments(field, here.counted());
         const double errors =
             time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;
-        return values.deviation > std::max(least_deviation, errors) &&
-               alternating_part(field, here.counted(), links) >= chequerboard_threshold;
+        return values.deviation > std::max(least_deviation, errors);
     };
     const auto found = std::find_if(species.begin(), species.end(), alternates);
     if (found == species.end()) return std::nullopt;

@@ -128,10 +128,11 @@ bool warn_of_undefined_parameters(const StageView& view, const RunControl& contr
         if (system.is_species(item) || item == system.speed_item()) continue;
         std::string place;
         double value = state.numbers[item];
-        if (!state.fields[item].empty()) {
-            const auto cell = first_cell(state.fields[item], here.counted(), is_undefined);
+        if (const Field& field = state.fields[item]; !field.empty()) {
+            if (are_finite(field, {{0, field.layout().row_count()}})) continue;
+            const auto cell = first_cell(field, here.counted(), is_undefined);
             if (!cell) continue;
-            value = state.fields[item].number_at(cell->column, cell->row, cell->slice);
+            value = field.number_at(cell->column, cell->row, cell->slice);
             place = " at " + here.place_in_words(cell->column, cell->row);
         } else if (!view.stage().uniform[item] || !is_undefined(value) ||
                    is_constant(view.stage().items[item])) {

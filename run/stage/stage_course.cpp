@@ -2,6 +2,8 @@
 // trends by tenths of the stage's age.
 #include "run/stage/stage_course.h"
 
+#include "solvers/field_norms.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,6 +46,17 @@ Spread spread_of(const Field& field, const Mask* inside, std::int64_t every_row)
     });
 }
 
+/// As Spread::is_even() of every n-th row. The root mean square, which takes less time to find, is
+/// at most the largest magnitude.
+bool is_even(const Field& field, const Mask* inside, std::int64_t every_row) {
+    if (every_row == 1) {
+        const FieldMoments all = moments(field, inside);
+        if (all.deviation < std::max(even_deviation * all.root_mean_square, least_deviation))
+            return true;
+    }
+    return spread_of(field, inside, every_row).is_even();
+}
+
 bool are_even(std::span<const Spread> spreads) {
     return std::all_of(spreads.begin(), spreads.end(),
                        [](const Spread& spread) { return spread.is_even(); });
@@ -78,10 +91,11 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
         moment.species.push_back(spread_of(field, inside, every_row));
     moment.is_even = are_even(moment.species);
     // A small feature may lie between the rows.
-    if (moment.is_even && every_row > 1) {
-        for (std::size_t k = 0; k < species.size() && moment.is_even; ++k) {
-            moment.is_even = spread_of(species[k], inside, 1).is_even();
-        }
+    for (std::int64_t rows = every_row; moment.is_even && rows > 1;) {
+        rows = std::max<std::int64_t>(1, rows / 16);
+        moment.is_even = std::all_of(species.begin(), species.end(), [&](const Field& field) {
+            return is_even(field, inside, rows);
+        });
     }
     moments_.push_back(std::move(moment));
 }

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace cascade {
 namespace {
@@ -20,6 +22,15 @@ std::vector<Field> species(double mean, double amplitude) {
         }
     }
     fields.push_back(std::move(field));
+    return fields;
+}
+
+/// One species of a value on 512 × 256 cells, of which one has another value.
+std::vector<Field> one_cell(float value, float of_cell) {
+    std::vector<Field> fields;
+    Field& field = fields.emplace_back(PlaneLayout(Grid{512, 256}));
+    for (std::int64_t row = 0; row < 256; ++row) std::fill_n(field.row(row), 512, value);
+    field.at(77, 130) = of_cell;
     return fields;
 }
 
@@ -42,6 +53,21 @@ TEST(StageCourse, EndsWhereItEnds) {
     EXPECT_FALSE(course.ended_even());
     EXPECT_NEAR(course.last().species[0].deviation(), std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(course.greatest_contrast(), std::sqrt(0.5) / 3, 1e-3);
+}
+
+TEST(StageCourse, ASingleCellOfALargePlaneMakesItUneven) {
+    const auto is_even = [](float value, float of_cell) {
+        StageCourse course;
+        course.look(0, 0, one_cell(value, of_cell), nullptr);
+        return course.first().is_even;
+    };
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    EXPECT_TRUE(is_even(0, 0));
+    EXPECT_TRUE(is_even(3, 3));
+    EXPECT_TRUE(is_even(3, 3.001f));
+    EXPECT_FALSE(is_even(3, 4));
+    EXPECT_FALSE(is_even(0, 1e-3f));
+    EXPECT_TRUE(is_even(3, infinite)) << "what is not finite does not count";
 }
 
 TEST(StageCourse, AmplitudeThatRisesIsGrowing) {

@@ -51,6 +51,15 @@ TEST(Chequerboard, OfAPartOfTheField) {
     }
 }
 
+TEST(Chequerboard, OfAPartOfALargeField) {
+    for (const std::int64_t rows : {2100, 1050, 60}) {
+        const auto upper = [=](auto i, auto j) {
+            return j < rows ? board(i, j) : std::sin(0.4 * static_cast<double>(i));
+        };
+        EXPECT_NEAR(part(4200, 2100, upper), static_cast<double>(rows) / 2100, 0.02) << rows;
+    }
+}
+
 TEST(Chequerboard, InSpace) {
     Field field{PlaneLayout(Grid{12, 16, Boundaries{}, 8})};
     Field waves{field.layout()};
