@@ -177,4 +177,24 @@ void Cells::store(std::size_t result, Local number) {
     code().access(Whole::store, pad_bytes() + offset_of_vector());
 }
 
+void Cells::fill_columns(Code& code, std::size_t result, Local row_end) {
+    const bool is_single = function_.precision() == Precision::single;
+    const auto number_bytes = static_cast<std::uint32_t>(function_.number_bytes());
+    const auto copy = [&](Parameter from, Local to, std::uint32_t offset) {
+        for (const Local place : {to, place_.row}) {
+            code.get(plane(Parameter::results, result));
+            code.get(place);
+            code.write(Plain::add);
+        }
+        code.get(local_of(from));
+        code.integer(function_.number_shift());
+        code.write(Plain::shift_left);
+        code.write(Plain::add);
+        code.access(is_single ? Plain::load : Plain::long_load, pad_bytes());
+        code.access(is_single ? Plain::store : Plain::long_store, offset);
+    };
+    copy(Parameter::left_column, place_.row, pad_bytes() - number_bytes);
+    copy(Parameter::right_column, row_end, pad_bytes());
+}
+
 }  // namespace cascade::wasm

@@ -29,6 +29,10 @@ enum class Parameter : std::uint32_t {
     row_begin,
     row_end,
     shared_parameters,
+    // Of grids of one slice.
+    left_column = shared_parameters,
+    right_column,
+    plane_parameters,
     // Of grids of several slices.
     slice_rows = shared_parameters,
     slice,
@@ -84,6 +88,8 @@ public:
     virtual Local link_sum(const Instruction& sum) = 0;
 
     void store(std::size_t result, Local number);
+    /// Fills the columns of the halo beside a row of a result, whose last column ends at `row_end`.
+    void fill_columns(Code& code, std::size_t result, Local row_end);
 
 protected:
     /// A field, and the numbers of columns, rows and slices from the cell to what is read.

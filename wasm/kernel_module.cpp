@@ -21,7 +21,7 @@ int vectors_of_group(const CellKernel& kernel) {
 std::uint32_t parameter_count(Stencil stencil) {
     return static_cast<std::uint32_t>(stencil.links ? Parameter::linked_parameters
                                       : stencil.z   ? Parameter::volume_parameters
-                                                    : Parameter::shared_parameters);
+                                                    : Parameter::plane_parameters);
 }
 
 /// Puts the bytes from the first cell of the plane to a column of the present row on the stack.
@@ -31,6 +31,18 @@ void push_place(Code& code, const Function& function, Local row, Parameter colum
     code.integer(function.number_shift());
     code.write(Plain::shift_left);
     code.write(Plain::add);
+}
+
+/// Fills the columns of the halo beside a row, if they are asked for.
+void write_columns(Code& code, Cells& cells, const std::vector<std::size_t>& results,
+                   Local row_end) {
+    code.open(Plain::block);
+    code.get(local_of(Parameter::left_column));
+    code.integer(0);
+    code.write(Plain::less);
+    code.branch_if();
+    for (const std::size_t result : results) cells.fill_columns(code, result, row_end);
+    code.close();
 }
 
 /// The function of a part: its loops.
@@ -82,6 +94,7 @@ Bytes function_of(const KernelPart& part, Stencil stencil, bool is_exact) {
     code.write(Plain::less_unsigned);
     code.branch_if();
     code.close();
+    if (!stencil.links && !stencil.z) write_columns(code, *cells, part.results, end);
     code.get(row);
     code.integer(1);
     code.write(Plain::add);

@@ -41,15 +41,18 @@ struct WasmOptions {
 ///   cells in a row. `stride` is PlaneLayout::stride.
 /// - As backend.h allows, an output may be a field that sole_results() names, and cells of the
 ///   output after the last one of a row, up to a multiple of 16, get any values.
-/// - The halo of fields that are read in other cells has been filled; the kernel fills none.
+/// - The halo of fields that are read in other cells has been filled.
 ///
-/// Kernels for grids of several slices have two more arguments, `slice_rows` and `slice`. Row j of
-/// slice k is then row k * slice_rows + j, where slice_rows is the height plus 2
-/// (PlaneLayout::slice_rows()), and all rows of a call lie in the slice `slice`.
+/// There are more arguments, which depend on the stencil:
 ///
-/// Kernels for linked cells have seven more, the addresses of the arrays of a LinkTable: `starts`,
-/// `bases`, `offsets`, `weights`, and the gradient's x, y and z; those that no sum of the kernel
-/// needs may be 0. They compute whole rows.
+/// - Grids of one slice: `left_column` and `right_column`, HaloColumns that each computed row
+///   copies to its columns −1 and `column_end`, which then is the end of the row; −1 and −1: none.
+/// - Grids of several slices: `slice_rows` and `slice`. Row j of slice k is row
+///   k * slice_rows + j, where slice_rows is the height plus 2 (PlaneLayout::slice_rows()), and all
+///   rows of a call lie in the slice `slice`.
+/// - Linked cells, which are computed in whole rows: the addresses of the arrays of a LinkTable:
+///   `starts`, `bases`, `offsets`, `weights`, and the gradient's x, y and z; those that no sum of
+///   the kernel needs may be 0.
 ///
 /// An engine that is WebAssembly itself puts `run` into its table of functions; there it is a
 /// function pointer with that many arguments of type int32_t.

@@ -47,7 +47,10 @@ public:
              const std::string& name) {
         const Recording recording{name, is_exact_, seed % 3 == 0};
         const auto recorded = recorded_kernel(kernel, grid.stencil(), recording, file_);
-        const HostileInputs inputs(kernel, grid, seed);
+        HostileInputs inputs(kernel, grid, seed);
+        const std::int64_t last = grid.width - 1;
+        if (seed % 5 == 0)
+            inputs.fill_columns(seed % 2 == 0 ? HaloColumns{last, 0} : HaloColumns{0, last});
         const std::int64_t rows = PlaneLayout(grid).row_count();
         inputs.run(*recorded);
         if (grid.linked || seed % 4 != 0) return;

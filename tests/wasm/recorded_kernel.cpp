@@ -105,7 +105,10 @@ private:
         for (const std::int64_t count : {columns.begin, columns.end, layout.stride}) {
             shared.push_back(static_cast<std::uint32_t>(count));
         }
-        const auto calls = calls_of(shared, given, cells.rows, image);
+        const bool is_filled = given.columns && !stencil_.z && !stencil_.links &&
+                               columns.begin == 0 && columns.end == layout.width;
+        const HaloColumns filled = is_filled ? *given.columns : HaloColumns{-1, -1};
+        const auto calls = calls_of(shared, given, cells.rows, filled, image);
 
         interpreted_->run(given, cells);
         file_.write(recording_.name);
@@ -121,11 +124,17 @@ private:
                 const std::int64_t start = layout.row_start(row);
                 constexpr std::int64_t pad = PlaneLayout::row_pad;
                 const std::int64_t end = (columns.end + pad - 1) / pad * pad;
+                const auto place = [&](std::int64_t i) {
+                    return first + static_cast<std::size_t>(start + i);
+                };
                 for (std::int64_t i = columns.begin; i < end; ++i) {
-                    const std::size_t place = first + static_cast<std::size_t>(start + i);
-                    if (i < columns.end) results[k].numbers[place] = given.results[k][start + i];
-                    is_free[place] = i >= columns.end;
+                    if (i < columns.end) results[k].numbers[place(i)] = given.results[k][start + i];
+                    is_free[place(i)] = i >= columns.end;
                 }
+                if (!is_filled) continue;
+                results[k].numbers[place(-1)] = given.results[k][start + filled.left];
+                results[k].numbers[place(columns.end)] = given.results[k][start + filled.right];
+                is_free[place(columns.end)] = 0;
             }
             file_.write(results[k].address);
             Image expected;
@@ -142,7 +151,8 @@ private:
     template <typename Number>
     std::vector<std::vector<std::uint8_t>> calls_of(const std::vector<std::uint32_t>& shared,
                                                     const KernelArgumentsOf<Number>& given,
-                                                    RowRange rows, Image& image) const {
+                                                    RowRange rows, HaloColumns filled,
+                                                    Image& image) const {
         std::vector<std::vector<std::uint8_t>> calls;
         const auto call = [&](std::int64_t begin, std::int64_t end,
                               const std::vector<std::uint32_t>& more) {
@@ -157,7 +167,9 @@ private:
         if (stencil_.links) {
             call(rows.begin, rows.end, add_links(given.links, layout, image));
         } else if (!stencil_.z) {
-            call(rows.begin, rows.end, {});
+            call(rows.begin, rows.end,
+                 {static_cast<std::uint32_t>(filled.left),
+                  static_cast<std::uint32_t>(filled.right)});
         } else {
             while (!rows.empty()) {
                 const std::int64_t slice = rows.begin / layout.height;
