@@ -228,6 +228,7 @@ TEST_F(LocalServerTest, ClosesPagesThatBreakTheRules) {
         {
             RawClient client(server_->port());
             open_page(client);
+            events_.wait_for(count - 1);  // The server knows the page now.
             act(client);
         }
         EXPECT_THAT(events_.wait_for(count).back(), StartsWith("closed"));
