@@ -3,17 +3,10 @@
 
 #include "core/check.h"
 
-#include <array>
 #include <cmath>
-#include <span>
 
 namespace cascade::wasm {
 namespace {
-
-std::span<const ValueId> operands_of(const Instruction& instruction) {
-    return std::span(instruction.operands)
-        .first(static_cast<std::size_t>(info(instruction.op).arity));
-}
 
 /// Whether the result may be a denormal number although exact arithmetic flushes.
 bool passes_words(Op op) {
@@ -39,6 +32,22 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
         if (readers_[id] == 0) continue;
         for (const ValueId operand : operands_of(kernel_.code[id])) ++readers_[operand];
     }
+}
+
+/// Whether it chooses the less or the greater one of two numbers, for which there are instructions.
+/// Those compare denormal numbers as they are.
+bool Body::is_bound(const Instruction& instruction) const {
+    if (is_exact_ || instruction.op != Op::select) return false;
+    const auto [a, b, c] = instruction.operands;
+    const Instruction& condition = kernel_.code[a];
+    const auto [p, q, unused] = condition.operands;
+    return condition.op == Op::less && ((b == p && c == q) || (b == q && c == p));
+}
+
+std::span<const ValueId> Body::operands_of(const Instruction& instruction) const {
+    const std::span<const ValueId> all(instruction.operands.data(),
+                                       static_cast<std::size_t>(info(instruction.op).arity));
+    return is_bound(instruction) ? all.subspan(1) : all;
 }
 
 void Body::write(LoopLevel level) {
@@ -157,7 +166,7 @@ std::optional<Local> Body::source(const Instruction& instruction) {
 
 /// Leaves the result on the stack; of comparisons and logic its truth.
 void Body::push(const Instruction& instruction) {
-    const auto [a, b, c] = instruction.operands;
+    const auto [a, b, unused] = instruction.operands;
     switch (instruction.op) {
         case Op::add: push_operands(a, b); return arithmetic().add();
         case Op::subtract: push_operands(a, b); return arithmetic().subtract();
@@ -175,11 +184,7 @@ void Body::push(const Instruction& instruction) {
         case Op::logical_and: return push_truths(Whole::bits_and, {a, b});
         case Op::logical_or: return push_truths(Whole::bits_or, {a, b});
         case Op::logical_not: return push_truths(Whole::bits_not, {a});
-        case Op::select:
-            code().get(number(b));
-            code().get(number(c));
-            code().get(truth(a));
-            return code().write(Whole::choose);
+        case Op::select: return push_choice(instruction);
         case Op::bits_add: return push_words(Lanes::word_add, {a, b});
         case Op::bits_subtract: return push_words(Lanes::word_subtract, {a, b});
         case Op::bits_multiply: return push_words(Lanes::word_multiply, {a, b});
@@ -191,6 +196,18 @@ void Body::push(const Instruction& instruction) {
         case Op::bits_to_number: return push_converted(a);
         default: CHECK(false, "an operation of the table that WebAssembly has");
     }
+}
+
+void Body::push_choice(const Instruction& instruction) {
+    const auto [a, b, c] = instruction.operands;
+    if (is_bound(instruction)) {
+        const bool takes_greater = kernel_.code[a].operands[0] == c;
+        return push_words(takes_greater ? Lanes::second_if_greater : Lanes::second_if_less, {c, b});
+    }
+    code().get(number(b));
+    code().get(number(c));
+    code().get(truth(a));
+    code().write(Whole::choose);
 }
 
 // As scale_by_power() of ir/word_operations.h.

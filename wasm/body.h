@@ -9,6 +9,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade::wasm {
@@ -32,6 +33,8 @@ private:
         bool may_be_denormal = false;
     };
 
+    bool is_bound(const Instruction& instruction) const;
+    std::span<const ValueId> operands_of(const Instruction& instruction) const;
     void define(ValueId id);
     void store(std::size_t result);
     void release(ValueId id);
@@ -62,6 +65,7 @@ private:
         for (const ValueId id : operands) code().get(truth(id));
         code().write(instruction);
     }
+    void push_choice(const Instruction& instruction);
     void push_scaled(ValueId a, ValueId b);
     void push_shift(Lanes shift, int amount);
     void push_shifted(const Instruction& instruction);

@@ -7,6 +7,7 @@
 #include "lang/library/library.h"
 #include "lang/lower/lower.h"
 #include "run/script/script.h"
+#include "solvers/scheme.h"
 #include "tests/agreement/random_scripts.h"
 #include "tests/support/kernel_comparison.h"
 #include "tests/support/new_seed.h"
@@ -21,6 +22,8 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace cascade::testing {
 namespace {
@@ -85,11 +88,17 @@ public:
         grid.depth = std::min<std::int64_t>(grid.depth, 2);
         for (std::uint32_t stage = 0; stage < program.stages.size(); ++stage) {
             const PlanOptions options{Materialise::when_cheaper, false, true};
-            for (const StepPlan& plan :
-                 {plan_uniform_start(program, stage), plan_start(program, stage),
-                  plan_step_invariants(program, stage, options), plan_step(program, stage, options),
-                  plan_rates(program, stage),
-                  plan_view(program, program.stages[stage].show, stage)}) {
+            std::vector<StepPlan> plans{plan_uniform_start(program, stage),
+                                        plan_start(program, stage),
+                                        plan_step_invariants(program, stage, options),
+                                        plan_step(program, stage, options),
+                                        plan_rates(program, stage),
+                                        plan_view(program, program.stages[stage].show, stage)};
+            const std::uint32_t species = program.system_of(stage).species_count();
+            for (const SweepForm& form : make_scheme(Solver::rkl2, species, false).forms) {
+                plans.push_back(plan_sweep(program, stage, form, options));
+            }
+            for (const StepPlan& plan : plans) {
                 for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
                     const CellKernel& kernel = plan.passes[pass].bound.kernel;
                     const std::uint64_t key = 16 * hash(kernel) + grid.stencil().number();
