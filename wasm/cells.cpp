@@ -1,5 +1,6 @@
 // Loads from the cells themselves and beside them, masks, places, and stores.
 #include "wasm/cells.h"
+#include <cstdlib>
 
 namespace cascade::wasm {
 
@@ -174,6 +175,7 @@ Local Cells::cell_column() {
 void Cells::store(std::size_t result, Local number) {
     code().get(address({Parameter::results, result}));
     code().get(number);
+    if (getenv("FL")) Arithmetic(function_, LoopLevel::cell, true).flush();
     code().access(Whole::store, pad_bytes() + offset_of_vector());
 }
 
