@@ -34,8 +34,8 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
     }
 }
 
-/// Whether it chooses the less or the greater one of two numbers, for which there are instructions.
-/// Those compare denormal numbers as they are.
+/// Whether it chooses the less or the greater one of two numbers, which are also those that its
+/// condition compares: there are instructions for that, which do not flush.
 bool Body::is_bound(const Instruction& instruction) const {
     if (is_exact_ || instruction.op != Op::select) return false;
     const auto [a, b, c] = instruction.operands;
@@ -130,12 +130,11 @@ Local Body::truth(ValueId id) {
 Body::Value Body::value_of(const Instruction& instruction) {
     const Op op = instruction.op;
     Value value;
-    value.may_be_denormal = passes_words(op);
+    value.may_be_denormal =
+        op == Op::constant ? function_.format().is_denormal(instruction.payload) : passes_words(op);
     value.is_boolean = op == Op::mask || (op >= Op::less && op <= Op::logical_not);
     std::optional<Local> local = source(instruction);
     value.is_of_source = local.has_value();
-    if (op == Op::constant)
-        value.may_be_denormal = function_.format().is_denormal(instruction.payload);
     if (!local) {
         push(instruction);
         local = keep();

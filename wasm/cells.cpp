@@ -1,6 +1,5 @@
 // Loads from the cells themselves and beside them, masks, places, and stores.
 #include "wasm/cells.h"
-#include <cstdlib>
 
 namespace cascade::wasm {
 
@@ -175,7 +174,6 @@ Local Cells::cell_column() {
 void Cells::store(std::size_t result, Local number) {
     code().get(address({Parameter::results, result}));
     code().get(number);
-    if (getenv("FL")) Arithmetic(function_, LoopLevel::cell, true).flush();
     code().access(Whole::store, pad_bytes() + offset_of_vector());
 }
 

@@ -9,7 +9,6 @@
 #include "wasm/bytes.h"
 #include "wasm/instructions.h"
 
-#include <bit>
 #include <cstdint>
 
 namespace cascade::wasm {
@@ -80,10 +79,10 @@ public:
         bytes_.push_back(no_value);
     }
     void close() { write(Plain::end); }
-    /// To the innermost block or loop, or one further out.
-    void branch_if(std::uint32_t outwards = 0) {
+    /// To the innermost block or loop.
+    void branch_if() {
         write(Plain::branch_if);
-        append_unsigned(bytes_, outwards);
+        append_unsigned(bytes_, 0);
     }
 
     static constexpr int vector_bytes = 16;
