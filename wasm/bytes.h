@@ -11,32 +11,13 @@ namespace cascade::wasm {
 
 using Bytes = std::vector<std::uint8_t>;
 
-inline void append(Bytes& to, const Bytes& bytes) {
-    to.insert(to.end(), bytes.begin(), bytes.end());
-}
-
+void append(Bytes& to, const Bytes& bytes);
 /// LEB128: seven bits a byte, the lowest first; the top bit says that more follow.
-inline void append_unsigned(Bytes& to, std::uint64_t number) {
-    for (; number >= 0x80; number >>= 7) to.push_back(static_cast<std::uint8_t>(number | 0x80));
-    to.push_back(static_cast<std::uint8_t>(number));
-}
-
+void append_unsigned(Bytes& to, std::uint64_t number);
 /// The same, in two's complement.
-inline void append_signed(Bytes& to, std::int64_t number) {
-    for (; number < -0x40 || number >= 0x40; number >>= 7) {
-        to.push_back(static_cast<std::uint8_t>((number & 0x7f) | 0x80));
-    }
-    to.push_back(static_cast<std::uint8_t>(number & 0x7f));
-}
-
+void append_signed(Bytes& to, std::int64_t number);
 /// Bytes after their number.
-inline void append_sized(Bytes& to, const Bytes& bytes) {
-    append_unsigned(to, bytes.size());
-    append(to, bytes);
-}
-
-inline void append_name(Bytes& to, std::string_view name) {
-    append_sized(to, Bytes(name.begin(), name.end()));
-}
+void append_sized(Bytes& to, const Bytes& bytes);
+void append_name(Bytes& to, std::string_view name);
 
 }  // namespace cascade::wasm
