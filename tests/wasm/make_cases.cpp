@@ -17,6 +17,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -123,6 +125,45 @@ public:
         }
     }
 
+    /// Adds products and quotients next to the least normal number, of which some are below it only
+    /// if they are rounded to all digits.
+    template <typename Number>
+    void add_nearly_denormal() {
+        constexpr Precision precision = precision_of<Number>;
+        constexpr int bias = format_of(precision).bias;
+        KernelBuilder builder(precision);
+        const auto field = [&](const char* name) {
+            return builder.field(builder.field_slot(name));
+        };
+        const ValueId a = field("a");
+        builder.result("product", builder.multiply(a, field("b")));
+        builder.result("quotient", builder.divide(a, field("c")));
+        builder.result("scaled", builder.apply(Op::scale_by_power, field("d"),
+                                               builder.number(static_cast<float>(-bias))));
+        const CellKernel kernel = std::move(builder).finish();
+        const PlaneLayout layout(Grid{61, 20});
+        std::vector<Plane<Number>> planes;
+        for (int k = 0; k < 7; ++k) planes.emplace_back(layout);
+        RandomStream stream(1);
+        for (std::int64_t row = 0; row < layout.height; ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                const Number x = 1 + std::abs(static_cast<Number>(stream.symmetric()));
+                planes[0].row(row)[i] = std::ldexp(x, -bias / 2);
+                planes[1].row(row)[i] = std::ldexp(1 / x, -bias / 2);
+                planes[2].row(row)[i] = std::ldexp(std::nextafter(x, Number{2}), bias / 2);
+                planes[3].row(row)[i] = std::nextafter(Number{2}, Number{0}) / x * x;
+            }
+        }
+        const std::array<const Number*, 4> fields{planes[0].origin(), planes[1].origin(),
+                                                  planes[2].origin(), planes[3].origin()};
+        const std::array<Number*, 3> results{planes[4].origin(), planes[5].origin(),
+                                             planes[6].origin()};
+        const Recording recording{"results that are nearly denormal", is_exact_};
+        const FlushDenormals environment;
+        recorded_kernel(kernel, Stencil::plane, recording, file_)
+            ->run({fields, {}, {}, results, layout}, {{0, layout.height}});
+    }
+
     /// The operations that no random kernel had.
     std::string missing(bool links) const { return tried_.missing(links); }
 
@@ -179,6 +220,8 @@ bool make_cases(bool is_exact, const std::string& path) {
         }
     }
     grids.add_large();
+    grids.add_nearly_denormal<float>();
+    grids.add_nearly_denormal<double>();
     if (!add_scripts(grids, seed)) return false;
     std::printf("%d cases\n", file.cases);
     const std::string missing = grids.missing(false) + links.missing(true);
