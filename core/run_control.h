@@ -30,8 +30,9 @@ struct Progress {
 /// thread; the run then ends at the next complete step.
 struct RunControl {
     std::atomic<bool> cancel{false};
-    /// A call that takes steps within a stage may leave without looking for values that are not
-    /// finite. They are found by a later call, at most 64 steps after they appeared.
+    /// The steps of a stage are taken by many calls. So one may leave without looking for values
+    /// that are not finite, which a later call finds, at most 64 steps after they appeared; and
+    /// what makes steps faster is tried as if one call took them all.
     bool checks_later = false;
     std::function<void(const Progress&)> report;
     /// Warnings that do not stop the run, such as an interpreted kernel.

@@ -53,6 +53,8 @@ public:
         }
         is_known_to_be_finite_ = true;
         schedule_.last_step = last_step;
+        schedule_.planned_step =
+            control.checks_later ? std::max(last_step, steps_of_stage_) : last_step;
         schedule_.interval = interval;
         progress_.steps = std::max(steps_of_stage_, last_step);
         may_check_later_ =

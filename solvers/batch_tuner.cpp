@@ -107,8 +107,9 @@ std::int64_t BatchTuner::steps_at_once() const {
 /// The time of the remaining steps. If their number is unknown, the time so far.
 BatchTuner::Seconds BatchTuner::time_left(Seconds of_step) const {
     if (schedule_.check > 0) return spent_ + (Clock::now() - began_);
-    const auto by_number = static_cast<double>(schedule_.last_step - clock_.step);
-    return of_step * std::min(by_number, clock_.steps_left());
+    const auto by_number = static_cast<double>(schedule_.planned_step - clock_.step);
+    const bool has_end = clock_.has_end_time();
+    return of_step * (has_end ? std::min(by_number, clock_.steps_left()) : by_number);
 }
 
 }  // namespace cascade

@@ -43,6 +43,8 @@ using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time,
 struct Schedule {
     std::int64_t first_step = 0;  ///< Complete steps so far (more than 0 after a resume).
     std::int64_t last_step = 0;   ///< Stop when this number is complete.
+    /// Later calls will probably go on up to this step; what is tried for speed may pay until then.
+    std::int64_t planned_step = 0;
     TimeState time = {};          ///< At `first_step`.
     /// Stop when t has reached this; the last step is shortened to end there.
     double end_time = std::numeric_limits<double>::infinity();
