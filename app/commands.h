@@ -16,6 +16,7 @@ int systems_command(const Options& options, Console& console);
 int new_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
 int mesh_command(const Options& options, Console& console);
+int view_command(const Options& options, Console& console);
 
 /// A bar in a terminal, lines in a pipe, nothing if `quiet`.
 ProgressDisplay make_progress_display(const Console& console, bool quiet);

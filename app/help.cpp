@@ -107,6 +107,13 @@ const std::string_view repl_examples = R"(Example:
   cascade repl leopard.cascade
 Then :help lists the commands.)";
 
+const std::string_view view =
+    "Opens a script in the browser: its pattern grows while text and numbers change.";
+const std::string_view view_examples = R"(Examples:
+  cascade view leopard.cascade
+  cascade view leopard.cascade --no-browser          prints the address
+Only this machine reaches the page. Ctrl-C ends it.)";
+
 std::string in_lines(const std::vector<std::string>& names) {
     constexpr std::size_t widest = 52;
     std::string text;

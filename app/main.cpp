@@ -27,6 +27,7 @@ int run_chosen(const cascade::Options& options, cascade::Console& console) {
         case cascade::Command::format: return format_command(options, console);
         case cascade::Command::mesh: return mesh_command(options, console);
         case cascade::Command::repl: return repl_command(options, console);
+        case cascade::Command::view: return view_command(options, console);
     }
     return cascade::exit_status::bug;
 }

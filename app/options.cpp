@@ -55,6 +55,7 @@ struct Parser {
     CLI::App* format = nullptr;
     CLI::App* mesh = nullptr;
     CLI::App* repl = nullptr;
+    CLI::App* view = nullptr;
     Options options;
     bool show_version = false;
 
@@ -187,8 +188,14 @@ void Parser::add_all() {
     groups::add_stop(*repl, options);
     groups::add_quiet(*repl, options);
 
+    view = command("view", help::view, help::view_examples);
+    groups::add_script(*view, options, "A script");
+    view->add_flag("--no-browser", options.no_browser, "Print the address and open nothing");
+    groups::add_overrides(*view, options.overrides);
+    groups::add_simulation(*view, options, "Threads; without it all cores");
+
     for (CLI::App* sub :
-         {run, sweep, check, bench, compile, systems, new_script, format, mesh, repl}) {
+         {run, sweep, check, bench, compile, systems, new_script, format, mesh, repl, view}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -263,7 +270,7 @@ std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::check ||
         options.command == Command::bench || options.command == Command::compile ||
-        options.command == Command::format ||
+        options.command == Command::format || options.command == Command::view ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
     if (options.command == Command::mesh && options.models.empty()) return "a model is missing";
@@ -327,6 +334,7 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     if (sub == parser.format) options.command = Command::format;
     if (sub == parser.mesh) options.command = Command::mesh;
     if (sub == parser.repl) options.command = Command::repl;
+    if (sub == parser.view) options.command = Command::view;
     if (const std::string missing = missing_argument(options); !missing.empty()) {
         return parser.leave(program, fmt::format("{}: {}", parser.called(program), missing));
     }

@@ -19,7 +19,19 @@
 
 namespace cascade {
 
-enum class Command { run, sweep, check, bench, compile, systems, new_script, format, mesh, repl };
+enum class Command {
+    run,
+    sweep,
+    check,
+    bench,
+    compile,
+    systems,
+    new_script,
+    format,
+    mesh,
+    repl,
+    view
+};
 
 /// The picture options that were given. A picture that is run again has stored options of its own,
 /// so an option that was given must be told from a default.
@@ -59,6 +71,7 @@ struct Options {
     BenchRequest bench;                      ///< Its `simulation` keeps the defaults.
     bool csv = false;                        ///< `bench --csv`
     CompileRequest compile;
+    bool no_browser = false;       ///< `view --no-browser`
     std::filesystem::path object;  ///< `compile -o`
     std::filesystem::path header;  ///< `compile --header`
 };

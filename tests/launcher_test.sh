@@ -12,7 +12,7 @@ count() { grep -c "$1" calls || true; }
 
 rm -rf ./* && mkdir -p bin elsewhere
 rooms=$(sed -nE 's#^([a-z/]+):.*#\1#p' "$SOURCE/cmake/rooms.txt")
-mkdir -p tree/{app,include,cmake}
+mkdir -p tree/{app,include,page,cmake}
 for room in $rooms; do mkdir -p "tree/$room"; done
 cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt,rooms.txt} tree/cmake/
 touch tree/CMakeLists.txt tree/core/a.cpp

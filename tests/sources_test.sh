@@ -13,7 +13,7 @@ set -u
 cd "${SOURCE:-$(dirname "${BASH_SOURCE[0]}")/..}" || exit 1
 
 folders=$(sed -nE 's/^([a-z]+)[/:].*/\1/p' cmake/rooms.txt | sort -u)
-all_folders="$folders bench cmake docs examples include spec tests"
+all_folders="$folders bench cmake docs examples include page spec tests"
 
 # Prints the files whose first line is no comment.
 without_opening() {

@@ -9,7 +9,7 @@
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 minutes=${1:?how many minutes?}
-read -ra fuzzers <<<"${FUZZERS-front_end model picture saved_run kept prompt}"
+read -ra fuzzers <<<"${FUZZERS-front_end model picture saved_run kept prompt page_message}"
 read -ra sanitizers <<<"${SANITIZERS-sanitize thread}"
 jobs=${JOBS:-$(nproc)}
 failed=()

@@ -75,11 +75,7 @@ protected:
     }
 
     std::string handshake(std::string_view token, std::string_view origin) const {
-        return fmt::format(
-            "GET /session?token={} HTTP/1.1\r\nHost: {}\r\nOrigin: {}\r\nUpgrade: websocket\r\n"
-            "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n",
-            token, own_, origin);
+        return socket_request(own_, token, origin);
     }
 
     /// Makes the client a page.

@@ -8,12 +8,24 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
 
 namespace cascade {
+
+/// The request that opens a page's WebSocket. The key is that of RFC 6455.
+inline std::string socket_request(std::string_view host, std::string_view token,
+                                  std::string_view origin) {
+    return fmt::format(
+        "GET /session?token={} HTTP/1.1\r\nHost: {}\r\nOrigin: {}\r\nUpgrade: websocket\r\n"
+        "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n",
+        token, host, origin);
+}
 
 class RawClient {
 public:

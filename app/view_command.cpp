@@ -1,0 +1,102 @@
+// `cascade view`: serves the page of a session until Ctrl-C, and opens it in the browser.
+#include "app/commands.h"
+#include "app/exit_status.h"
+#include "app/interrupt.h"
+#include "view/page_files.h"
+#include "view/page_server.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <thread>
+
+namespace cascade {
+
+namespace {
+
+/// A page that leads to an address, in a file that only its user reads: an argument of a program
+/// would show the token to everybody on the machine.
+class LeadingPage {
+public:
+    explicit LeadingPage(const std::string& address) {
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "cascade-XXXXXX.html").string();
+        const int file = ::mkstemps(pattern.data(), 5);
+        if (file < 0) return;
+        path_ = pattern;
+        const std::string text =
+            fmt::format("<!doctype html><meta http-equiv=\"refresh\" content=\"0; url={}\">\n",
+                        address);
+        const bool is_written =
+            ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+        ::close(file);
+        if (!is_written) path_.clear();
+    }
+    ~LeadingPage() {
+        if (!path_.empty()) ::unlink(path_.c_str());
+    }
+    LeadingPage(const LeadingPage&) = delete;
+    LeadingPage& operator=(const LeadingPage&) = delete;
+
+    const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
+/// Does this process have a screen on which a browser could be?
+bool has_screen() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
+
+void open_in_browser(const std::string& path) {
+    std::string program = "xdg-open", argument = path;
+    std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
+    }
+    pid_t child = 0;
+    if (::posix_spawnp(&child, "xdg-open", &actions, nullptr, arguments.data(), environ) == 0) {
+        std::thread([child] { ::waitpid(child, nullptr, 0); }).detach();
+    }
+    posix_spawn_file_actions_destroy(&actions);
+}
+
+}  // namespace
+
+int view_command(const Options& options, Console& console) {
+    auto file = load(options.scripts[0], options.overrides, console);
+    if (!file) return exit_status::wrong_script;
+    Script& script = file->script;
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+    if (script.program->domain.model) {
+        console.fail({"'cascade view' cannot show models yet", "'cascade run' draws them"});
+        return exit_status::wrong_script;
+    }
+
+    RunControl control;
+    const InterruptGuard interrupt(control.cancel);
+    auto server =
+        PageServer::start(std::move(script), options.run.simulation, control, page_files());
+    if (!server) {
+        console.say(server.error().messages(console.error().colour));
+        return exit_status::failed_run;
+    }
+    console.print((*server)->address() + "\n");
+    console.note(
+        fmt::format("the page is open to this machine only; from another one, first "
+                    "'ssh -L {0}:127.0.0.1:{0} HOST'; Ctrl-C ends it",
+                    (*server)->port()));
+    const LeadingPage page((*server)->address());
+    if (!options.no_browser && has_screen() && !page.path().empty()) open_in_browser(page.path());
+    while (!control.cancel) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return exit_status::success;
+}
+
+}  // namespace cascade

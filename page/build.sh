@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# page/build.sh [FOLDER]: bundles page/src into FOLDER, without it page/built. Needs node; node_modules is looked
+# for in the current folder and, with what page/package-lock.json names, installed there if it is missing.
+set -eu
+page=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+into=${1:-$page/built}
+
+# What was installed once stays while it is what the lock file asks for.
+if ! cmp -s "$page/package-lock.json" node_modules/installed; then
+    rm -rf node_modules
+    cp "$page/package.json" "$page/package-lock.json" .
+    npm ci --ignore-scripts --no-audit --no-fund >npm.log 2>&1 || { tail -n 5 npm.log; exit 77; }
+    cp package-lock.json node_modules/installed
+fi
+
+mkdir -p "$into"
+NODE_PATH=$PWD/node_modules node_modules/.bin/esbuild "$page/src/page.ts" "$page/src/page.css" \
+    --bundle --minify --legal-comments=none --format=esm --target=es2022 --log-level=warning \
+    --banner:js="$(cat "$page/src/license.js")" --outdir="$into"
+cp "$page/src/index.html" "$into/index.html"

@@ -1,0 +1,93 @@
+// The WebSocket to the engine: requests with answers, and the newest snapshot.
+
+export interface Message { is_error: boolean; message: string; hint: string; from?: [number, number]; to?: [number, number]; notes?: string[] }
+export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[] }
+export interface Control { name: string; label: string; stage: number; doc: string; low: number; high: number; step?: number; value: number }
+export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[] }
+export interface Palette { name: string; description: string; stops: [number, number, number][] }
+export interface Stage { name: string; steps: number; iterations: number; t: number; duration: number; has_begun: boolean; has_ended: boolean }
+export interface Snapshot {
+    number: number; script: number; is_going_on: boolean; stage: number; steps: number; stages: Stage[];
+    steps_per_second: number; can_undo: boolean; can_redo: boolean; failure: string; remarks: string[];
+    columns: number; rows: number; low: number; high: number; planes: Float32Array[];
+}
+
+export interface Listener {
+    palettes(palettes: Palette[]): void;
+    script(script: Script): void;
+    snapshot(snapshot: Snapshot): void;
+    lost(reason: string): void;
+}
+
+/// The token comes in the address once, and is taken out of it. A tab keeps it for reloads.
+function take_token(): string {
+    const given = new URLSearchParams(location.hash.slice(1)).get("token");
+    if (given) {
+        sessionStorage.setItem("token", given);
+        history.replaceState(null, "", location.pathname);
+    }
+    return sessionStorage.getItem("token") ?? "";
+}
+
+/// Of the layout that spec/page.md describes.
+function read_snapshot(bytes: ArrayBuffer): Snapshot {
+    const size = new DataView(bytes).getUint32(0, true);
+    const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
+    const cells = header.columns * header.rows;
+    header.planes = Array.from({ length: header.fields },
+        (_, k) => new Float32Array(bytes, 4 + size + 4 * cells * k, cells));
+    return header;
+}
+
+export class Connection {
+    private readonly token = take_token();
+    private socket?: WebSocket;
+    private last_id = 0;
+    private readonly waiting = new Map<number, (answer: Answer) => void>();
+    private readonly queue: string[] = [];
+
+    constructor(private readonly listener: Listener) { this.open(); }
+
+    /// The answer comes when the engine has obeyed or refused.
+    ask(what: string, fields: Record<string, unknown> = {}): Promise<Answer> {
+        const id = ++this.last_id;
+        this.send(JSON.stringify({ do: what, id, ...fields }));
+        return new Promise((resolve) => this.waiting.set(id, resolve));
+    }
+
+    next_snapshot() { if (this.socket?.readyState === WebSocket.OPEN) this.socket.send('{"do":"next_snapshot"}'); }
+
+    private send(text: string) {
+        if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(text);
+        else this.queue.push(text);
+    }
+
+    private open() {
+        if (!this.token) return this.listener.lost("Open the address that Cascade printed.");
+        const socket = new WebSocket(`ws://${location.host}/session?token=${this.token}`);
+        socket.binaryType = "arraybuffer";
+        socket.onopen = () => {
+            for (const text of this.queue.splice(0)) socket.send(text);
+            this.next_snapshot();
+        };
+        socket.onmessage = ({ data }) => this.take(data);
+        socket.onclose = ({ code }) => {
+            for (const [id, resolve] of this.waiting) resolve({ kind: "answer", id, is_done: false, messages: [] });
+            this.waiting.clear();
+            this.listener.lost(code === 1001 ? "Cascade has ended." : "The connection is lost; trying again.");
+            setTimeout(() => this.open(), 1000);
+        };
+        this.socket = socket;
+    }
+
+    private take(data: string | ArrayBuffer) {
+        if (typeof data !== "string") return this.listener.snapshot(read_snapshot(data));
+        const message = JSON.parse(data);
+        if (message.kind === "palettes") this.listener.palettes(message.palettes);
+        else if (message.kind === "script") this.listener.script(message);
+        else if (message.kind === "answer") {
+            this.waiting.get(message.id)?.(message);
+            this.waiting.delete(message.id);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+// The text of the script, with messages at their places.
+import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
+import { lintGutter, setDiagnostics } from "@codemirror/lint";
+import { EditorState } from "@codemirror/state";
+import { EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
+import { tags } from "@lezer/highlight";
+import type { Message } from "./connection";
+
+const language = StreamLanguage.define({
+    token(stream) {
+        if (stream.eatSpace()) return null;
+        if (stream.match(/^#.*/)) return "comment";
+        if (stream.match(/^"[^"]*"?/)) return "string";
+        if (stream.match(/^[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?/)) return "number";
+        if (stream.match(/^(system|stage|domain|picture|use|in|step|and|or|not)\b(?!\s*:)/)) return "keyword";
+        if (stream.match(/^[A-Za-z_]\w*(?=\s*\()/)) return "function";
+        if (stream.match(/^[A-Za-z_]\w*(?=\s*('|\+?=|:))/)) return "definition";
+        if (!stream.match(/^[A-Za-z_]\w*/)) stream.next();
+        return null;
+    },
+    tokenTable: { function: tags.function(tags.variableName), definition: tags.definition(tags.variableName) },
+    languageData: { commentTokens: { line: "#" } },
+});
+
+const colours = HighlightStyle.define([
+    { tag: tags.comment, color: "var(--faint)", fontStyle: "italic" },
+    { tag: tags.keyword, color: "var(--accent)", fontWeight: "600" },
+    { tag: tags.number, color: "light-dark(#8a4b08, #e0b070)" },
+    { tag: tags.string, color: "light-dark(#8a4b08, #e0b070)" },
+    { tag: tags.function(tags.variableName), color: "light-dark(#5b3fa0, #b9a3f0)" },
+    { tag: tags.definition(tags.variableName), fontWeight: "600" },
+]);
+
+const theme = EditorView.theme({
+    "&": { height: "100%", fontSize: "13.5px" },
+    "&.cm-focused": { outline: "none" },
+    ".cm-scroller": { fontFamily: "ui-monospace, monospace", lineHeight: "1.6", padding: "0.8rem 0" },
+    ".cm-gutters": { background: "none", border: "none", color: "var(--faint)" },
+    ".cm-content": { caretColor: "var(--ink)" },
+    ".cm-cursor": { borderLeftColor: "var(--ink)" },
+    ".cm-activeLine": { background: "color-mix(in srgb, var(--accent) 7%, transparent)" },
+    "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { background: "color-mix(in srgb, var(--accent) 25%, transparent) !important" },
+    ".cm-tooltip": { background: "var(--raised)", border: "1px solid var(--line)", color: "var(--ink)" },
+});
+
+export class Editor {
+    readonly view: EditorView;
+
+    /// `changed` is called some time after the last key.
+    constructor(parent: HTMLElement, changed: (text: string) => void) {
+        // In a shadow tree the editor's styles are sheets, which the page's policy lets be.
+        const root = parent.attachShadow({ mode: "open" });
+        const listen = EditorView.updateListener.of((update) => {
+            if (!update.docChanged || this.is_silent) return;
+            clearTimeout(this.timer);
+            this.timer = window.setTimeout(() => {
+                this.timer = 0;
+                changed(this.text);
+            }, 350);
+        });
+        this.view = new EditorView({
+            root, parent: root as unknown as Element,
+            state: EditorState.create({ extensions: [
+                lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(),
+                language, syntaxHighlighting(colours), theme, listen, EditorView.lineWrapping,
+                EditorView.contentAttributes.of({ "aria-label": "Script" }),
+                keymap.of([{ key: "Escape", run: (view) => (view.contentDOM.blur(), true) }, indentWithTab, ...defaultKeymap, ...historyKeymap]),
+            ] }),
+        });
+    }
+
+    private is_silent = false;
+    private timer = 0;
+
+    /// Has something been typed that `changed` was not told yet?
+    get is_changing() { return this.timer !== 0; }
+
+    get text() { return this.view.state.doc.toString(); }
+    set text(text: string) {
+        if (text === this.text) return;
+        this.is_silent = true;
+        this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+        this.is_silent = false;
+    }
+
+    show(messages: Message[]) {
+        const doc = this.view.state.doc;
+        const offset = ([line, column]: [number, number]) => {
+            const found = doc.line(Math.min(Math.max(line, 1), doc.lines));
+            return Math.min(found.from + column, found.to);
+        };
+        this.view.dispatch(setDiagnostics(this.view.state, messages.filter((m) => m.from && m.to).map((m) => ({
+            from: offset(m.from!), to: offset(m.to!), severity: m.is_error ? "error" as const : "warning" as const,
+            message: m.hint ? `${m.message}: ${m.hint}` : m.message,
+        }))));
+    }
+}

@@ -1,0 +1,227 @@
+// The page: text, sliders, pattern and stages of one session.
+import { Answer, Connection, Control, Message, Palette, Script, Snapshot } from "./connection";
+import { Editor } from "./editor";
+import { Pattern } from "./pattern";
+
+const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+const button = (id: string) => element<HTMLButtonElement>(id);
+const number = (value: number) => String(Number(value.toPrecision(4)));
+
+const pattern = new Pattern(element<HTMLCanvasElement>("pattern"), !location.search.includes("2d"));
+const palette_choice = element<HTMLSelectElement>("palette");
+const brush_choice = element<HTMLSelectElement>("brush");
+let palettes: Palette[] = [];
+let is_text_open = false;  ///< The editor holds a text that the session does not run.
+let is_drawing = false;
+let noticed_until = 0;
+
+const connection = new Connection({
+    palettes(list) {
+        palettes = list;
+        if (palette_choice.options.length === 0) {
+            palette_choice.append(...list.map(({ name }) => new Option(name.replaceAll("_", " "), name)));
+            palette_choice.value = localStorage.getItem("palette") ?? "viridis";
+            if (!palette_choice.value) palette_choice.selectedIndex = 0;
+        }
+        choose_palette();
+    },
+    script: show_script,
+    snapshot(snapshot) {
+        pattern.snapshot = snapshot;
+        if (performance.now() > noticed_until) notice("");
+        if (is_drawing) return;
+        is_drawing = true;
+        requestAnimationFrame(() => {
+            is_drawing = false;
+            pattern.draw();
+            show_state(pattern.snapshot!);
+            connection.next_snapshot();
+        });
+    },
+    lost: (reason) => notice(reason, true),
+});
+
+const editor = new Editor(element("editor"), async (text) => {
+    is_text_open = true;
+    const answer = await connection.ask("text", { text });
+    if (text !== editor.text) return;
+    is_text_open = !answer.is_done;
+    show_messages(answer.messages);
+});
+
+/// A notice stays for some seconds, or until the next one.
+function notice(text: string, is_wrong = false, seconds = 0) {
+    noticed_until = performance.now() + 1000 * seconds;
+    element("notice").textContent = text;
+    element("notice").classList.toggle("wrong", is_wrong);
+}
+
+function show_messages(messages: Message[]) {
+    editor.show(messages);
+    element("messages").replaceChildren(...messages.filter((m) => m.is_error).slice(0, 5).map((m) => {
+        const line = document.createElement("p");
+        line.textContent = `${m.from ? `line ${m.from[0]}: ` : ""}${m.message}${m.hint ? ` – ${m.hint}` : ""}`;
+        return line;
+    }));
+}
+
+/// Asks, and shows why not where it is refused.
+async function ask(what: string, fields: Record<string, unknown> = {}): Promise<Answer> {
+    const answer = await connection.ask(what, fields);
+    if (!answer.is_done && answer.messages.length > 0) notice(answer.messages[0].message, true, 5);
+    return answer;
+}
+
+function show_script(script: Script) {
+    document.title = `${script.name} · Cascade`;
+    element("name").textContent = script.name.split("/").pop()!;
+    if (!is_text_open && !editor.is_changing) {
+        editor.text = script.text;
+        show_messages(script.messages);
+    }
+    show_controls(script.controls);
+    if ([...brush_choice.options].map((o) => o.value).join() !== script.species.join()) {
+        brush_choice.replaceChildren(...script.species.map((name) => new Option(name)));
+    }
+}
+
+function choose_palette() {
+    pattern.palette = palettes.find(({ name }) => name === palette_choice.value) ?? palettes[0];
+    pattern.draw();
+}
+
+/// Sliders stay the same elements while the parameters do, so that one that is held is not lost.
+function show_controls(controls: Control[]) {
+    const box = element("controls"), shape = JSON.stringify(controls.map(({ value, ...rest }) => rest));
+    if (box.dataset.shape !== shape) {
+        box.dataset.shape = shape;
+        box.replaceChildren(...controls.flatMap((control, k) => {
+            const slider = make_slider(control);
+            if (controls[k - 1]?.stage === control.stage) return [slider];
+            const title = document.createElement("h2");
+            title.textContent = control.name.slice(0, -control.label.length - 1);
+            return [title, slider];
+        }));
+    }
+    box.querySelectorAll("input").forEach((input, k) => {
+        // What comes now is older than what its user wants.
+        if (input.matches(":active") || "isBusy" in input.dataset) return;
+        input.value = String(controls[k].value);
+        input.parentElement!.querySelector("output")!.value = number(controls[k].value);
+    });
+}
+
+function make_slider(control: Control): HTMLElement {
+    const label = document.createElement("label"), name = document.createElement("span"), value = document.createElement("output");
+    const input = Object.assign(document.createElement("input"), {
+        type: "range", min: String(control.low), max: String(control.high),
+        step: String(control.step ?? (control.high - control.low) / 1000),
+    });
+    name.textContent = control.label;
+    label.title = control.doc;
+    label.append(name, value, input);
+    if (control.doc) label.append(Object.assign(document.createElement("small"), { textContent: control.doc }));
+    let is_moving = false, is_sending = false, wanted = "";
+    const send = async () => {
+        if (is_sending) return;
+        is_sending = true;
+        input.dataset.isBusy = "";
+        for (let sent = ""; sent !== wanted;) {
+            sent = wanted;
+            const answer = await ask("set", { name: control.name, expression: sent, joins_last: is_moving });
+            is_moving ||= answer.is_done;
+        }
+        is_sending = false;
+        delete input.dataset.isBusy;
+    };
+    input.addEventListener("input", () => {
+        wanted = number(input.valueAsNumber);
+        value.value = wanted;
+        void send();
+    });
+    input.addEventListener("change", () => (is_moving = false));
+    return label;
+}
+
+function show_state(snapshot: Snapshot) {
+    const { stages } = snapshot, list = element("stages");
+    if (list.childElementCount !== stages.length) {
+        list.replaceChildren(...stages.map((_, k) => {
+            const item = document.createElement("li"), go = document.createElement("button");
+            go.append(document.createElement("span"), document.createElement("progress"));
+            go.addEventListener("click", () => ask("go_to_stage", { stage: k + 1 }));
+            item.append(go);
+            return item;
+        }));
+    }
+    stages.forEach((stage, k) => {
+        const go = list.children[k].firstElementChild as HTMLButtonElement;
+        go.firstElementChild!.textContent = stage.name;
+        go.toggleAttribute("aria-current", k + 1 === snapshot.stage);
+        go.title = stage.has_ended ? "ended" : `step ${stage.steps} of ${stage.iterations}`;
+        (go.lastElementChild as HTMLProgressElement).value = stage.has_ended ? 1
+            : stage.duration > 0 ? stage.t / stage.duration : stage.steps / Math.max(stage.iterations, 1);
+    });
+    const rate = snapshot.is_going_on && snapshot.steps_per_second > 0
+        ? ` · ${number(Number(snapshot.steps_per_second.toPrecision(2)))} steps/s` : "";
+    element("place").textContent = `step ${snapshot.steps.toLocaleString("en")}${rate}`;
+    button("run").toggleAttribute("data-going", snapshot.is_going_on);
+    button("run").ariaLabel = snapshot.is_going_on ? "Pause" : "Run";
+    const is_over = stages.every((stage) => stage.has_ended);
+    button("run").disabled = button("step").disabled = is_over && !snapshot.is_going_on;
+    button("undo").disabled = !snapshot.can_undo;
+    button("redo").disabled = !snapshot.can_redo;
+    if (snapshot.failure) notice(snapshot.failure, true);
+    else if (is_over && snapshot.remarks.length > 0) notice(snapshot.remarks.at(-1)!);
+}
+
+function go_back(what: "undo" | "redo") {
+    is_text_open = false;
+    void ask(what);
+}
+
+const actions: Record<string, () => void> = {
+    run: () => void ask(pattern.snapshot?.is_going_on ? "pause" : "run"),
+    step: () => void ask("step", { count: 1 }),
+    restart: () => void ask("restart"),
+    undo: () => go_back("undo"),
+    redo: () => go_back("redo"),
+};
+for (const [id, act] of Object.entries(actions)) button(id).addEventListener("click", act);
+
+document.addEventListener("keydown", (event) => {
+    const at = event.target as HTMLElement;
+    if (at.id === "editor" || at.matches("select, [type=number]")) return;
+    const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
+    const act = { " ": "run", ".": "step", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
+    if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
+    event.preventDefault();
+    actions[act]();
+});
+
+palette_choice.addEventListener("change", () => {
+    localStorage.setItem("palette", palette_choice.value);
+    choose_palette();
+});
+
+// A stroke: discs of the given value, else of the highest one, or with Shift of the lowest.
+let stroke = Promise.resolve();
+let is_painting = false;
+async function paint(event: PointerEvent, joins_last: boolean) {
+    if (!brush_choice.value) return;
+    const [x, y] = pattern.place(event).map((part) => part.toFixed(4));
+    const item = brush_choice.value, given = element<HTMLInputElement>("amount").value;
+    const value = given || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
+    await ask("paint", { item, expression: `if(disc(${x}, ${y}, 0.03) > 0, ${value}, ${item})`, joins_last });
+}
+pattern.canvas.addEventListener("pointerdown", (event) => {
+    pattern.canvas.setPointerCapture(event.pointerId);
+    is_painting = true;
+    stroke = paint(event, false);
+});
+pattern.canvas.addEventListener("pointermove", (event) => {
+    if (is_painting) stroke = stroke.then(() => paint(event, true));
+});
+for (const end of ["pointerup", "pointercancel"] as const) {
+    pattern.canvas.addEventListener(end, () => (is_painting = false));
+}

@@ -1,0 +1,84 @@
+// A headless Chromium that is driven through a pipe by the DevTools protocol, without packages.
+import { spawn } from "node:child_process";
+
+export class Browser {
+    static async start(command, profile) {
+        const browser = new Browser();
+        // No sandbox: it does not work for root, who runs tests in containers.
+        browser.shell = spawn(command, [
+            "--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader", "--no-first-run", "--disable-background-networking",
+            "--remote-debugging-pipe", `--user-data-dir=${profile}`, "about:blank",
+        ], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
+        browser.waiting = new Map();
+        browser.heard = [];  // What the page wrote to its console, and what its policy forbade.
+        let rest = "";
+        browser.shell.stdio[4].setEncoding("utf8").on("data", (part) => {
+            const parts = (rest + part).split("\0");
+            rest = parts.pop();
+            for (const text of parts) browser.take(JSON.parse(text));
+        });
+        const { targetInfos } = await browser.call("Target.getTargets");
+        const { targetId } = targetInfos.find(({ type }) => type === "page");
+        const { sessionId } = await browser.call("Target.attachToTarget", { targetId, flatten: true });
+        browser.session = sessionId;
+        for (const domain of ["Page", "Runtime", "Log"]) await browser.call(`${domain}.enable`);
+        return browser;
+    }
+
+    take({ id, result, error, method, params }) {
+        if (method === "Runtime.exceptionThrown") this.heard.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
+        if (method === "Log.entryAdded") this.heard.push(params.entry.text);
+        if (method === "Runtime.consoleAPICalled") this.heard.push(params.args.map(({ value }) => value).join(" "));
+        const caller = this.waiting.get(id);
+        if (!caller) return;
+        this.waiting.delete(id);
+        error ? caller.reject(new Error(error.message)) : caller.resolve(result);
+    }
+
+    call(method, params = {}) {
+        const id = (this.last = (this.last ?? 0) + 1);
+        this.shell.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.session }) + "\0");
+        return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
+    }
+
+    /// The value of an expression in the page.
+    async evaluate(expression) {
+        const { result, exceptionDetails } = await this.call("Runtime.evaluate",
+            { expression, awaitPromise: true, returnByValue: true });
+        if (exceptionDetails) throw new Error(`${expression}: ${exceptionDetails.exception?.description}`);
+        return result.value;
+    }
+
+    /// Waits until an expression in the page is true.
+    async until(expression, seconds = 60) {
+        for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
+            if (await this.evaluate(expression)) return;
+            await new Promise((resolve) => setTimeout(resolve, 50));
+        }
+        throw new Error(`never true: ${expression}`);
+    }
+
+    async screenshot() { return Buffer.from((await this.call("Page.captureScreenshot")).data, "base64"); }
+
+    /// Presses a key such as "a", " ", "Home".
+    async press(key, modifiers = 0) {
+        const codes = { " ": 32, Home: 36, ArrowRight: 39, Escape: 27, z: 90, Z: 90, ".": 190 };
+        const text = key.length === 1 && modifiers < 2 ? key : undefined;
+        for (const type of ["keyDown", "keyUp"]) {
+            await this.call("Input.dispatchKeyEvent", { type, key, text, modifiers, windowsVirtualKeyCode: codes[key] });
+        }
+    }
+
+    async drag(x, y, to_x, to_y) {
+        const send = (type, x, y) => this.call("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1, clickCount: 1 });
+        await send("mousePressed", x, y);
+        await send("mouseMoved", (x + to_x) / 2, (y + to_y) / 2);
+        await send("mouseMoved", to_x, to_y);
+        await send("mouseReleased", to_x, to_y);
+    }
+
+    end() {
+        try { process.kill(-this.shell.pid, "SIGKILL"); } catch { /* It has ended. */ }
+    }
+}

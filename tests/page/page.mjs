@@ -1,0 +1,151 @@
+// Steers the page of `cascade view spots.cascade` as a user does. Arguments: the browser and the program;
+// spots.cascade and spots.png, what `cascade run` draws of it, are in the current folder. Screenshots are left there.
+import { spawn } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { Browser } from "./browser.mjs";
+
+const [command, program] = process.argv.slice(2);
+const cascade = spawn(program, ["view", "spots.cascade", "--no-browser"], { stdio: ["ignore", "pipe", "pipe"] });
+let said = "";
+cascade.stderr.on("data", (part) => (said += part));
+const address = await new Promise((resolve, reject) => {
+    cascade.stdout.once("data", (text) => resolve(String(text).trim()));
+    cascade.once("exit", () => reject(new Error(`cascade view has ended: ${said}`)));
+});
+const browser = await Browser.start(command, join(process.cwd(), "profile"));
+const limit = setTimeout(() => end(new Error("it took more than 4 minutes")), 240000);
+
+async function end(error) {
+    clearTimeout(limit);
+    if (error) {
+        console.log(error.stack);
+        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
+        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
+    }
+    browser.end();
+    cascade.kill("SIGKILL");
+    process.exit(error ? 1 : 0);
+}
+
+function expect(condition, message) { if (!condition) throw new Error(message); }
+const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
+const steps = () => browser.evaluate(`Number(document.getElementById("place").textContent.match(/[\\d,]+/)[0].replaceAll(",", ""))`);
+const until_steps = (count) => browser.until(`document.getElementById("place").textContent.startsWith("step ${count}")`);
+const is_over = `document.querySelectorAll("#stages progress").length === 2 && document.getElementById("run").disabled`;
+
+/// The pixels of a canvas or an image, by an expression in the page.
+const pixels = (image) => browser.evaluate(`(async () => {
+    const image = await (${image}), copy = document.createElement("canvas");
+    [copy.width, copy.height] = [image.width, image.height];
+    copy.getContext("2d").drawImage(image, 0, 0);
+    return [image.width, image.height, ...copy.getContext("2d").getImageData(0, 0, image.width, image.height).data];
+})()`);
+const canvas = () => pixels(`document.getElementById("pattern")`);
+const picture = () => pixels(`new Promise((resolve) => {
+    const image = new Image();
+    image.onload = () => resolve(image);
+    image.src = "data:image/png;base64,${readFileSync("spots.png").toString("base64")}";
+})`);
+
+async function expect_the_picture(how) {
+    const seen = await canvas(), wanted = await picture();
+    expect(seen.length === wanted.length && seen[0] === 48 && seen[1] === 32, `${how}: ${seen.slice(0, 2)} pixels`);
+    const worst = Math.max(...seen.map((level, k) => Math.abs(level - wanted[k])));
+    expect(worst <= 1, `${how}: a level differs by ${worst} from the picture of cascade run`);
+}
+
+async function choose_leopard() {
+    await browser.evaluate(`{ const choice = document.getElementById("palette"); choice.value = "leopard"; choice.dispatchEvent(new Event("change")); }`);
+}
+
+/// Replaces the script as if it were typed.
+async function type_script(text) {
+    await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
+    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
+    await browser.call("Input.insertText", { text });
+}
+
+async function steer() {
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
+    await browser.call("Page.navigate", { url: address });
+    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+    expect(!(await browser.evaluate("location.href")).includes("token"), "the token stays in the address");
+    expect(await browser.evaluate(`document.getElementById("name").textContent`) === "spots.cascade", "the name is missing");
+    await choose_leopard();
+
+    await click("step");
+    await until_steps("1");
+    await browser.press(".");
+    await until_steps("2");
+    await click("undo").then(() => click("restart"));
+    await until_steps("0");
+    await browser.press(" ");
+    await browser.until(is_over);
+    await expect_the_picture("the canvas");
+    writeFileSync("page.png", await browser.screenshot());
+
+    // A slider: one undo takes it back.
+    await browser.evaluate(`document.querySelector("#controls input").focus()`);
+    for (let k = 0; k < 3; ++k) await browser.press("ArrowRight");
+    const value = `document.querySelector("#controls output").value`;
+    await browser.until(`${value} === "0.04" && !document.getElementById("undo").disabled`);
+    const sliders = await browser.evaluate(`document.querySelectorAll("#controls input").length`);
+    expect(sliders === 2, `${sliders} sliders instead of 2`);
+
+    // A wrong text: its place and message; the run stays as it is.
+    const text = readFileSync("spots.cascade", "utf8");
+    await type_script(text.replace("- u * v^2 +", "- u * w^2 +"));
+    await browser.until(`document.getElementById("messages").textContent.includes("line 8:")`);
+    expect(await steps() === 500, "a wrong text has changed the run");
+    await type_script(text.replace("iterations: 500", "iterations: 600"));
+    await browser.until(`document.getElementById("messages").textContent === "" && !document.getElementById("run").disabled`);
+
+    // A stroke is seen where the pointer was.
+    const [x, y, width, height] = await browser.evaluate(
+        `(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
+    const before = await canvas();
+    await browser.drag(x + 0.2 * width, y + 0.5 * height, x + 0.3 * width, y + 0.5 * height);
+    await browser.until(`!document.getElementById("undo").disabled`);
+    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 500))");
+    const after = await canvas();
+    const differs = (column, row) => [0, 1, 2].some((c) => Math.abs(before[2 + 4 * (48 * row + column) + c] - after[2 + 4 * (48 * row + column) + c]) > 8);
+    expect(differs(10, 16) || differs(12, 16), "the stroke is not seen");
+
+    // Going to a stage starts it anew, with the values that the one before left.
+    await browser.evaluate(`document.querySelectorAll("#stages button")[1].click()`);
+    await until_steps("0");
+    await browser.evaluate(`document.querySelectorAll("#stages button")[0].click()`);
+    await browser.until(`document.querySelectorAll("#stages progress")[1].value === 0`);
+    await type_script(text);
+    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 800))");
+
+    // The same without WebGL, after a reload, for which the tab keeps the token.
+    await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });
+    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+    await choose_leopard();
+    await browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "0.037"; input.dispatchEvent(new Event("input")); }`);
+    await browser.until(`${value} === "0.037"`);
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+    await browser.until(is_over);
+    await expect_the_picture("the canvas without WebGL");
+
+    for (const [name, wide, scheme] of [["dark", 1280, "dark"], ["phone", 390, "light"]]) {
+        await browser.call("Emulation.setDeviceMetricsOverride", { width: wide, height: 800, deviceScaleFactor: 1, mobile: wide < 500 });
+        await browser.call("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
+        const overflow = await browser.evaluate("document.documentElement.scrollWidth - innerWidth");
+        expect(overflow <= 0, `${name}: the page is ${overflow} pixels too wide`);
+        writeFileSync(`${name}.png`, await browser.screenshot());
+    }
+    // Chromium's own editing wants to style what replaces a selection, which the policy forbids.
+    const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
+    expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
+
+    // The page says when Cascade has ended.
+    cascade.kill("SIGINT");
+    await browser.until(`document.getElementById("notice").textContent !== ""`);
+}
+
+await steer().then(() => end(), end);

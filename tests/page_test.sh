@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# The page of `cascade view` in a browser: every control does what it says, and the canvas shows the pixels of
+# `cascade run`. The files in page/built are what page/build.sh makes. Exit code 77 says that it could not be tried.
+set -u
+
+fail() { echo "page: $*"; exit 1; }
+skip() {
+    echo "page: not tried: $*"
+    exit 77
+}
+
+command -v node >/dev/null && command -v npm >/dev/null || skip "node or npm is missing"
+
+"$SOURCE/page/build.sh" built >build.log 2>&1
+status=$?
+cat build.log
+[ "$status" = 77 ] && skip "the packages of page/package.json could not be installed"
+[ "$status" = 0 ] || fail "the page cannot be built"
+diff -rq built "$SOURCE/page/built" || fail "page/built is out of date: run page/build.sh and commit it"
+
+browser=''
+for name in chromium-headless-shell chromium chromium-browser google-chrome; do
+    browser=$(command -v $name) && break
+done
+[ -n "$browser" ] || skip "there is no Chromium"
+
+cat >spots.cascade <<'SCRIPT'
+# Spots in two stages.
+domain { grid: 48, 32 }
+system spots {
+  u: 1
+  v: 0.25 * disc(0.5, 0.3, 0.1) + random(0.01, 0.01)
+  feed: 0.037 in 0.01 .. 0.08 step 0.001   ## how fast u comes in
+  kill: 0.06
+  u' = 0.16 * lap(u) - u * v^2 + feed * (1 - u)
+  v' = 0.08 * lap(v) + u * v^2 - (feed + kill) * v
+}
+stage grow: spots { iterations: 1500 }
+stage more: spots { u: u; v: v; feed: 0.05; iterations: 500 }
+SCRIPT
+"$CASCADE" run spots.cascade --palette leopard -o spots.png --quiet || fail "the picture was not drawn"
+rm -rf profile
+node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"

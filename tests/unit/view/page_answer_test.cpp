@@ -1,0 +1,144 @@
+// What pages are told: places of messages, sliders, and the layout of snapshots.
+#include "view/page_answer.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+
+namespace cascade {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view waves = R"(domain { grid: 6, 4; mask: x < 0.5 }
+system waves {
+  u: x
+  w: 2
+  k: 0.1 in 0 .. 1 step 0.01   ## how fast "u" fades
+  m: x in 0 .. 1
+  u' = -k * u
+  w' = m
+}
+stage one: waves { iterations: 5 }
+stage two: waves { k: 0.5; iterations: 5 }
+)";
+
+SimulationOptions interpreted() {
+    SimulationOptions options;
+    options.backend = BackendKind::interpreter;
+    options.threads = 1;
+    return options;
+}
+
+std::unique_ptr<LiveRun> begin(std::string_view text) {
+    RunControl control;
+    auto run = LiveRun::begin(load_script("waves.cascade", std::string(text), "."), interpreted(),
+                              control);
+    return run ? std::move(*run) : nullptr;
+}
+
+TEST(PageAnswer, ScriptWithItsSliders) {
+    const auto run = begin(waves);
+    ASSERT_TRUE(run);
+    const Json script = Json::parse(print_script(*run));
+    EXPECT_EQ(script["kind"], "script");
+    EXPECT_EQ(script["name"], "waves.cascade");
+    EXPECT_EQ(script["text"], waves);
+    EXPECT_EQ(script["species"].size(), 2U);
+    // Neither a parameter that varies nor a stage that has not begun has one.
+    ASSERT_EQ(script["controls"].size(), 1U);
+    const Json& slider = script["controls"][0];
+    EXPECT_EQ(slider["name"], "one.k");
+    EXPECT_EQ(slider["label"], "k");
+    EXPECT_EQ(slider["stage"], 1);
+    EXPECT_EQ(slider["doc"], "how fast \"u\" fades");
+    EXPECT_EQ(slider["low"], 0);
+    EXPECT_EQ(slider["high"], 1);
+    EXPECT_EQ(slider["step"], 0.01);
+    EXPECT_FLOAT_EQ(slider["value"].get<float>(), 0.1F);
+}
+
+TEST(PageAnswer, MessagesCarryTheirPlaceInTheText) {
+    const auto run = begin(waves);
+    ASSERT_TRUE(run);
+    const std::string wrong =
+        "# \xf0\x9f\x90\x86 \xc3\xa9\n# \xf0\x9f\x90\x86 \xc3\xa9\nstage one: wavez { }\n";
+    RunControl control;
+    const Json answer = Json::parse(print_answer(7, run->apply(SetText{wrong}, control), wrong));
+    EXPECT_EQ(answer["kind"], "answer");
+    EXPECT_EQ(answer["id"], 7);
+    EXPECT_EQ(answer["is_done"], false);
+    ASSERT_GE(answer["messages"].size(), 1U);
+    const Json& message = answer["messages"][0];
+    EXPECT_EQ(message["is_error"], true);
+    EXPECT_THAT(message["message"].get<std::string>(), testing::HasSubstr("wavez"));
+    EXPECT_EQ(message["from"], Json({3, 11}));
+    EXPECT_EQ(message["to"], Json({3, 16}));
+
+    // Columns count UTF-16 units, of which the leopard is two.
+    const std::string text = "stage one: wave { } # \xf0\x9f\x90\x86\nstage \xf0\x9f\x90\x86 x";
+    const Json other = Json::parse(print_answer(8, run->apply(SetText{text}, control), text));
+    ASSERT_GE(other["messages"].size(), 1U);
+    bool is_behind = false;
+    for (const Json& each : other["messages"]) {
+        is_behind = is_behind || (each.contains("to") && each["to"] == Json({2, 8}));
+    }
+    EXPECT_TRUE(is_behind) << other.dump(1);
+
+    const Json done = Json::parse(print_answer(9, {}, ""));
+    EXPECT_EQ(done,
+              Json(
+                  {{"kind", "answer"}, {"id", 9}, {"is_done", true}, {"messages", Json::array()}}));
+    const Json failed = Json::parse(print_failure(0, {"it is no \xff text", "say more"}));
+    EXPECT_EQ(failed["messages"][0]["message"], "it is no \xef\xbf\xbd text");
+    EXPECT_EQ(failed["messages"][0]["hint"], "say more");
+}
+
+TEST(PageAnswer, PalettesAndLog) {
+    const Json palettes = Json::parse(print_palettes());
+    EXPECT_EQ(palettes["palettes"][0]["name"], "grey");
+    EXPECT_EQ(palettes["palettes"][0]["stops"][0], Json({0.0, 0.0, 0.0}));
+    const auto run = begin(waves);
+    ASSERT_TRUE(run);
+    const Json log = Json::parse(print_log(3, run->log()));
+    EXPECT_EQ(log["kind"], "log");
+    EXPECT_TRUE(is_session_log(log["text"].get<std::string>()));
+}
+
+TEST(PageAnswer, SnapshotsAreAHeaderAndPlanes) {
+    RunControl control;
+    auto session = Session::begin(load_script("waves.cascade", std::string(waves), "."),
+                                  interpreted(), control);
+    ASSERT_TRUE(session.has_value());
+    const auto snapshot = (*session)->newest();
+    const SharedBytes bytes = print_snapshot(*snapshot);
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes->data(), sizeof size);
+    ASSERT_EQ(size % 4, 0U);
+    ASSERT_EQ(bytes->size(), sizeof size + size + 6 * 4 * sizeof(float));
+    const Json header = Json::parse(bytes->substr(sizeof size, size));
+    EXPECT_EQ(header["number"], snapshot->number);
+    EXPECT_EQ(header["columns"], 6);
+    EXPECT_EQ(header["rows"], 4);
+    EXPECT_EQ(header["fields"], 1);
+    EXPECT_EQ(header["stage"], 1);
+    EXPECT_EQ(header["steps"], 0);
+    EXPECT_EQ(header["stages"][1]["name"], "two");
+    EXPECT_EQ(header["stages"][1]["has_begun"], false);
+    std::vector<float> cells(24);
+    std::memcpy(cells.data(), bytes->data() + sizeof size + size, 24 * sizeof(float));
+    for (std::int64_t row = 0; row < 4; ++row) {
+        for (std::int64_t column = 0; column < 6; ++column) {
+            const float seen = cells[static_cast<std::size_t>(6 * row + column)];
+            const float held = snapshot->fields[0].row(row)[column];
+            EXPECT_TRUE(seen == held || (std::isnan(seen) && std::isnan(held)));
+            EXPECT_EQ(std::isnan(seen), column >= 3) << "outside of the mask";
+        }
+    }
+    EXPECT_FLOAT_EQ(header["low"].get<float>(), cells[0]);
+    EXPECT_FLOAT_EQ(header["high"].get<float>(), cells[2]);
+}
+
+}  // namespace
+}  // namespace cascade

@@ -1,0 +1,92 @@
+// Messages of pages: each request, and one sentence for everything that is none.
+#include "view/page_message.h"
+
+#include <gmock/gmock.h>
+
+namespace cascade {
+namespace {
+
+template <typename Wanted>
+Wanted parse_command(std::string_view text) {
+    const auto message = parse_page_message(text);
+    EXPECT_TRUE(message.has_value()) << text << ": " << message.error().message;
+    if (!message) return {};
+    const auto* const command = std::get_if<Command>(&message->request);
+    const auto* const wanted = command != nullptr ? std::get_if<Wanted>(command) : nullptr;
+    EXPECT_TRUE(wanted != nullptr) << text;
+    return wanted != nullptr ? *wanted : Wanted{};
+}
+
+Change parse_change(std::string_view text) { return parse_command<MakeChange>(text).change; }
+
+TEST(PageMessage, Changes) {
+    EXPECT_EQ(parse_change(R"({"do": "text", "text": "stage s: turing_spots { }\n"})"),
+              Change(SetText{"stage s: turing_spots { }\n"}));
+    EXPECT_EQ(parse_change(R"({"do": "set", "name": "ka", "expression": "1/80"})"),
+              Change(SetNumber{"ka", "1/80"}));
+    EXPECT_EQ(parse_change(R"({"do": "paint", "item": "b", "expression": "mix(b, 8, é) + 1"
+})"),
+              Change(Paint{"b", "mix(b, 8, é) + 1"}));
+    EXPECT_EQ(parse_change(R"({"do": "next_stage"})"), Change(NextStage{}));
+    EXPECT_FALSE(parse_command<MakeChange>(R"({"do": "next_stage"})").joins_last);
+    EXPECT_TRUE(
+        parse_command<MakeChange>(R"({"do": "next_stage", "joins_last": true})").joins_last);
+}
+
+TEST(PageMessage, Commands) {
+    EXPECT_EQ(parse_command<GoToStage>(R"({"do": "go_to_stage", "stage": 3})").stage, 2U);
+    EXPECT_EQ(parse_command<GoToStage>(R"({"do": "restart"})").stage, 0U);
+    parse_command<Undo>(R"({"do": "undo"})");
+    parse_command<Redo>(R"({"do": "redo"})");
+    parse_command<GoOn>(R"({"do": "run"})");
+    parse_command<Pause>(R"({"do": "pause"})");
+    EXPECT_EQ(parse_command<TakeSteps>(R"({"do": "step", "count": 100})").count, 100);
+    EXPECT_EQ(parse_command<Show>(R"({"do": "show", "expression": ""})").expression, "");
+    const auto next = parse_page_message(R"({"do": "next_snapshot", "id": 7})");
+    ASSERT_TRUE(next.has_value());
+    EXPECT_EQ(next->id, 7U);
+    EXPECT_TRUE(std::holds_alternative<NextSnapshot>(next->request));
+    const auto log = parse_page_message(R"({"do": "log"})");
+    ASSERT_TRUE(log.has_value());
+    EXPECT_TRUE(std::holds_alternative<AskForLog>(log->request));
+}
+
+TEST(PageMessage, SaysWhatIsWrong) {
+    const auto fault = [](std::string_view text) {
+        const auto message = parse_page_message(text);
+        return message ? "nothing" : message.error().message;
+    };
+    const std::string no_object = "the message is no JSON object";
+    for (const std::string_view text :
+         {"", "run", "[]", "3", "{", "{\"do\": \"run\"", "{\"do\": \"run\"} {}", "{'do': 'run'}",
+          "{\"do\": \"\xff\"}", "\xef\xbb\xbfnull"}) {
+        EXPECT_EQ(fault(text), no_object) << text;
+    }
+    const std::string not_flat = "the message is not one object of a few texts and numbers";
+    EXPECT_EQ(fault(R"({"do": {"do": "run"}})"), not_flat);
+    EXPECT_EQ(fault(std::string(100000, '[')), not_flat);
+    EXPECT_EQ(fault(std::string(100000, ',')), not_flat);
+    EXPECT_EQ(fault(std::string(largest_page_message + 1, ' ')), "the message is too long");
+    EXPECT_EQ(fault("{}"), "'do' must be a text");
+    EXPECT_EQ(fault(R"({"do": 3})"), "'do' must be a text");
+    EXPECT_EQ(fault(R"({"do": "format_disk"})"), "there is no request 'format_disk'");
+    EXPECT_EQ(fault(R"({"do": "text"})"), "'text' must be a text");
+    EXPECT_EQ(fault(R"({"do": "set", "name": "ka", "expression": 3})"),
+              "'expression' must be a text");
+    EXPECT_EQ(fault(R"({"do": "undo", "id": -1})"),
+              "'id' must be a whole number from 0 to 9007199254740992");
+    EXPECT_EQ(fault(R"({"do": "next_stage", "joins_last": 1})"),
+              "'joins_last' must be true or false");
+    const std::string count = "'count' must be a whole number from 1 to 9007199254740992";
+    for (const std::string_view number :
+         {"0", "-1", "1.5", "1e3", "\"1\"", "null", "true", "9007199254740993",
+          "18446744073709551615", "99999999999999999999999", "-9223372036854775808"}) {
+        EXPECT_EQ(fault("{\"do\": \"step\", \"count\": " + std::string(number) + "}"), count)
+            << number;
+    }
+    EXPECT_EQ(fault(R"({"do": "go_to_stage", "stage": 0})"),
+              "'stage' must be a whole number from 1 to 1000000");
+}
+
+}  // namespace
+}  // namespace cascade

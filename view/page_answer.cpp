@@ -1,0 +1,203 @@
+// Texts by nlohmann-json, planes as their bytes.
+#include "view/page_answer.h"
+
+#include "core/palette.h"
+#include "core/utf8.h"
+#include "picture/image.h"
+
+#include <nlohmann/json.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace cascade {
+namespace {
+
+using Json = nlohmann::json;
+static_assert(std::endian::native == std::endian::little, "planes are sent as they lie in memory");
+
+/// Texts of users may hold bytes that are no UTF-8.
+std::string print(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Columns of JavaScript: UTF-16 units before a byte of a line, from 0.
+std::size_t utf16_column(std::string_view line, std::size_t byte) {
+    std::size_t column = 0;
+    for (std::size_t k = 0; k < std::min(byte, line.size());) {
+        const CodePoint point = decode_utf8(line, k);
+        column += point.value > 0xffff ? 2 : 1;
+        k += point.size;
+    }
+    return column;
+}
+
+/// A place in a text as line, from 1, and column, from 0.
+Json place_of(std::string_view text, std::size_t byte) {
+    const std::string_view before = text.substr(0, byte);
+    const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0.
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    return {line, utf16_column(text.substr(start), before.size() - start)};
+}
+
+/// Their places are left out where they are in other texts, such as an option.
+Json print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
+                       std::string_view text) {
+    Json list = Json::array();
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) {
+        Json one = {{"is_error", diagnostic.severity == Severity::error},
+                    {"message", diagnostic.message},
+                    {"hint", diagnostic.hint}};
+        const Span span = diagnostic.span;
+        if (sources[span.source].text() == text) {
+            one["from"] = place_of(text, span.begin);
+            one["to"] = place_of(text, span.end);
+        }
+        for (const Note& note : diagnostic.notes) one["notes"].push_back(note.message);
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+Json print_failure(const Failure& failure) {
+    return {{"is_error", true}, {"message", failure.message}, {"hint", failure.hint}};
+}
+
+/// Sliders: the parameters with a range that are one number for all cells, of stages that have
+/// begun. A parameter of several stages is named with its stage.
+Json print_controls(const LiveRun& run) {
+    Json controls = Json::array();
+    const Program& program = *run.script().program;
+    for (std::uint32_t k = 0; k < run.script().stage_count(); ++k) {
+        const StageState& state = run.simulation().state(k);
+        const System& system = program.system_of(k);
+        for (const ItemId item : system.quantities.ids()) {
+            const Quantity& quantity = system.quantities[item];
+            if (!state.started || !quantity.range || !program.stages[k].uniform[item]) continue;
+            controls.push_back({{"name", program.stages[k].name + "." + quantity.name},
+                                {"label", quantity.name},
+                                {"stage", k + 1},
+                                {"doc", quantity.doc},
+                                {"low", quantity.range->low},
+                                {"high", quantity.range->high},
+                                {"value", state.numbers[item]}});
+            if (quantity.range->step) controls.back()["step"] = *quantity.range->step;
+        }
+    }
+    return controls;
+}
+
+/// The species of the current stage, that which its pictures show first.
+Json print_species(const LiveRun& run) {
+    Json names = Json::array();
+    const Program& program = *run.script().program;
+    const std::uint32_t stage = run.place().stage;
+    const auto* const shown = program.stages[stage].show.nodes.back().as<ItemId>();
+    const System& system = program.system_of(stage);
+    for (const ItemId item : system.species()) {
+        const auto place = shown != nullptr && item == *shown ? names.begin() : names.end();
+        names.insert(place, std::string(system.item_name(item)));
+    }
+    return names;
+}
+
+/// Infinity and NaN are null.
+Json print_header(const Snapshot& snapshot) {
+    Json stages = Json::array();
+    for (const StageProgress& stage : snapshot.stages) {
+        stages.push_back({{"name", stage.name},
+                          {"steps", stage.steps},
+                          {"iterations", stage.iterations},
+                          {"t", stage.t},
+                          {"duration", stage.duration},
+                          {"has_begun", stage.has_begun},
+                          {"has_ended", stage.has_ended}});
+    }
+    const PlaneLayout& layout = snapshot.fields[0].layout();
+    const ValueRange range =
+        snapshot.fields.size() == 1 ? automatic_range(spread_of(snapshot.fields[0])) : ValueRange();
+    return {{"number", snapshot.number},
+            {"script", snapshot.script},
+            {"is_going_on", snapshot.is_going_on},
+            {"stage", snapshot.place.stage + 1},
+            {"steps", snapshot.place.steps},
+            {"stages", std::move(stages)},
+            {"steps_per_second", snapshot.steps_per_second},
+            {"can_undo", snapshot.can_undo},
+            {"can_redo", snapshot.can_redo},
+            {"failure", snapshot.failure},
+            {"remarks", snapshot.remarks},
+            {"columns", layout.width},
+            {"rows", layout.row_count()},
+            {"fields", snapshot.fields.size()},
+            {"low", range.low},
+            {"high", range.high}};
+}
+
+}  // namespace
+
+std::string print_palettes() {
+    Json list = Json::array();
+    for (const Palette& palette : palettes()) {
+        list.push_back({{"name", palette.name},
+                        {"description", palette.description},
+                        {"stops", palette.stops}});
+    }
+    return print({{"kind", "palettes"}, {"palettes", std::move(list)}});
+}
+
+std::string print_script(const LiveRun& run) {
+    const Script& script = run.script();
+    return print({{"kind", "script"},
+                  {"name", script.name},
+                  {"text", script.text},
+                  {"messages", print_diagnostics(script.diagnostics, script.sources, script.text)},
+                  {"controls", print_controls(run)},
+                  {"species", print_species(run)}});
+}
+
+std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::string_view text) {
+    Json messages = Json::array();
+    if (!result) {
+        const Refusal& refusal = result.error();
+        messages = print_diagnostics(refusal.diagnostics, refusal.sources, text);
+        if (refusal.failure) messages.push_back(print_failure(*refusal.failure));
+    }
+    return print({{"kind", "answer"},
+                  {"id", id},
+                  {"is_done", result.has_value()},
+                  {"messages", std::move(messages)}});
+}
+
+std::string print_failure(std::uint64_t id, const Failure& failure) {
+    return print({{"kind", "answer"},
+                  {"id", id},
+                  {"is_done", false},
+                  {"messages", Json::array({print_failure(failure)})}});
+}
+
+std::string print_log(std::uint64_t id, const SessionLog& log) {
+    return print({{"kind", "log"}, {"id", id}, {"text", print_session_log(log)}});
+}
+
+SharedBytes print_snapshot(const Snapshot& snapshot) {
+    std::string header = print(print_header(snapshot));
+    header.resize((header.size() + 3) / 4 * 4, ' ');
+    const auto size = static_cast<std::uint32_t>(header.size());
+    const PlaneLayout& layout = snapshot.fields[0].layout();
+    const auto row_bytes = static_cast<std::size_t>(layout.width) * sizeof(float);
+    const auto rows = static_cast<std::size_t>(layout.row_count());
+    auto bytes = std::make_shared<std::string>();
+    bytes->reserve(sizeof size + header.size() + snapshot.fields.size() * rows * row_bytes);
+    bytes->append(reinterpret_cast<const char*>(&size), sizeof size);
+    *bytes += header;
+    for (const Field& field : snapshot.fields) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            bytes->append(reinterpret_cast<const char*>(field.row(row)), row_bytes);
+        }
+    }
+    return bytes;
+}
+
+}  // namespace cascade

@@ -1,0 +1,35 @@
+// What a page is told: JSON texts, and snapshots as binary frames. spec/page.md has the
+// layout.
+#pragma once
+
+#include "run/session/session.h"
+#include "view/outbox.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+/// The palettes, which do not change while a page is open.
+std::string print_palettes();
+
+/// The script of a run, its parameters with a range, for sliders, and the species of the current
+/// stage.
+std::string print_script(const LiveRun& run);
+
+/// The answer to the message `id`. Diagnostics in `text`, the script as the page sees it, carry
+/// their place in it.
+std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::string_view text);
+
+/// The answer to a message that could not be read, or obeyed.
+std::string print_failure(std::uint64_t id, const Failure& failure);
+
+/// The answer to a request for the log.
+std::string print_log(std::uint64_t id, const SessionLog& log);
+
+/// A snapshot: the size of the header, as 4 bytes, least significant first; the header, JSON,
+/// filled with blanks to a multiple of 4 bytes; the shown fields, row after row, as binary32.
+SharedBytes print_snapshot(const Snapshot& snapshot);
+
+}  // namespace cascade

@@ -1,0 +1,137 @@
+// The table of requests, and the readers of their fields.
+#include "view/page_message.h"
+
+#include "core/json_size.h"
+#include "core/printable.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+
+namespace cascade {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::int64_t most_steps = std::int64_t{1} << 53;  ///< Exact in the numbers of a page.
+constexpr std::int64_t most_stages = 1'000'000;
+
+/// Reads fields of a message. After the first one that is wrong, `fault` says why, and the others
+/// are empty.
+class FieldReader {
+public:
+    explicit FieldReader(const Json& object) : object_(object) {}
+
+    std::string text(const char* name) {
+        const Json* const field = find(name);
+        if (field != nullptr && field->is_string()) return field->get<std::string>();
+        complain(name, "a text");
+        return {};
+    }
+
+    std::int64_t whole(const char* name, std::int64_t low, std::int64_t high) {
+        const Json* const field = find(name);
+        if (field != nullptr && field->is_number_integer()) {
+            // Numbers above the largest signed one are kept as unsigned ones.
+            const bool is_large = field->is_number_unsigned() &&
+                                  field->get<std::uint64_t>() > static_cast<std::uint64_t>(high);
+            const auto number = is_large ? high + 1 : field->get<std::int64_t>();
+            if (low <= number && number <= high) return number;
+        }
+        complain(name, fmt::format("a whole number from {} to {}", low, high));
+        return low;
+    }
+
+    /// False if there is none.
+    bool flag(const char* name) {
+        const Json* const field = find(name);
+        if (field == nullptr) return false;
+        if (!field->is_boolean()) complain(name, "true or false");
+        return field->is_boolean() && field->get<bool>();
+    }
+
+    const std::string& fault() const { return fault_; }
+
+private:
+    const Json* find(const char* name) const {
+        const auto found = object_.find(name);
+        return found == object_.end() ? nullptr : &*found;
+    }
+    void complain(const char* name, std::string_view wanted) {
+        if (fault_.empty()) fault_ = fmt::format("'{}' must be {}", name, wanted);
+    }
+
+    const Json& object_;
+    std::string fault_;
+};
+
+struct Verb {
+    std::string_view name;
+    PageRequest (*read)(FieldReader&);
+};
+
+PageRequest change(Change made, FieldReader& fields) {
+    return Command(MakeChange{std::move(made), fields.flag("joins_last")});
+}
+
+constexpr std::array<Verb, 14> verbs{{
+    {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
+    {"set",
+     [](FieldReader& fields) {
+         auto name = fields.text("name");
+         return change(SetNumber{std::move(name), fields.text("expression")}, fields);
+     }},
+    {"paint",
+     [](FieldReader& fields) {
+         auto item = fields.text("item");
+         return change(Paint{std::move(item), fields.text("expression")}, fields);
+     }},
+    {"next_stage", [](FieldReader& fields) { return change(NextStage{}, fields); }},
+    {"go_to_stage",
+     [](FieldReader& fields) -> PageRequest {
+         return Command(
+             GoToStage{static_cast<std::uint32_t>(fields.whole("stage", 1, most_stages) - 1)});
+     }},
+    {"restart", [](FieldReader&) -> PageRequest { return Command(GoToStage{0}); }},
+    {"undo", [](FieldReader&) -> PageRequest { return Command(Undo{}); }},
+    {"redo", [](FieldReader&) -> PageRequest { return Command(Redo{}); }},
+    {"run", [](FieldReader&) -> PageRequest { return Command(GoOn{}); }},
+    {"pause", [](FieldReader&) -> PageRequest { return Command(Pause{}); }},
+    {"step",
+     [](FieldReader& fields) -> PageRequest {
+         return Command(TakeSteps{fields.whole("count", 1, most_steps)});
+     }},
+    {"show",
+     [](FieldReader& fields) -> PageRequest { return Command(Show{fields.text("expression")}); }},
+    {"next_snapshot", [](FieldReader&) -> PageRequest { return NextSnapshot{}; }},
+    {"log", [](FieldReader&) -> PageRequest { return AskForLog{}; }},
+}};
+
+}  // namespace
+
+Result<PageMessage> parse_page_message(std::string_view text) {
+    if (text.size() > largest_page_message) return failure("the message is too long");
+    const JsonSize size = measure_json(text);
+    if (size.depth > 1 || size.values > 16) {
+        return failure("the message is not one object of a few texts and numbers");
+    }
+    const Json object = Json::parse(text, nullptr, false);
+    if (!object.is_object()) return failure("the message is no JSON object");
+    FieldReader fields(object);
+    PageMessage message;
+    if (object.contains("id")) {
+        message.id = static_cast<std::uint64_t>(fields.whole("id", 0, most_steps));
+    }
+    const std::string name = fields.text("do");
+    if (!fields.fault().empty()) return failure(fields.fault());
+    for (const Verb& verb : verbs) {
+        if (verb.name != name) continue;
+        message.request = verb.read(fields);
+        if (!fields.fault().empty()) return failure(fields.fault());
+        return message;
+    }
+    return failure(fmt::format("there is no request '{}'", short_name(name)));
+}
+
+}  // namespace cascade

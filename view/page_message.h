@@ -1,0 +1,32 @@
+// What a page says: one JSON object a message, read into typed values. spec/page.md lists
+// them.
+#pragma once
+
+#include "core/result.h"
+#include "run/session/session.h"
+
+#include <cstdint>
+#include <string_view>
+#include <variant>
+
+namespace cascade {
+
+/// The page has drawn what it has and takes the next snapshot.
+struct NextSnapshot {};
+/// The page asks for the log of the session.
+struct AskForLog {};
+
+using PageRequest = std::variant<Command, NextSnapshot, AskForLog>;
+
+struct PageMessage {
+    std::uint64_t id = 0;  ///< Chosen by the page; the answer carries it. 0 if there was none.
+    PageRequest request;
+};
+
+/// The most bytes of a message.
+inline constexpr std::size_t largest_page_message = std::size_t{1} << 20;
+
+/// Fails, with a sentence that says what is wrong, on everything that is no message of a page.
+Result<PageMessage> parse_page_message(std::string_view text);
+
+}  // namespace cascade

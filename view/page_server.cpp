@@ -1,0 +1,176 @@
+// Obeys pages, and sends them snapshots from a thread of its own.
+#include "view/page_server.h"
+
+#include "view/page_answer.h"
+#include "run/session/session.h"
+#include "view/page_message.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace cascade {
+
+namespace {
+
+/// A page asks for one snapshot after the other, so one that draws slowly gets fewer.
+struct OpenPage {
+    bool wants_snapshot = false;
+    std::uint64_t seen = 0;  ///< The number of its last snapshot.
+};
+
+constexpr int snapshot_frame = 0;
+
+/// What a script message depends on: the script, and which stages have begun.
+std::uint64_t version_of_script(const Snapshot& snapshot) {
+    const auto begun = std::count_if(snapshot.stages.begin(), snapshot.stages.end(),
+                                     [](const StageProgress& stage) { return stage.has_begun; });
+    return snapshot.script * 65536 + static_cast<std::uint64_t>(begun);
+}
+
+}  // namespace
+
+struct PageServer::State {
+    std::mutex mutex;  ///< Of all below but what locks for itself.
+    std::condition_variable is_wanted;
+    std::map<PageId, OpenPage> pages;
+    bool is_ending = false;
+    std::uint64_t told_script = 0;  ///< Of the sending thread.
+    // The session ends before the server, to which its answers go.
+    std::optional<LocalServer> server;
+    std::unique_ptr<Session> session;
+    std::thread sender;
+
+    ~State();
+    Result<void> start(PageFiles files);
+    void greet(PageId page);
+    void obey(PageId page, std::string_view text);
+    void tell_script(std::vector<PageId> to);
+    void send_snapshots();
+};
+
+Result<void> PageServer::State::start(PageFiles files) {
+    PageHandlers handlers;
+    handlers.opened = [this](PageId page) { greet(page); };
+    handlers.message = [this](PageId page, std::string_view text) { obey(page, text); };
+    handlers.closed = [this](PageId page) {
+        const std::lock_guard lock(mutex);
+        pages.erase(page);
+    };
+    const std::lock_guard lock(mutex);
+    auto started = LocalServer::start(std::move(files), std::move(handlers));
+    if (!started) return tl::unexpected(started.error());
+    server.emplace(std::move(*started));
+    sender = std::thread([this] { send_snapshots(); });
+    return {};
+}
+
+PageServer::State::~State() {
+    {
+        const std::lock_guard lock(mutex);
+        is_ending = true;
+    }
+    is_wanted.notify_all();
+    if (sender.joinable()) sender.join();
+    if (server) server->stop();
+    session.reset();
+}
+
+void PageServer::State::greet(PageId page) {
+    {
+        const std::lock_guard lock(mutex);
+        pages[page] = {};
+        server->send_text(page, print_palettes());
+    }
+    tell_script({page});
+}
+
+void PageServer::State::tell_script(std::vector<PageId> to) {
+    session->ask([this, to = std::move(to)](LiveRun& run) {
+        const std::string text = print_script(run);
+        for (const PageId page : to) server->send_text(page, text);
+    });
+}
+
+void PageServer::State::obey(PageId page, std::string_view text) {
+    auto message = parse_page_message(text);
+    if (!message) return server->send_text(page, print_failure(0, message.error()));
+    const std::uint64_t id = message->id;
+    if (std::holds_alternative<NextSnapshot>(message->request)) {
+        {
+            const std::lock_guard lock(mutex);
+            pages[page].wants_snapshot = true;
+        }
+        return is_wanted.notify_all();
+    }
+    if (std::holds_alternative<AskForLog>(message->request)) {
+        return session->ask(
+            [this, page, id](LiveRun& run) { server->send_text(page, print_log(id, run.log())); });
+    }
+    auto command = std::get<Command>(std::move(message->request));
+    std::string script;  // The text that messages are about.
+    if (const auto* made = std::get_if<MakeChange>(&command)) {
+        if (const auto* set = std::get_if<SetText>(&made->change)) script = set->text;
+    }
+    if (std::holds_alternative<Pause>(command)) session->cancel();
+    session->post(std::move(command),
+                  [this, page, id, script = std::move(script)](const Accepted<void>& result) {
+                      server->send_text(page, print_answer(id, result, script));
+                  });
+}
+
+void PageServer::State::send_snapshots() {
+    std::unique_lock lock(mutex);
+    while (true) {
+        const auto wants = [](const auto& page) { return page.second.wants_snapshot; };
+        is_wanted.wait(lock,
+                       [&] { return is_ending || std::any_of(pages.begin(), pages.end(), wants); });
+        if (is_ending) return;
+        std::uint64_t seen = UINT64_MAX;
+        for (const auto& [page, state] : pages) {
+            if (state.wants_snapshot) seen = std::min(seen, state.seen);
+        }
+        lock.unlock();
+        const auto snapshot = session->newer_than(seen, std::chrono::milliseconds(100));
+        const SharedBytes frame = snapshot ? print_snapshot(*snapshot) : nullptr;
+        lock.lock();
+        if (!snapshot) continue;
+        if (const auto version = version_of_script(*snapshot); version != told_script) {
+            told_script = version;
+            std::vector<PageId> all;
+            for (const auto& page : pages) all.push_back(page.first);
+            tell_script(std::move(all));
+        }
+        for (auto& [page, state] : pages) {
+            if (!state.wants_snapshot || state.seen >= snapshot->number) continue;
+            state = {false, snapshot->number};
+            server->send_frame(page, snapshot_frame, frame);
+        }
+    }
+}
+
+PageServer::PageServer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PageServer::~PageServer() = default;
+
+Accepted<std::unique_ptr<PageServer>> PageServer::start(Script script,
+                                                        const SimulationOptions& options,
+                                                        RunControl& control, PageFiles files) {
+    auto session = Session::begin(std::move(script), options, control);
+    if (!session) return tl::unexpected(std::move(session.error()));
+    auto state = std::make_unique<State>();
+    state->session = std::move(*session);
+    if (auto started = state->start(std::move(files)); !started) {
+        Refusal refused;
+        refused.failure = started.error();
+        return tl::unexpected(std::move(refused));
+    }
+    return std::unique_ptr<PageServer>(new PageServer(std::move(state)));
+}
+
+std::uint16_t PageServer::port() const { return state_->server->port(); }
+std::string PageServer::address() const { return state_->server->address(); }
+
+}  // namespace cascade

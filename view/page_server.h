@@ -1,0 +1,31 @@
+// A session in a browser: what pages ask goes to the session, and its snapshots go to the pages.
+#pragma once
+
+#include "run/session/live_run.h"
+#include "view/local_server.h"
+
+#include <memory>
+#include <string>
+
+namespace cascade {
+
+/// Serves one session to the pages that are open, which all see and steer the same one.
+class PageServer {
+public:
+    /// Begins a session of a checked script, as Session::begin(), and opens its page.
+    static Accepted<std::unique_ptr<PageServer>> start(Script script,
+                                                       const SimulationOptions& options,
+                                                       RunControl& control, PageFiles files);
+    /// Closes all pages and ends the session.
+    ~PageServer();
+
+    std::uint16_t port() const;
+    std::string address() const;  ///< As LocalServer::address().
+
+private:
+    struct State;
+    explicit PageServer(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace cascade
