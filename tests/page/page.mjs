@@ -101,6 +101,14 @@ async function steer() {
     await type_script(text.replace("iterations: 500", "iterations: 600"));
     await browser.until(`document.getElementById("messages").textContent === "" && !document.getElementById("run").disabled`);
 
+    // Without sliders the pattern does not move into their place.
+    await type_script(text.replace("in 0.01 .. 0.08 step 0.001", "").replace("iterations: 500", "iterations: 600"));
+    await browser.until(`document.querySelectorAll("#controls input").length === 0`);
+    const wide = await browser.evaluate(`document.getElementById("pattern").getBoundingClientRect().width`);
+    expect(wide > 500, `without sliders the pattern is only ${wide} pixels wide`);
+    await click("undo");
+    await browser.until(`document.querySelectorAll("#controls input").length === 2`);
+
     // A stroke is seen where the pointer was.
     const [x, y, width, height] = await browser.evaluate(
         `(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
