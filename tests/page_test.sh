@@ -39,5 +39,17 @@ stage grow: spots { iterations: 1500 }
 stage more: spots { u: u; v: v; feed: 0.05; iterations: 500 }
 SCRIPT
 "$CASCADE" run spots.cascade --palette leopard -o spots.png --quiet || fail "the picture was not drawn"
+cat >colours.cascade <<'SCRIPT'
+domain { grid: 40, 30; mask: not disc(0.5, 0.4, 0.1) }
+system spots {
+  u: 1
+  v: 0.25 * disc(0.2, 0.3, 0.1) + random(0.01, 0.01)
+  u' = 0.16 * lap(u) - u * v^2 + 0.037 * (1 - u)
+  v' = 0.08 * lap(v) + u * v^2 - 0.097 * v
+}
+stage grow: spots { iterations: 800 }
+picture { color: rgb(u, 3 * v, 0.5) }
+SCRIPT
+"$CASCADE" run colours.cascade -o colours.png --quiet || fail "the coloured picture was not drawn"
 rm -rf profile
 node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"

@@ -1,5 +1,5 @@
 // Steers the page of `cascade view spots.cascade` as a user does. Arguments: the browser and the program;
-// spots.cascade and spots.png, what `cascade run` draws of it, are in the current folder. Screenshots are left there.
+// spots.cascade, colours.cascade and what `cascade run` draws of them are in the current folder. Screenshots are left there.
 import { spawn } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -42,15 +42,15 @@ const pixels = (image) => browser.evaluate(`(async () => {
     return [image.width, image.height, ...copy.getContext("2d").getImageData(0, 0, image.width, image.height).data];
 })()`);
 const canvas = () => pixels(`document.getElementById("pattern")`);
-const picture = () => pixels(`new Promise((resolve) => {
+const picture = (name) => pixels(`new Promise((resolve) => {
     const image = new Image();
     image.onload = () => resolve(image);
-    image.src = "data:image/png;base64,${readFileSync("spots.png").toString("base64")}";
+    image.src = "data:image/png;base64,${readFileSync(`${name}.png`).toString("base64")}";
 })`);
 
-async function expect_the_picture(how) {
-    const seen = await canvas(), wanted = await picture();
-    expect(seen.length === wanted.length && seen[0] === 48 && seen[1] === 32, `${how}: ${seen.slice(0, 2)} pixels`);
+async function expect_the_picture(how, name = "spots") {
+    const seen = await canvas(), wanted = await picture(name);
+    expect(seen[0] === wanted[0] && seen[1] === wanted[1], `${how}: ${seen.slice(0, 2)} pixels`);
     const worst = Math.max(...seen.map((level, k) => Math.abs(level - wanted[k])));
     expect(worst <= 1, `${how}: a level differs by ${worst} from the picture of cascade run`);
 }
@@ -114,19 +114,30 @@ async function steer() {
         `(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
     const before = await canvas();
     await browser.drag(x + 0.2 * width, y + 0.5 * height, x + 0.3 * width, y + 0.5 * height);
-    await browser.until(`!document.getElementById("undo").disabled`);
-    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 500))");
-    const after = await canvas();
-    const differs = (column, row) => [0, 1, 2].some((c) => Math.abs(before[2 + 4 * (48 * row + column) + c] - after[2 + 4 * (48 * row + column) + c]) > 8);
-    expect(differs(10, 16) || differs(12, 16), "the stroke is not seen");
+    const differs = (after, column, row) => [0, 1, 2].some((c) => Math.abs(before[2 + 4 * (48 * row + column) + c] - after[2 + 4 * (48 * row + column) + c]) > 8);
+    let is_seen = false;
+    for (let k = 0; k < 100 && !is_seen; ++k) {
+        const after = await canvas();
+        is_seen = differs(after, 10, 16) || differs(after, 12, 16);
+    }
+    expect(is_seen, "the stroke is not seen");
 
     // Going to a stage starts it anew, with the values that the one before left.
     await browser.evaluate(`document.querySelectorAll("#stages button")[1].click()`);
     await until_steps("0");
     await browser.evaluate(`document.querySelectorAll("#stages button")[0].click()`);
     await browser.until(`document.querySelectorAll("#stages progress")[1].value === 0`);
+
+    // Colours, in a domain of another shape and size.
+    await type_script(readFileSync("colours.cascade", "utf8"));
+    await browser.until(`document.querySelectorAll("#stages li").length === 1`);
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+    await until_steps("800");
+    await expect_the_picture("the canvas of colours", "colours");
     await type_script(text);
-    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 800))");
+    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
 
     // The same without WebGL, after a reload, for which the tab keeps the token.
     await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });
