@@ -39,6 +39,7 @@ stage grow: spots { iterations: 1500 }
 stage more: spots { u: u; v: v; feed: 0.05; iterations: 500 }
 SCRIPT
 "$CASCADE" run spots.cascade --palette leopard -o spots.png --quiet || fail "the picture was not drawn"
+"$CASCADE" run spots.cascade --palette leopard --show '3 * v' -o expression.png --quiet || fail "the expression was not drawn"
 cat >colours.cascade <<'SCRIPT'
 domain { grid: 40, 30; mask: not disc(0.5, 0.4, 0.1) }
 system spots {

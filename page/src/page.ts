@@ -82,6 +82,7 @@ function show_script(script: Script) {
     show_controls(script.controls);
     if ([...brush_choice.options].map((o) => o.value).join() !== script.species.join()) {
         brush_choice.replaceChildren(...script.species.map((name) => new Option(name)));
+        element("names").replaceChildren(...script.species.map((name) => new Option(name)));
     }
 }
 
@@ -191,7 +192,7 @@ for (const [id, act] of Object.entries(actions)) button(id).addEventListener("cl
 
 document.addEventListener("keydown", (event) => {
     const at = event.target as HTMLElement;
-    if (at.id === "editor" || at.matches("select, [type=number]")) return;
+    if (at.id === "editor" || at.matches("select, #amount, #show")) return;
     const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
     const act = { " ": "run", ".": "step", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
     if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
@@ -202,6 +203,12 @@ document.addEventListener("keydown", (event) => {
 palette_choice.addEventListener("change", () => {
     localStorage.setItem("palette", palette_choice.value);
     choose_palette();
+});
+
+const shown = element<HTMLInputElement>("show");
+shown.addEventListener("change", async () => {
+    const answer = await ask("show", { expression: shown.value });
+    shown.classList.toggle("wrong", !answer.is_done);
 });
 
 // A stroke: discs of the given value, else of the highest one, or with Shift of the lowest.

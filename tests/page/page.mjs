@@ -55,6 +55,12 @@ async function expect_the_picture(how, name = "spots") {
     expect(worst <= 1, `${how}: a level differs by ${worst} from the picture of cascade run`);
 }
 
+/// The same, as soon as what was asked for is drawn.
+async function until_picture(how, name) {
+    for (let k = 0; k < 100; ++k) if (await expect_the_picture(how, name).then(() => true, () => false)) return;
+    await expect_the_picture(how, name);
+}
+
 async function choose_leopard() {
     await browser.evaluate(`{ const choice = document.getElementById("palette"); choice.value = "leopard"; choice.dispatchEvent(new Event("change")); }`);
 }
@@ -84,6 +90,15 @@ async function steer() {
     await browser.until(is_over);
     await expect_the_picture("the canvas");
     writeFileSync("page.png", await browser.screenshot());
+
+    const show = (expression) => browser.evaluate(
+        `{ const input = document.getElementById("show"); input.value = "${expression}"; input.dispatchEvent(new Event("change")); }`);
+    await show("v + w");
+    await browser.until(`document.getElementById("show").classList.contains("wrong") && document.getElementById("notice").textContent.includes("'w'")`);
+    await show("3 * v");
+    await browser.until(`!document.getElementById("show").classList.contains("wrong")`);
+    await until_picture("the canvas of an expression", "expression");
+    await show("");
 
     // A slider: one undo takes it back.
     await browser.evaluate(`document.querySelector("#controls input").focus()`);
