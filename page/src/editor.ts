@@ -47,12 +47,13 @@ const theme = EditorView.theme({
 export class Editor {
     readonly view: EditorView;
 
-    /// `changed` is called some time after the last key.
-    constructor(parent: HTMLElement, changed: (text: string) => void) {
+    /// `typed` is called with every key, `changed` some time after the last one.
+    constructor(parent: HTMLElement, typed: () => void, changed: (text: string) => void) {
         // In a shadow tree the editor's styles are sheets, which the page's policy lets be.
         const root = parent.attachShadow({ mode: "open" });
         const listen = EditorView.updateListener.of((update) => {
             if (!update.docChanged || this.is_silent) return;
+            typed();
             clearTimeout(this.timer);
             this.timer = window.setTimeout(() => {
                 this.timer = 0;

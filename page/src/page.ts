@@ -41,10 +41,11 @@ const connection = new Connection({
     lost: (reason) => notice(reason, true),
 });
 
-const editor = new Editor(element("editor"), async (text) => {
+const editor = new Editor(element("editor"), () => (element("text").ariaBusy = "true"), async (text) => {
     is_text_open = true;
     const answer = await connection.ask("text", { text });
     if (text !== editor.text) return;
+    element("text").ariaBusy = "false";
     is_text_open = !answer.is_done;
     show_messages(answer.messages);
 });
@@ -54,6 +55,12 @@ function notice(text: string, is_wrong = false, seconds = 0) {
     noticed_until = performance.now() + 1000 * seconds;
     element("notice").textContent = text;
     element("notice").classList.toggle("wrong", is_wrong);
+    if (seconds === 0) return;
+    setTimeout(() => {
+        if (performance.now() < noticed_until) return;
+        notice("");
+        if (pattern.snapshot) show_state(pattern.snapshot);
+    }, 1000 * seconds + 100);
 }
 
 function show_messages(messages: Message[]) {
@@ -77,6 +84,7 @@ function show_script(script: Script) {
     element("name").textContent = script.name.split("/").pop()!;
     if (!is_text_open && !editor.is_changing) {
         editor.text = script.text;
+        element("text").ariaBusy = "false";
         show_messages(script.messages);
     }
     show_controls(script.controls);

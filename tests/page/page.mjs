@@ -70,6 +70,7 @@ async function type_script(text) {
     await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);
     await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
     await browser.call("Input.insertText", { text });
+    await browser.until(`document.getElementById("text").ariaBusy === "false"`);
 }
 
 async function steer() {
@@ -142,6 +143,13 @@ async function steer() {
     await until_steps("0");
     await browser.evaluate(`document.querySelectorAll("#stages button")[0].click()`);
     await browser.until(`document.querySelectorAll("#stages progress")[1].value === 0`);
+
+    // Values that are not finite stop the run, which says so and goes on once the text is mended.
+    await type_script(text.replace("0.16 * lap(u)", "16 * lap(u)"));
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+    await browser.until(`document.getElementById("notice").textContent.includes("finite")`);
 
     // Colours, in a domain of another shape and size.
     await type_script(readFileSync("colours.cascade", "utf8"));
