@@ -45,7 +45,7 @@ struct Schedule {
     std::int64_t last_step = 0;   ///< Stop when this number is complete.
     /// Later calls will probably go on up to this step; what is tried for speed may pay until then.
     std::int64_t planned_step = 0;
-    TimeState time = {};          ///< At `first_step`.
+    TimeState time = {};  ///< At `first_step`.
     /// Stop when t has reached this; the last step is shortened to end there.
     double end_time = std::numeric_limits<double>::infinity();
     /// `observe` is called at multiples of this. If it is 0 and there is an end time, `observe` is
