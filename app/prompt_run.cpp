@@ -5,6 +5,8 @@
 #include "app/interrupt.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
+#include "app/prompt_text.h"
+#include "core/file.h"
 #include "run/commands/run.h"
 #include "run/pictures/painter.h"
 
@@ -16,26 +18,6 @@
 namespace cascade {
 
 namespace {
-
-/// True if two stages have the same species, so that the fields of one can continue in the other.
-bool same_species(const System& first, const System& second) {
-    std::vector<std::string> names[2];
-    for (const Quantity& quantity : first.quantities) {
-        if (quantity.is_species) names[0].push_back(quantity.name);
-    }
-    for (const Quantity& quantity : second.quantities) {
-        if (quantity.is_species) names[1].push_back(quantity.name);
-    }
-    return names[0] == names[1];
-}
-
-/// True if two domains are the same cells of a model, or neither is on a model.
-bool same_cells(const std::shared_ptr<const ModelCells>& first,
-                const std::shared_ptr<const ModelCells>& second) {
-    if (!first || !second) return !first && !second;
-    return first->mesh.triangles == second->mesh.triangles &&
-           first->cells.areas == second->cells.areas && first->cells.ends == second->cells.ends;
-}
 
 /// A run with a progress display that Ctrl-C stops.
 struct WatchedRun {
@@ -55,93 +37,138 @@ struct WatchedRun {
     WatchedRun& operator=(const WatchedRun&) = delete;
 };
 
-/// Creates a simulation, showing that the cells of a model are made, which may take a while.
-Result<std::unique_ptr<Simulation>> create_simulation(Script& script, SimulationOptions options,
-                                                      Console& console) {
-    WatchedRun watched(console);
-    options.control = &watched.control;
-    auto created = Simulation::create(script, options);
-    watched.display.clear();
-    return created;
-}
-
-std::vector<Field> copies(const std::vector<Field>& fields) {
-    std::vector<Field> result;
-    for (const Field& field : fields) result.push_back(field.clone());
-    return result;
+/// The values of all cells: "3.5 in all cells", "0.1 to 0.9".
+std::string in_words(const Field& field) {
+    const Spread values = spread_of(field);
+    if (values.count == 0) return "no values\n";
+    if (values.is_even()) return fmt::format("{:.6g} in all cells\n", values.mean);
+    return fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest);
 }
 
 }  // namespace
 
-/// A simulation of a changed script that continues from the present one: parameters are computed
-/// anew; species and steps are kept for the leading stages with equal species.
-Result<std::unique_ptr<Simulation>> PromptSession::carry_over(Script& script) const {
-    auto created = create_simulation(script, options_, console_);
-    if (!created) return created;
-    Simulation& simulation = **created;
-    const Program& before = *script_->program;
-    const Program& after = *script.program;
-    if (!same_cells(simulation_->model(), simulation.model())) return created;
-    if (!(before.domain.grid == after.domain.grid) || before.domain.seed != after.domain.seed ||
-        before.domain.precision != after.domain.precision) {
-        return created;
-    }
-    const std::size_t count = std::min(before.stages.size(), after.stages.size());
-    for (std::uint32_t k = 0; k < count && simulation_->state(k).started; ++k) {
-        if (before.stages[k].name != after.stages[k].name ||
-            !same_species(before.system_of(k), after.system_of(k))) {
-            break;
-        }
-        const StageState& state = simulation_->state(k);
-        if (auto started = simulation.start_stage(k); !started) {
-            return tl::unexpected(started.error());
-        }
-        const bool is_done = state.steps >= after.stages[k].iterations;
-        simulation.restore(k, {copies(state.species), state.steps, state.t, is_done, false, {}});
-    }
-    return created;
-}
-
 bool PromptSession::has_something_to_run() {
-    if (script_ && !script_->program->stages.empty()) return true;
+    if (script() && !script()->program->stages.empty()) return true;
     fail({"there is no stage yet", "type one: stage spots: turing_spots { ka: 1/80 }"});
     return false;
 }
 
-/// Creates the simulation and starts its first stage, unless there is one. False if that failed.
-bool PromptSession::make_simulation() {
-    if (simulation_) return true;
-    if (!has_something_to_run()) return false;
-    auto simulation = create_simulation(*script_, options_, console_);
-    Result<void> started;
-    if (simulation) started = (*simulation)->start_stage(0);
-    if (!simulation || !started) {
-        print_errors(*script_);
-        script_->diagnostics = {};
-        fail(simulation ? started.error() : simulation.error());
+/// Replaces the run by one that `make` makes, which may take a while: the cells of a model, steps
+/// that are taken again. False if that failed.
+bool PromptSession::begin_with(
+    const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make) {
+    WatchedRun watched(console_);
+    auto made = make(watched.control);
+    watched.display.clear();
+    if (!made) {
+        print_refusal(made.error());
         return false;
     }
-    simulation_ = std::move(*simulation);
+    run_ = std::move(*made);
+    script_.reset();
+    tell_place();
     return true;
 }
 
+/// Starts the first stage, unless there is a run.
+bool PromptSession::begin_run() {
+    if (run_) return true;
+    if (!has_something_to_run()) return false;
+    WatchedRun watched(console_);
+    const Script& typed = *script_;
+    auto made = LiveRun::begin(load_script(typed.name, typed.text, typed.folder, typed.overrides),
+                               options_, watched.control);
+    watched.display.clear();
+    if (!made) {
+        print_refusal(made.error());
+        return false;
+    }
+    run_ = std::move(*made);
+    run_->script().diagnostics = {};  // Its warnings have been printed.
+    script_.reset();
+    return true;
+}
+
+/// Makes a change of the run and prints the warnings of a changed script. False if it was refused.
+bool PromptSession::apply(const Change& change) {
+    WatchedRun watched(console_);
+    const auto applied = run_->apply(change, watched.control);
+    watched.display.clear();
+    if (!applied) {
+        print_refusal(applied.error());
+        return false;
+    }
+    const std::string warnings = run_->script().messages(console_.error().colour);
+    if (warnings != last_warnings_) console_.say(warnings);
+    last_warnings_ = warnings;
+    run_->script().diagnostics = {};
+    return true;
+}
+
+void PromptSession::tell_done(const Accepted<void>& done) {
+    if (!done) return print_refusal(done.error());
+    run_->script().diagnostics = {};
+    tell_place();
+}
+
 void PromptSession::init(const std::string&) {
-    simulation_.reset();
-    if (make_simulation()) tell_place();
+    if (!run_) {
+        if (begin_run()) tell_place();
+        return;
+    }
+    WatchedRun watched(console_);
+    const auto done = run_->go_to(0, watched.control);
+    watched.display.clear();
+    tell_done(done);
+}
+
+void PromptSession::go_to(const std::string& name) {
+    if (!begin_run()) return;
+    const auto stage = find_stage(*run_->script().program, name);
+    if (!stage) return fail(stage.error());
+    WatchedRun watched(console_);
+    const auto done = run_->go_to(*stage, watched.control);
+    watched.display.clear();
+    tell_done(done);
+}
+
+void PromptSession::next(const std::string&) {
+    if (begin_run() && apply(NextStage{})) tell_place();
+}
+
+void PromptSession::undo(const std::string&) {
+    if (!begin_run()) return;
+    WatchedRun watched(console_);
+    const auto done = run_->undo(watched.control);
+    watched.display.clear();
+    tell_done(done);
+}
+
+void PromptSession::redo(const std::string&) {
+    if (!begin_run()) return;
+    WatchedRun watched(console_);
+    const auto done = run_->redo(watched.control);
+    watched.display.clear();
+    tell_done(done);
+}
+
+void PromptSession::paint(const std::string& assignment) {
+    const std::size_t sign = assignment.find_first_of("=:");
+    const auto name = std::string(trim(assignment.substr(0, sign)));
+    if (sign == std::string::npos || name.empty()) return fail({":paint takes NAME=EXPR", ""});
+    if (!begin_run()) return;
+    apply(Paint{name, std::string(trim(assignment.substr(sign + 1)))});
 }
 
 void PromptSession::run(const std::string& count) {
     std::int64_t steps = std::numeric_limits<std::int64_t>::max();
     if (!count.empty()) {
         const auto parsed = parse_whole(count, 1, steps);
-        if (!parsed) {
-            fail(parsed.error());
-            return;
-        }
+        if (!parsed) return fail(parsed.error());
         steps = *parsed;
     }
-    if (!make_simulation()) return;
-    if (is_over()) return tell_over();
+    if (!begin_run()) return;
+    if (run_->is_over()) return tell_over();
     const bool good = advance(steps);
     tell_place();
     if (good && show_after_run_) show("");
@@ -150,36 +177,15 @@ void PromptSession::run(const std::string& count) {
 /// Takes `steps` steps, from stage to stage. False if a run failed.
 bool PromptSession::advance(std::int64_t steps) {
     WatchedRun watched(console_);
-    for (std::uint32_t k = 0; k < script_->stage_count() && steps > 0; ++k) {
-        if (simulation_->state(k).done) continue;
-        Result<StageEnd> end = StageEnd::finished;
-        if (!simulation_->state(k).started) {
-            if (auto started = simulation_->start_stage(k); !started) {
-                end = tl::unexpected(started.error());
-            }
-        }
-        const std::int64_t before = simulation_->state(k).steps;
-        const std::int64_t iterations = script_->program->stages[k].iterations;
-        const std::int64_t last = before + std::min(steps, iterations - before);
-        if (end) end = simulation_->advance_stage(k, last, watched.control, {});
+    Watching watching;
+    watching.stage_ended = [&](std::uint32_t stage) {
         watched.display.clear();
-        if (!end) {
-            fail(end.error());
-            return false;
-        }
-        if (*end != StageEnd::finished) return true;
-        remark(simulation_->remark_on(k));
-        steps -= simulation_->state(k).steps - before;
-    }
-    return true;
-}
-
-bool PromptSession::is_over() const {
-    if (!simulation_) return false;
-    for (std::uint32_t k = 0; k < script_->stage_count(); ++k) {
-        if (!simulation_->state(k).done) return false;
-    }
-    return true;
+        remark(run_->simulation().remark_on(stage));
+    };
+    const auto end = run_->advance(steps, watched.control, watching);
+    watched.display.clear();
+    if (!end) fail(end.error());
+    return end.has_value();
 }
 
 void PromptSession::tell_over() {
@@ -191,60 +197,72 @@ void PromptSession::remark(const std::string& words) {
 }
 
 void PromptSession::show(const std::string& expression) {
-    if (!make_simulation()) return;
+    if (!begin_run()) return;
     PictureRequest request;
     request.show = expression;
-    auto painter = Painter::create(*script_, request);
+    auto painter = Painter::create(run_->script(), request);
     if (!painter) {
-        print_errors(*script_);
-        script_->diagnostics = {};
+        print_errors(run_->script());
+        run_->script().diagnostics = {};
         return;
     }
-    const Canvas canvas = painter->canvas(*simulation_);
+    const Canvas canvas = painter->canvas(run_->simulation());
     const Image image = painter->image(canvas);
     const int columns = console_.out().columns();
     console_.draw(console_.out().colour ? half_blocks(image, columns)
                                         : plain_characters(image, columns));
-    if (!canvas.is_colour()) {
-        const Spread values = spread_of(canvas.fields[0]);
-        console_.print(values.count == 0 ? "no values\n"
-                       : values.is_even()
-                           ? fmt::format("{:.6g} in all cells\n", values.mean)
-                           : fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest));
-    }
+    if (!canvas.is_colour()) console_.print(in_words(canvas.fields[0]));
     if (painter->fell_back()) {
         console_.warn("it names a stage that has not run; this is the default picture");
     }
 }
 
+/// The answer to an expression that is typed.
+void PromptSession::print_value(const std::string& expression) {
+    if (!begin_run()) return;
+    PictureRequest request;
+    request.show = expression;
+    auto painter = Painter::create(run_->script(), request);
+    if (!painter) {
+        print_errors(run_->script());
+        run_->script().diagnostics = {};
+        return;
+    }
+    const Canvas values = painter->values(run_->simulation());
+    for (const Field& field : values.fields) console_.print(in_words(field));
+}
+
 void PromptSession::list_stages(const std::string&) {
     if (!has_something_to_run()) return;
-    const Program& program = *script_->program;
+    const Program& program = *script()->program;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         const StageState not_begun;
-        const StageState& state = simulation_ ? simulation_->state(k) : not_begun;
+        const StageState& state = run_ ? run_->simulation().state(k) : not_begun;
         console_.print(fmt::format("{}: {}, {}\n", program.stages[k].name,
                                    program.system_of(k).name,
                                    describe_place(program.stages[k], state)));
     }
 }
 
-void PromptSession::save(const std::string& folder) {
-    if (!make_simulation()) return;
-    const auto written = save_run(folder, *script_, *simulation_);
-    if (!written) {
-        fail(written.error());
-        return;
+void PromptSession::save(const std::string& path) {
+    if (!begin_run()) return;
+    if (std::filesystem::path(path).extension() == ".session") {
+        if (auto done = write_file(path, print_session_log(run_->log())); !done) {
+            return fail(done.error());
+        }
+        return console_.note(fmt::format("wrote {}", path));
     }
-    console_.note(fmt::format("wrote {} files in {}", written->size(), folder));
+    const auto written = save_run(path, run_->script(), run_->simulation());
+    if (!written) return fail(written.error());
+    console_.note(fmt::format("wrote {} files in {}", written->size(), path));
 }
 
 void PromptSession::tell_place() {
-    const auto shown = simulation_->shown_stage();
-    if (!shown) return;
-    const Stage& stage = script_->program->stages[*shown];
+    const auto shown = run_->simulation().shown_stage();
+    const std::uint32_t number = std::max(shown.value_or(0), run_->place().stage);
+    const Stage& stage = run_->script().program->stages[number];
     console_.print(fmt::format("stage '{}', {}\n", stage.name,
-                               describe_place(stage, simulation_->state(*shown))));
+                               describe_place(stage, run_->simulation().state(number))));
 }
 
 }  // namespace cascade

@@ -2,8 +2,11 @@
 #include "app/prompt_session.h"
 
 #include "app/prompt_text.h"
+#include "core/file.h"
 #include "core/near_name.h"
 #include "lang/check/check.h"
+#include "lang/syntax/parse.h"
+#include "lang/syntax/replace_blocks.h"
 #include "run/commands/run.h"
 
 #include <fmt/format.h>
@@ -22,15 +25,23 @@ struct PromptSession::Command {
 };
 
 std::span<const PromptSession::Command> PromptSession::commands() {
-    static constexpr std::array<Command, 11> all = {{
+    static constexpr std::array<Command, 16> all = {{
         {":run", "[N]", "take N steps, or all that are left", &PromptSession::run},
+        {":next", "", "end the stage here and begin the next one", &PromptSession::next},
         {":show", "[EXPR]", "draw a species or any expression: ':show b'", &PromptSession::show},
-        {":init", "", "back to the starting values", &PromptSession::init},
         {":set", "NAME=EXPR", "change a parameter: ':set stage1.ka=1/400'", &PromptSession::set},
+        {":paint", "NAME=EXPR", "give the cells other values: ':paint b=b+disc(0.5,0.5,0.1)'",
+         &PromptSession::paint},
+        {":undo", "", "back to the moment before the last change", &PromptSession::undo},
+        {":redo", "", "forward again", &PromptSession::redo},
+        {":goto", "STAGE", "to the start of a stage", &PromptSession::go_to},
+        {":init", "", "back to the starting values", &PromptSession::init},
         {":stages", "", "the stages, and how far they are", &PromptSession::list_stages},
         {":text", "", "the script so far", &PromptSession::print_text},
-        {":save", "FOLDER", "write every field, to load or to resume", &PromptSession::save},
-        {":load", "FILE", "a script, a picture, or a folder that was saved", &PromptSession::load},
+        {":save", "PATH", "FOLDER: every field; NAME.session: all that was done",
+         &PromptSession::save},
+        {":load", "FILE", "a script, a picture, a session, or a folder that was saved",
+         &PromptSession::load},
         {":new", "", "forget the script", &PromptSession::forget},
         {":help", "", "this list", &PromptSession::help},
         {":quit", "", "leave (Ctrl-D does too)", nullptr},
@@ -48,7 +59,7 @@ std::string PromptSession::prompt() const {
     const auto lines_of = [](const std::string& text) {
         return std::count(text.begin(), text.end(), '\n');
     };
-    const auto line = (script_ ? lines_of(script_->text) : 0) + lines_of(pending_) + 1;
+    const auto line = (script() ? lines_of(script()->text) : 0) + lines_of(pending_) + 1;
     return fmt::format("{}{} ", line, pending_.empty() ? '>' : '|');
 }
 
@@ -58,7 +69,7 @@ std::vector<std::string> PromptSession::names(const std::string& line) const {
         for (const Command& command : commands()) names.emplace_back(command.name);
         return names;
     }
-    return known_names(script_ ? *script_->program : Program());
+    return known_names(script() ? *script()->program : Program());
 }
 
 bool PromptSession::take(const std::string& line) {
@@ -116,15 +127,39 @@ bool PromptSession::obey(std::string_view line) {
     return true;
 }
 
-void PromptSession::add_text(const std::string& text) {
-    if (!script_) {
-        change(load_script("prompt", text, "."));
-        return;
-    }
-    change(load_script(script_->name, script_->text + text, script_->folder, script_->overrides));
+void PromptSession::print_refusal(const Refusal& refusal) {
+    has_failed_ = true;
+    console_.say(render(refusal.diagnostics, refusal.sources, {.colour = console_.error().colour}));
+    if (refusal.failure) console_.fail(*refusal.failure);
 }
 
-/// Takes over a changed script if it has no errors, and continues the simulation with it.
+namespace {
+
+/// Is the text one expression and nothing else?
+bool is_expression(const std::string& text) {
+    Sources sources;
+    Diagnostics errors;
+    ast::Script tree;
+    const SourceId source = sources.add("", std::string(trim(text)));
+    return parse_expression(source, sources, tree, errors) && !errors.has_errors();
+}
+
+}  // namespace
+
+/// What is typed again replaces what it was before.
+void PromptSession::add_text(const std::string& text) {
+    if (is_expression(text)) return print_value(std::string(trim(text)));
+    const std::string whole = script() ? with_blocks(script()->text, text) : text;
+    if (run_) {
+        apply(SetText{whole});
+    } else if (script_) {
+        change(load_script(script_->name, whole, script_->folder, script_->overrides));
+    } else {
+        change(load_script("prompt", whole, "."));
+    }
+}
+
+/// Takes over a script if it has no errors. There is no run yet.
 bool PromptSession::change(Script changed) {
     const std::string messages = changed.messages(console_.error().colour);
     if (!changed.program) {
@@ -132,22 +167,9 @@ bool PromptSession::change(Script changed) {
         return false;
     }
     if (messages != last_warnings_) console_.say(messages);
-    auto script = std::make_unique<Script>(std::move(changed));
-    script->diagnostics = {};  // They are printed; from now on only new errors count.
-    std::unique_ptr<Simulation> simulation;
-    if (simulation_) {
-        auto carried = carry_over(*script);
-        if (!carried) {
-            print_errors(*script);
-            fail(carried.error());
-            return false;
-        }
-        simulation = std::move(*carried);
-    }
-    // The old simulation refers to the old script, so it must be destroyed first.
-    simulation_ = std::move(simulation);
-    script_ = std::move(script);
     last_warnings_ = messages;
+    script_ = std::make_unique<Script>(std::move(changed));
+    script_->diagnostics = {};  // They are printed; from now on only new errors count.
     return true;
 }
 
@@ -155,6 +177,10 @@ void PromptSession::load(const std::string& path) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
         load_saved(path);
+        return;
+    }
+    if (const auto text = read_file(path, largest_script); text && is_session_log(*text)) {
+        load_session(path, *text);
         return;
     }
     auto file = load_script_file(path);
@@ -167,11 +193,8 @@ void PromptSession::load(const std::string& path) {
         file->script = load_script(read.name, read.text + "\n", read.folder, read.overrides);
     }
     // A script that is loaded starts anew, even if its stages have the names of the old ones.
-    std::unique_ptr<Simulation> before = std::move(simulation_);
-    if (!change(std::move(file->script))) {
-        simulation_ = std::move(before);
-        return;
-    }
+    if (!change(std::move(file->script))) return;
+    run_.reset();
     console_.note(fmt::format("{}: {} stages", path, script_->program->stages.size()));
 }
 
@@ -185,52 +208,50 @@ void PromptSession::load_saved(const std::string& folder) {
         print_errors(*saved);
         return;
     }
-    auto script = std::make_unique<Script>(std::move(*saved));
-    auto simulation = Simulation::create(*script, options_);
-    Result<void> done;
-    if (simulation) done = restore_run(folder, *script, **simulation);
-    if (!simulation || !done) {
-        fail(simulation ? done.error() : simulation.error());
+    begin_with([&](RunControl& control) {
+        return LiveRun::resume(std::move(*saved), options_, control,
+                               [&](const Script& script, Simulation& simulation) {
+                                   return restore_run(folder, script, simulation);
+                               });
+    });
+}
+
+void PromptSession::load_session(const std::string& path, const std::string& text) {
+    const auto log = parse_session_log(text);
+    if (!log) {
+        fail({fmt::format("{}: {}", path, log.error().message), log.error().hint});
         return;
     }
-    simulation_ = std::move(*simulation);
-    script_ = std::move(script);
-    tell_place();
+    const auto folder = std::filesystem::path(path).parent_path();
+    begin_with([&](RunControl& control) {
+        return LiveRun::play(*log, folder.empty() ? "." : folder, options_, control);
+    });
 }
 
 void PromptSession::set(const std::string& assignment) {
-    if (!script_) {
+    const std::size_t sign = assignment.find_first_of("=:");
+    const auto name = std::string(trim(assignment.substr(0, sign)));
+    if (!script()) {
         fail({"there is no script yet", ""});
-        return;
-    }
-    // The last setting of a name wins, so earlier ones need not be kept.
-    const auto name = [](std::string_view text) {
-        text = text.substr(0, text.find('='));
-        const std::size_t begin = text.find_first_not_of(" \t");
-        return begin == std::string_view::npos
-                   ? ""
-                   : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
-    };
-    Overrides overrides = script_->overrides;
-    std::erase_if(overrides.sets,
-                  [&](const std::string& set) { return name(set) == name(assignment); });
-    overrides.sets.push_back(assignment);
-    if (change(load_script(script_->name, script_->text, script_->folder, std::move(overrides))) &&
-        is_over()) {
-        tell_over();
+    } else if (sign == std::string::npos || name.empty()) {
+        fail({":set takes NAME=EXPR", ""});
+    } else if (run_) {
+        if (apply(SetNumber{name, assignment.substr(sign + 1)}) && run_->is_over()) tell_over();
+    } else {
+        change(with_number(*script_, {name, assignment.substr(sign + 1)}));
     }
 }
 
 void PromptSession::print_text(const std::string&) {
-    if (!script_) return;
-    console_.print(script_->text);
-    for (const std::string& set : script_->overrides.sets) {
+    if (!script()) return;
+    console_.print(script()->text);
+    for (const std::string& set : script()->overrides.sets) {
         console_.print(fmt::format("# :set {}\n", set));
     }
 }
 
 void PromptSession::forget(const std::string&) {
-    simulation_.reset();
+    run_.reset();
     script_.reset();
     last_warnings_.clear();
 }
@@ -242,7 +263,8 @@ void PromptSession::help(const std::string&) {
     }
     console_.print(
         "Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line that is\n"
-        "right is kept; one that is wrong changes nothing.\n");
+        "right is kept; one that is wrong changes nothing. A block of the same name replaces the\n"
+        "old one, and the run goes on with it. An expression is answered with its value.\n");
 }
 
 }  // namespace cascade

@@ -3,10 +3,11 @@
 
 #include "app/console.h"
 #include "run/script/script.h"
-#include "run/simulation/simulation.h"
+#include "run/session/live_run.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,7 +17,7 @@
 namespace cascade {
 
 /// Takes the lines of a LineReader. A line with an error changes neither the script nor the fields.
-/// Otherwise it is kept, and so are the computed values of all stages that it does not change.
+/// Otherwise it is kept, and the run goes on with it (LiveRun).
 class PromptSession {
 public:
     /// `show_after_run`: a picture after each :run, for terminals.
@@ -48,30 +49,41 @@ private:
     void add_text(const std::string& text);
     bool change(Script script);
     void load_saved(const std::string& folder);
+    void load_session(const std::string& path, const std::string& text);
     void set(const std::string& assignment);
     void print_text(const std::string&);
     void forget(const std::string&);
     void help(const std::string&);
 
     // Its run (prompt_run.cpp).
-    Result<std::unique_ptr<Simulation>> carry_over(Script& script) const;
     bool has_something_to_run();
-    bool make_simulation();
+    bool begin_with(const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make);
+    bool begin_run();
+    bool apply(const Change& change);
     void init(const std::string&);
     void run(const std::string& count);
     bool advance(std::int64_t steps);
+    void next(const std::string&);
+    void go_to(const std::string& stage);
+    void paint(const std::string& assignment);
+    void undo(const std::string&);
+    void redo(const std::string&);
+    void tell_done(const Accepted<void>& done);
     void show(const std::string& expression);
+    void print_value(const std::string& expression);
     void list_stages(const std::string&);
-    void save(const std::string& folder);
+    void save(const std::string& path);
     void tell_place();
-    /// True if all stages have taken all their steps.
-    bool is_over() const;
     void tell_over();
     void remark(const std::string& words);
 
     // Errors (prompt_session.cpp).
     void fail(const Failure& failure);
     void print_errors(const Script& script);
+    void print_refusal(const Refusal& refusal);
+
+    /// Null until something was typed.
+    const Script* script() const { return run_ ? &run_->script() : script_.get(); }
 
     SimulationOptions options_;
     Console& console_;
@@ -79,8 +91,8 @@ private:
     std::string pending_;  ///< The first lines of an unfinished block.
     std::string last_warnings_;
     bool has_failed_ = false;
-    std::unique_ptr<Script> script_;          ///< Without errors; null until something was typed.
-    std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
+    std::unique_ptr<Script> script_;  ///< Without errors; before there is a run.
+    std::unique_ptr<LiveRun> run_;    ///< Null until something is run.
 };
 
 }  // namespace cascade

@@ -65,6 +65,41 @@ grep -q $'\x1b' out && fail "escapes in a pipe"
 says out ':load FILE'
 says out 'stage s: turing_spots { iterations: 10 }'
 
+# What is typed again replaces what it was, and the run goes on. An expression has a value.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 60' 'mean(b over domain)' \
+    'stage s: turing_spots { iterations: 80; ka: 1/30 }' ':stages' ':text' '2 + 3'
+says out '4.0044 in all cells'
+says out 's: turing_spots, step 60 of 80'
+says out '5 in all cells'
+[ "$(grep -c '^stage s' out)" = 1 ] || fail "the stage is there twice"
+
+# On from here, back, and forward again; all of it in a session that can be played.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' \
+    'stage t: turing_spots { a: a; b: b; beta: beta; iterations: 50 }' ':run 60' ':paint b = b + 1' \
+    ':undo' ':redo' ':next' ':run 10' ':save done.session' ':save played_once' ':goto s' ':stages' ':undo' \
+    ':stages'
+says out "stage 't', step 0 of 50"
+says out 's: turing_spots, step 0 of 100'
+says out 't: turing_spots, step 10 of 50'
+feed ':load done.session' ':save played_again'
+says out "stage 't', step 10 of 50"
+cmp played_once/t.b.npy played_again/t.b.npy || fail "a session that is played again differs"
+feed_wrong ':load done.session' ':goto nowhere' ':paint nobody = 1' ':paint' ':undo'
+says err "no stage is called 'nowhere'"
+says err "has nothing called 'nobody'"
+says err 'nothing is left to undo'
+"$CASCADE" run done.session 2>err && fail "a session ran as a script"
+says err "'cascade repl FILE' plays it again"
+printf 'cascade session 1\nname x\n' >broken.session
+feed_wrong ':load broken.session'
+says err 'broken.session: line 3 of the session'
+
+# What was painted is in a saved run, too.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 20' ':paint beta = 13' \
+    ':save painted' ':run 30' ':save on'
+feed ':load painted' ':run 30' ':save resumed'
+cmp on/s.b.npy resumed/s.b.npy || fail "a painted parameter is lost"
+
 # What came of a run is said, and that there is nothing left to run.
 feed 'domain { grid: 16, 8 }' 'stage s: gray_scott { u: 1; v: 0; iterations: 50 }' ':run' ':show v' ':run' \
     ':set s.feed=0.05'

@@ -100,6 +100,7 @@ enum class BlockKind : std::uint8_t {
 struct Block {
     BlockKind kind = BlockKind::system;
     Word keyword;  ///< `system`, `stage`, `system_name`, …: the place of the block in messages.
+    Span span;     ///< From the keyword to the `}`; empty for a classic stage.
     Word name;     ///< Of a system or stage; empty otherwise.
     /// Of a stage: its system, empty if it could not be parsed. Of a system: its base, empty if it
     /// has none.
@@ -116,6 +117,7 @@ struct FunctionDefinition {
     Word name;
     std::vector<Word> parameters;
     Expression body;
+    Span span;  ///< From `fn` to the end of the body; empty if it could not be parsed.
     std::string doc;
 };
 

@@ -72,6 +72,7 @@ void ScriptParser::parse_block(std::string_view keyword) {
         parse_header_without_name();
     }
     parse_body(block);
+    block.span = join(block.keyword.span, cursor_.previous().span);
     script_.blocks.push_back(std::move(block));
 }
 

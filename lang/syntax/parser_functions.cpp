@@ -63,6 +63,7 @@ void ScriptParser::parse_function() {
                       "its value is one expression");
         cursor_.skip_statement();
     }
+    function.span = join(keyword.span, cursor_.previous().span);
     add_docs(function.doc, docs_after(keyword.span.begin));
     script_.functions.push_back(std::move(function));
 }

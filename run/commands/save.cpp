@@ -51,6 +51,31 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
 /// Suffix of species as they were at the last test of `until: steady(…)`.
 constexpr std::string_view last_look = ".last";
 
+/// The values of an item of a stage, or of another array of the same shape.
+Result<Field> read_item(const std::filesystem::path& folder, const nlohmann::json& manifest,
+                        const Simulation& simulation, std::uint32_t stage, std::string_view item) {
+    const Program& program = simulation.program();
+    const auto model = simulation.model();
+    const Grid grid =
+        model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
+    const std::string name = array_name(program.stages[stage], item);
+    const auto file = read_saved_file(folder, manifest, name);
+    if (!file) return tl::unexpected(damaged(folder, file.error().message));
+    const auto array = parse_npy(*file, program.domain.precision);
+    if (!array) {
+        return tl::unexpected(
+            damaged(folder, fmt::format("cannot read '{}': {}", name, array.error().message)));
+    }
+    if (!fits(*array, grid)) {
+        return tl::unexpected(damaged(folder, fmt::format("{} has another shape", name)));
+    }
+    Field field = to_field(*array, program.domain.precision);
+    if (model) field = in_rows(field, *model);
+    // Outside of the mask, files hold NaN but runs 0.
+    if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
+    return field;
+}
+
 Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
                                         const nlohmann::json& manifest,
                                         const Simulation& simulation, std::uint32_t stage,
@@ -58,31 +83,16 @@ Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
     std::vector<Field> species;
     const Program& program = simulation.program();
     const System& system = program.system_of(stage);
-    const auto model = simulation.model();
-    const Grid grid =
-        model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
     for (const ItemId item : system.species()) {
-        const std::string name =
-            array_name(program.stages[stage], fmt::format("{}{}", system.item_name(item), suffix));
-        const auto file = read_saved_file(folder, manifest, name);
-        if (!file) return tl::unexpected(damaged(folder, file.error().message));
-        const auto array = parse_npy(*file, program.domain.precision);
-        if (!array) {
+        const std::string name = fmt::format("{}{}", system.item_name(item), suffix);
+        auto field = read_item(folder, manifest, simulation, stage, name);
+        if (!field) return tl::unexpected(field.error());
+        if (first_not_finite(*field)) {
             return tl::unexpected(
-                damaged(folder, fmt::format("cannot read '{}': {}", name, array.error().message)));
+                damaged(folder, fmt::format("{} has a value that is not finite",
+                                            array_name(program.stages[stage], name))));
         }
-        if (!fits(*array, grid)) {
-            return tl::unexpected(damaged(folder, fmt::format("{} has another shape", name)));
-        }
-        Field field = to_field(*array, program.domain.precision);
-        if (model) field = in_rows(field, *model);
-        // Outside of the mask, files hold NaN but runs 0.
-        if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
-        if (first_not_finite(field)) {
-            return tl::unexpected(
-                damaged(folder, fmt::format("{} has a value that is not finite", name)));
-        }
-        species.push_back(std::move(field));
+        species.push_back(std::move(*field));
     }
     return species;
 }
@@ -258,6 +268,14 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             moment.t = time->t;
             moment.memory = {time->state, std::move(watch)};
             simulation.restore(k, std::move(moment));
+            // Most are as the start of the stage gives them; some may have been painted.
+            const System& system = script.program->system_of(k);
+            for (const ItemId item : system.items()) {
+                if (system.is_species(item) || !is_saved(*script.program, k, item)) continue;
+                auto field = read_item(folder, *json, simulation, k, system.item_name(item));
+                if (!field) return tl::unexpected(field.error());
+                simulation.set_field(k, item, std::move(*field));
+            }
         }
     } catch (const nlohmann::json::exception&) {
         return tl::unexpected(damaged(folder, "run.json is incomplete or malformed"));

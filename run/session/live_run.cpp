@@ -65,6 +65,16 @@ Script with_text(const Script& old, const std::string& text) {
 
 }  // namespace
 
+Script with_number(const Script& script, const SetNumber& number) {
+    Overrides overrides = script.overrides;
+    // The last setting of a name wins, so earlier ones need not be kept.
+    std::erase_if(overrides.sets, [&](const std::string& set) {
+        return name_of_setting(set) == name_of_setting(number.name);
+    });
+    overrides.sets.push_back(fmt::format("{}={}", number.name, number.expression));
+    return load_script(script.name, script.text, script.folder, std::move(overrides));
+}
+
 std::string Refusal::messages(bool colour) const {
     RenderStyle style;
     style.colour = colour;
@@ -115,8 +125,9 @@ Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuat
     return {};
 }
 
-Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const SimulationOptions& options,
-                                                  RunControl& control) {
+/// Without a script yet.
+Accepted<std::unique_ptr<LiveRun>> LiveRun::made(const Script& script,
+                                                 const SimulationOptions& options) {
     std::unique_ptr<LiveRun> run(new LiveRun);
     run->options_ = options;
     if (!run->options_.stepper) {
@@ -127,8 +138,30 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const Simulatio
     run->log_.name = script.name;
     run->log_.text = script.text;
     run->log_.overrides = script.overrides;
-    if (auto started = run->start_over(std::move(script), control); !started) {
+    return run;
+}
+
+Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const SimulationOptions& options,
+                                                  RunControl& control) {
+    auto run = made(script, options);
+    if (!run) return run;
+    if (auto started = (*run)->start_over(std::move(script), control); !started) {
         return tl::unexpected(std::move(started.error()));
+    }
+    return run;
+}
+
+Accepted<std::unique_ptr<LiveRun>> LiveRun::resume(
+    Script script, const SimulationOptions& options, RunControl& control,
+    const std::function<Result<void>(const Script&, Simulation&)>& restore) {
+    auto run = begin(std::move(script), options, control);
+    if (!run) return run;
+    LiveRun& live = **run;
+    if (auto restored = restore(*live.script_, *live.simulation_); !restored) {
+        return refuse(restored.error());
+    }
+    for (std::uint32_t k = 0; k < live.painted_.size(); ++k) {
+        if (live.simulation_->state(k).started) live.stage_ = k;
     }
     return run;
 }
@@ -225,15 +258,7 @@ Accepted<void> LiveRun::make(const SetText& change, const KeptState& values, Run
 
 Accepted<void> LiveRun::make(const SetNumber& change, const KeptState& values,
                              RunControl& control) {
-    Overrides overrides = script_->overrides;
-    // The last setting of a name wins, so earlier ones need not be kept.
-    std::erase_if(overrides.sets, [&](const std::string& set) {
-        return name_of_setting(set) == name_of_setting(change.name);
-    });
-    overrides.sets.push_back(fmt::format("{}={}", change.name, change.expression));
-    Script script =
-        load_script(script_->name, script_->text, script_->folder, std::move(overrides));
-    return adopt(std::move(script), values, Continuation::changed, control);
+    return adopt(with_number(*script_, change), values, Continuation::changed, control);
 }
 
 Accepted<void> LiveRun::make(const Paint& change) {

@@ -33,6 +33,9 @@ struct Refusal {
 template <typename T>
 using Accepted = tl::expected<T, Refusal>;
 
+/// A script with another value of a parameter or setting. It has no program if that is wrong.
+Script with_number(const Script& script, const SetNumber& number);
+
 /// What a caller wants to know while steps are taken. Functions may be empty.
 struct Watching {
     std::function<void()> observe;  ///< At multiples of `every`, as Simulation::advance_stage().
@@ -48,6 +51,10 @@ public:
     /// Starts the first stage of a checked script. Refused if there is none.
     static Accepted<std::unique_ptr<LiveRun>> begin(Script script, const SimulationOptions& options,
                                                     RunControl& control);
+    /// Goes on from values that `restore` gives a simulation of the script, such as a saved run.
+    static Accepted<std::unique_ptr<LiveRun>> resume(
+        Script script, const SimulationOptions& options, RunControl& control,
+        const std::function<Result<void>(const Script&, Simulation&)>& restore);
     /// Plays a session again up to its end. Files of its script are looked up in `folder`.
     static Accepted<std::unique_ptr<LiveRun>> play(const SessionLog& log,
                                                    const std::filesystem::path& folder,
@@ -100,6 +107,8 @@ private:
     };
 
     LiveRun() = default;
+    static Accepted<std::unique_ptr<LiveRun>> made(const Script& script,
+                                                   const SimulationOptions& options);
     const StageState& state() const { return simulation_->state(stage_); }
     Accepted<std::unique_ptr<Simulation>> simulate(Script& script, RunControl& control) const;
     Accepted<void> start_over(Script script, RunControl& control);

@@ -1,0 +1,91 @@
+// Both texts are parsed, and pieces of the one put into the other from its end to its beginning.
+#include "lang/syntax/replace_blocks.h"
+
+#include "lang/syntax/parse.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+/// A block or function in a text.
+struct Piece {
+    int kind = 0;
+    std::string_view name;
+    Span span;
+};
+
+constexpr int function_kind = -1;
+
+/// A text and its blocks and functions in their order.
+struct ParsedText {
+    explicit ParsedText(const std::string& text) {
+        const SourceId source = sources.add("", text);
+        tree = parse(source, sources, errors);
+        for (const ast::Block& block : tree.blocks) {
+            const bool is_classic = block.kind == ast::BlockKind::classic_stage;
+            is_of_blocks = is_of_blocks && !is_classic && !block.is_damaged;
+            if (!is_classic) {
+                pieces.push_back({static_cast<int>(block.kind), block.name.text, block.span});
+            }
+        }
+        for (const ast::FunctionDefinition& function : tree.functions) {
+            pieces.push_back({function_kind, function.name.text, function.span});
+        }
+        std::sort(pieces.begin(), pieces.end(),
+                  [](const Piece& a, const Piece& b) { return a.span.begin < b.span.begin; });
+        is_of_blocks = is_of_blocks && !errors.has_errors() && tree.uses.empty();
+    }
+
+    Sources sources;
+    Diagnostics errors;
+    ast::Script tree;
+    std::vector<Piece> pieces;
+    bool is_of_blocks = true;  ///< And of nothing else?
+};
+
+}  // namespace
+
+std::string with_blocks(const std::string& script, const std::string& added) {
+    const ParsedText old(script), more(added);
+    if (!more.is_of_blocks) return script + added;
+    struct Replacement {
+        Span span;
+        std::string text;
+    };
+    std::vector<Replacement> replacements;
+    std::string at_end;
+    std::size_t from = 0;
+    for (const Piece& piece : more.pieces) {
+        const auto same =
+            std::find_if(old.pieces.begin(), old.pieces.end(), [&](const Piece& each) {
+                return each.kind == piece.kind && each.name == piece.name;
+            });
+        if (same != old.pieces.end()) {
+            replacements.push_back({same->span, std::string(more.sources.text(piece.span))});
+        } else {
+            // With the comments before it.
+            at_end += added.substr(from, piece.span.end - from);
+        }
+        from = piece.span.end;
+        while (from < added.size() && same != old.pieces.end() &&
+               std::isspace(static_cast<unsigned char>(added[from])) != 0) {
+            ++from;
+        }
+    }
+    at_end += added.substr(from);
+    std::sort(replacements.begin(), replacements.end(),
+              [](const Replacement& a, const Replacement& b) {
+                  return a.span.begin > b.span.begin;
+              });
+    std::string changed = script;
+    for (const Replacement& each : replacements) {
+        changed.replace(each.span.begin, each.span.end - each.span.begin, each.text);
+    }
+    return changed + at_end;
+}
+
+}  // namespace cascade
