@@ -72,7 +72,7 @@ struct Verb {
 };
 
 PageRequest change(Change made, FieldReader& fields) {
-    return Command(MakeChange{std::move(made), fields.flag("joins_last")});
+    return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
 constexpr std::array<Verb, 14> verbs{{
@@ -90,20 +90,22 @@ constexpr std::array<Verb, 14> verbs{{
     {"next_stage", [](FieldReader& fields) { return change(NextStage{}, fields); }},
     {"go_to_stage",
      [](FieldReader& fields) -> PageRequest {
-         return Command(
+         return SessionCommand(
              GoToStage{static_cast<std::uint32_t>(fields.whole("stage", 1, most_stages) - 1)});
      }},
-    {"restart", [](FieldReader&) -> PageRequest { return Command(GoToStage{0}); }},
-    {"undo", [](FieldReader&) -> PageRequest { return Command(Undo{}); }},
-    {"redo", [](FieldReader&) -> PageRequest { return Command(Redo{}); }},
-    {"run", [](FieldReader&) -> PageRequest { return Command(GoOn{}); }},
-    {"pause", [](FieldReader&) -> PageRequest { return Command(Pause{}); }},
+    {"restart", [](FieldReader&) -> PageRequest { return SessionCommand(GoToStage{0}); }},
+    {"undo", [](FieldReader&) -> PageRequest { return SessionCommand(Undo{}); }},
+    {"redo", [](FieldReader&) -> PageRequest { return SessionCommand(Redo{}); }},
+    {"run", [](FieldReader&) -> PageRequest { return SessionCommand(GoOn{}); }},
+    {"pause", [](FieldReader&) -> PageRequest { return SessionCommand(Pause{}); }},
     {"step",
      [](FieldReader& fields) -> PageRequest {
-         return Command(TakeSteps{fields.whole("count", 1, most_steps)});
+         return SessionCommand(TakeSteps{fields.whole("count", 1, most_steps)});
      }},
     {"show",
-     [](FieldReader& fields) -> PageRequest { return Command(Show{fields.text("expression")}); }},
+     [](FieldReader& fields) -> PageRequest {
+         return SessionCommand(Show{fields.text("expression")});
+     }},
     {"next_snapshot", [](FieldReader&) -> PageRequest { return NextSnapshot{}; }},
     {"log", [](FieldReader&) -> PageRequest { return AskForLog{}; }},
 }};

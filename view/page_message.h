@@ -16,7 +16,7 @@ struct NextSnapshot {};
 /// The page asks for the log of the session.
 struct AskForLog {};
 
-using PageRequest = std::variant<Command, NextSnapshot, AskForLog>;
+using PageRequest = std::variant<SessionCommand, NextSnapshot, AskForLog>;
 
 struct PageMessage {
     std::uint64_t id = 0;  ///< Chosen by the page; the answer carries it. 0 if there was none.

@@ -110,7 +110,7 @@ void PageServer::State::obey(PageId page, std::string_view text) {
         return session->ask(
             [this, page, id](LiveRun& run) { server->send_text(page, print_log(id, run.log())); });
     }
-    auto command = std::get<Command>(std::move(message->request));
+    auto command = std::get<SessionCommand>(std::move(message->request));
     std::string script;  // The text that messages are about.
     if (const auto* made = std::get_if<MakeChange>(&command)) {
         if (const auto* set = std::get_if<SetText>(&made->change)) script = set->text;

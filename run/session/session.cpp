@@ -37,7 +37,7 @@ double seconds_since(Clock::time_point moment) { return Seconds(Clock::now() - m
 
 struct Session::Implementation {
     struct Task {
-        std::variant<Command, std::function<void(LiveRun&)>> what;
+        std::variant<SessionCommand, std::function<void(LiveRun&)>> what;
         std::function<void(const Accepted<void>&)> done;
     };
 
@@ -74,7 +74,7 @@ struct Session::Implementation {
 
     void work();
     void obey(Task task);
-    Accepted<void> carry_out(const Command& command);
+    Accepted<void> carry_out(const SessionCommand& command);
     void take_steps();
     std::int64_t steps_of_turn() const;
     void remark(const std::string& words);
@@ -122,14 +122,14 @@ void Session::Implementation::obey(Task task) {
     // Not while steps are taken: a stage that looks for what to warn of keeps nothing between
     // turns.
     control.warn = [this](const std::string& words) { remark(words); };
-    const Accepted<void> result = carry_out(std::get<Command>(task.what));
+    const Accepted<void> result = carry_out(std::get<SessionCommand>(task.what));
     control.warn = {};
     if (&run->script() != script) ++script_number;
     if (result) failure.clear();
     if (task.done) task.done(result);
 }
 
-Accepted<void> Session::Implementation::carry_out(const Command& command) {
+Accepted<void> Session::Implementation::carry_out(const SessionCommand& command) {
     if (const auto* make = std::get_if<MakeChange>(&command)) {
         return run->apply(make->change, control, make->joins_last);
     }
@@ -286,7 +286,7 @@ Session::~Session() {
     self_->thread.join();
 }
 
-void Session::post(Command command, std::function<void(const Accepted<void>&)> done) {
+void Session::post(SessionCommand command, std::function<void(const Accepted<void>&)> done) {
     {
         const std::lock_guard lock(self_->mutex);
         self_->tasks.push_back({std::move(command), std::move(done)});

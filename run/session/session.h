@@ -28,7 +28,8 @@ struct TakeSteps { std::int64_t count = 1; };    ///< And pauses then.
 struct Show { std::string expression; };
 // clang-format on
 
-using Command = std::variant<MakeChange, GoToStage, Undo, Redo, GoOn, Pause, TakeSteps, Show>;
+using SessionCommand =
+    std::variant<MakeChange, GoToStage, Undo, Redo, GoOn, Pause, TakeSteps, Show>;
 
 /// How far a stage has come.
 struct StageProgress {
@@ -70,7 +71,7 @@ public:
     Session& operator=(const Session&) = delete;
 
     /// Queues a command. `done` is called in the session's thread with its result; it may be empty.
-    void post(Command command, std::function<void(const Accepted<void>&)> done = {});
+    void post(SessionCommand command, std::function<void(const Accepted<void>&)> done = {});
 
     /// Calls a function in the session's thread between two steps: to read values, to save, to get
     /// the log. It must not change the run.

@@ -369,6 +369,39 @@ TEST(SessionLogTest, WhatIsNoLogIsRefusedWithItsLine) {
     }
 }
 
+/// A log may come from a stranger.
+TEST(SessionLogTest, NoTextIsTooStrange) {
+    SessionLog log;
+    log.text = "stage s: turing_spots { }\n";
+    log.changes.push_back(std::make_shared<const LoggedChange>(
+        LoggedChange{{0, 5}, SetText{"stage s: gray_scott { }"}}));
+    log.changes.push_back(
+        std::make_shared<const LoggedChange>(LoggedChange{{0, 9}, Paint{"u", "x"}}));
+    log.end = {0, 12};
+    const std::string good = print_session_log(log);
+    RandomStream random(new_seed());
+    for (int turn = 0; turn < 5000; ++turn) {
+        std::string text = good;
+        for (std::uint32_t k = 0; k <= random.below(4); ++k) {
+            const std::size_t place = random.below(text.size());
+            if (random.chance(40)) {
+                text[place] = static_cast<char>(random.below(256));
+            } else if (random.chance(50)) {
+                text.erase(place, random.below(30));
+            } else {
+                text.insert(place, good.substr(random.below(good.size()), random.below(30)));
+            }
+            if (text.empty()) break;
+        }
+        const auto read = parse_session_log(text);
+        if (read) {
+            EXPECT_TRUE(parse_session_log(print_session_log(*read))) << text;
+        } else {
+            EXPECT_THAT(read.error().message, HasSubstr("of the session")) << text;
+        }
+    }
+}
+
 TEST_F(LiveRunTest, ALogThatDoesNotFitItsScriptIsRefused) {
     const auto run = begun(two_stages);
     advance(*run, 70);

@@ -38,7 +38,7 @@ std::unique_ptr<Session> begun(const std::string& text) {
 }
 
 /// Waits for the end of a command. Returns its messages.
-std::string done(Session& session, Command command) {
+std::string done(Session& session, SessionCommand command) {
     std::promise<std::string> messages;
     session.post(std::move(command), [&](const Accepted<void>& result) {
         messages.set_value(result ? "" : result.error().messages(false));

@@ -11,7 +11,7 @@ Wanted parse_command(std::string_view text) {
     const auto message = parse_page_message(text);
     EXPECT_TRUE(message.has_value()) << text << ": " << message.error().message;
     if (!message) return {};
-    const auto* const command = std::get_if<Command>(&message->request);
+    const auto* const command = std::get_if<SessionCommand>(&message->request);
     const auto* const wanted = command != nullptr ? std::get_if<Wanted>(command) : nullptr;
     EXPECT_TRUE(wanted != nullptr) << text;
     return wanted != nullptr ? *wanted : Wanted{};
