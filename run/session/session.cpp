@@ -25,7 +25,7 @@ constexpr double turn_seconds = 0.015;
 constexpr std::int64_t least_steps = 32;
 constexpr double longest_turn_seconds = 0.2;
 /// Steps in which nothing happens take no time.
-constexpr double most_steps = 1e9;
+constexpr double most_steps_of_turn = 1e9;
 /// Snapshots are at least this far apart, and take at most this part of the time.
 constexpr double snapshot_seconds = 1.0 / 60;
 constexpr double part_of_snapshots = 0.02;
@@ -159,7 +159,7 @@ Accepted<void> Session::Implementation::carry_out(const SessionCommand& command)
 }
 
 std::int64_t Session::Implementation::steps_of_turn() const {
-    const double usual = std::min(turn_seconds * steps_per_second, most_steps);
+    const double usual = std::min(turn_seconds * steps_per_second, most_steps_of_turn);
     const double longest = longest_turn_seconds * steps_per_second;
     const double least = std::min(static_cast<double>(least_steps), longest);
     const auto steps = static_cast<std::int64_t>(std::max({usual, least, 1.0}));
