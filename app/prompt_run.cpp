@@ -105,31 +105,26 @@ bool PromptSession::apply(const Change& change) {
     return true;
 }
 
-void PromptSession::tell_done(const Accepted<void>& done) {
+/// Takes the run to another moment.
+void PromptSession::move(const std::function<Accepted<void>(RunControl&)>& go) {
+    WatchedRun watched(console_);
+    const auto done = go(watched.control);
+    watched.display.clear();
     if (!done) return print_refusal(done.error());
     run_->script().diagnostics = {};
     tell_place();
 }
 
 void PromptSession::init(const std::string&) {
-    if (!run_) {
-        if (begin_run()) tell_place();
-        return;
-    }
-    WatchedRun watched(console_);
-    const auto done = run_->go_to(0, watched.control);
-    watched.display.clear();
-    tell_done(done);
+    if (run_) return move([&](RunControl& control) { return run_->go_to(0, control); });
+    if (begin_run()) tell_place();
 }
 
 void PromptSession::go_to(const std::string& name) {
     if (!begin_run()) return;
     const auto stage = find_stage(*run_->script().program, name);
     if (!stage) return fail(stage.error());
-    WatchedRun watched(console_);
-    const auto done = run_->go_to(*stage, watched.control);
-    watched.display.clear();
-    tell_done(done);
+    move([&](RunControl& control) { return run_->go_to(*stage, control); });
 }
 
 void PromptSession::next(const std::string&) {
@@ -137,19 +132,11 @@ void PromptSession::next(const std::string&) {
 }
 
 void PromptSession::undo(const std::string&) {
-    if (!begin_run()) return;
-    WatchedRun watched(console_);
-    const auto done = run_->undo(watched.control);
-    watched.display.clear();
-    tell_done(done);
+    if (begin_run()) move([&](RunControl& control) { return run_->undo(control); });
 }
 
 void PromptSession::redo(const std::string&) {
-    if (!begin_run()) return;
-    WatchedRun watched(console_);
-    const auto done = run_->redo(watched.control);
-    watched.display.clear();
-    tell_done(done);
+    if (begin_run()) move([&](RunControl& control) { return run_->redo(control); });
 }
 
 void PromptSession::paint(const std::string& assignment) {
@@ -196,16 +183,21 @@ void PromptSession::remark(const std::string& words) {
     if (!words.empty()) console_.warn(words);
 }
 
-void PromptSession::show(const std::string& expression) {
-    if (!begin_run()) return;
+/// Of the run, which begins if there is none. Nothing if that or the expression is wrong.
+std::optional<Painter> PromptSession::painter_of(const std::string& expression) {
+    if (!begin_run()) return std::nullopt;
     PictureRequest request;
     request.show = expression;
     auto painter = Painter::create(run_->script(), request);
-    if (!painter) {
-        print_errors(run_->script());
-        run_->script().diagnostics = {};
-        return;
-    }
+    if (painter) return std::move(*painter);
+    print_errors(run_->script());
+    run_->script().diagnostics = {};
+    return std::nullopt;
+}
+
+void PromptSession::show(const std::string& expression) {
+    auto painter = painter_of(expression);
+    if (!painter) return;
     const Canvas canvas = painter->canvas(run_->simulation());
     const Image image = painter->image(canvas);
     const int columns = console_.out().columns();
@@ -219,15 +211,8 @@ void PromptSession::show(const std::string& expression) {
 
 /// The answer to an expression that is typed.
 void PromptSession::print_value(const std::string& expression) {
-    if (!begin_run()) return;
-    PictureRequest request;
-    request.show = expression;
-    auto painter = Painter::create(run_->script(), request);
-    if (!painter) {
-        print_errors(run_->script());
-        run_->script().diagnostics = {};
-        return;
-    }
+    auto painter = painter_of(expression);
+    if (!painter) return;
     const Canvas values = painter->values(run_->simulation());
     for (const Field& field : values.fields) console_.print(in_words(field));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/console.h"
+#include "run/pictures/painter.h"
 #include "run/script/script.h"
 #include "run/session/live_run.h"
 
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -60,6 +62,7 @@ private:
     bool begin_with(const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make);
     bool begin_run();
     bool apply(const Change& change);
+    void move(const std::function<Accepted<void>(RunControl&)>& go);
     void init(const std::string&);
     void run(const std::string& count);
     bool advance(std::int64_t steps);
@@ -68,7 +71,7 @@ private:
     void paint(const std::string& assignment);
     void undo(const std::string&);
     void redo(const std::string&);
-    void tell_done(const Accepted<void>& done);
+    std::optional<Painter> painter_of(const std::string& expression);
     void show(const std::string& expression);
     void print_value(const std::string& expression);
     void list_stages(const std::string&);
