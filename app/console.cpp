@@ -16,7 +16,7 @@ namespace cascade {
 
 namespace {
 
-constexpr int usual_columns = 80;
+constexpr int usual_columns = 80, usual_rows = 24;
 
 bool is_set(const char* name) {
     const char* const value = std::getenv(name);
@@ -41,6 +41,14 @@ int Stream::columns() const {
         return size.ws_col;
     }
     return usual_columns;
+}
+
+int Stream::rows() const {
+    winsize size = {};
+    if (is_terminal && ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_row > 0) {
+        return size.ws_row;
+    }
+    return usual_rows;
 }
 
 Result<void> Stream::write(std::string_view text) const {

@@ -17,6 +17,8 @@ struct Stream {
     static Stream of(int descriptor);
     /// Width of the terminal in columns; 80 if there is none.
     int columns() const;
+    /// Its height in lines; 24 if there is none.
+    int rows() const;
     /// Writes all of it. The message of the failure is empty if the reader has closed the pipe.
     Result<void> write(std::string_view text) const;
 };

@@ -2,6 +2,7 @@
 #include "app/prompt_session.h"
 
 #include "app/commands.h"
+#include "app/growing_picture.h"
 #include "app/interrupt.h"
 #include "app/option_values.h"
 #include "app/progress_display.h"
@@ -18,6 +19,9 @@
 namespace cascade {
 
 namespace {
+
+/// Steps after which a growing picture may be drawn again: whole passes through memory.
+constexpr std::int64_t steps_between_looks = 64;
 
 /// A run with a progress display that Ctrl-C stops.
 struct WatchedRun {
@@ -164,13 +168,24 @@ void PromptSession::run(const std::string& count) {
 /// Takes `steps` steps, from stage to stage. False if a run failed.
 bool PromptSession::advance(std::int64_t steps) {
     WatchedRun watched(console_);
+    GrowingPicture picture(console_, *run_);
     Watching watching;
     watching.stage_ended = [&](std::uint32_t stage) {
         watched.display.clear();
+        picture.erase();
         remark(run_->simulation().remark_on(stage));
     };
+    if (show_after_run_ && console_.out().colour) {
+        watching.every = steps_between_looks;
+        watching.observe = [&] {
+            if (!picture.is_due()) return;
+            watched.display.clear();
+            picture.draw();
+        };
+    }
     const auto end = run_->advance(steps, watched.control, watching);
     watched.display.clear();
+    picture.erase();
     if (!end) fail(end.error());
     return end.has_value();
 }
@@ -200,9 +215,7 @@ void PromptSession::show(const std::string& expression) {
     if (!painter) return;
     const Canvas canvas = painter->canvas(run_->simulation());
     const Image image = painter->image(canvas);
-    const int columns = console_.out().columns();
-    console_.draw(console_.out().colour ? half_blocks(image, columns)
-                                        : plain_characters(image, columns));
+    console_.draw(in_characters(image, console_.out()));
     if (!canvas.is_colour()) console_.print(in_words(canvas.fields[0]));
     if (painter->fell_back()) {
         console_.warn("it names a stage that has not run; this is the default picture");

@@ -155,7 +155,9 @@ expect(b"3> ")
 type_in(b":sta\t\r")
 expect(b"step 0 of 100000000")
 type_in(b":run\r")
-expect("▕".encode())                            # a bar
+expect("▕".encode())                            # a bar,
+expect("▀".encode())                            # and the pattern while it grows,
+expect(b"\x1b[4A\x1b[J")                        # again and again in its place.
 type_in(b"\x03")                                # Ctrl-C stops the run,
 expect("▀".encode())                            # which is shown,
 type_in(b":stages\r")                           # and the prompt goes on.

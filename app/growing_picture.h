@@ -1,0 +1,43 @@
+// Pictures at the prompt, and one that grows while steps are taken.
+#pragma once
+
+#include "app/console.h"
+#include "picture/image.h"
+#include "run/pictures/painter.h"
+#include "run/session/live_run.h"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace cascade {
+
+/// A picture as text: coloured in a terminal with colours, where it is never higher than the
+/// window, else plain characters.
+std::string in_characters(const Image& image, const Stream& out);
+
+/// The picture of a run, drawn again and again in one place of a terminal with colours.
+class GrowingPicture {
+public:
+    /// Both must outlive it, and the script of the run must not change.
+    GrowingPicture(Console& console, LiveRun& run);
+
+    /// Has enough time passed since it was drawn?
+    bool is_due() const;
+    /// Draws it where it was drawn before. The cursor must be at the start of the line below.
+    void draw();
+    /// Leaves the cursor where the picture began.
+    void erase();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    Console& console_;
+    LiveRun& run_;
+    std::optional<Painter> painter_;
+    std::int64_t lines_ = 0;  ///< Of the picture that is there now.
+    Clock::time_point next_;
+};
+
+}  // namespace cascade
