@@ -250,9 +250,20 @@ void PromptSession::save(const std::string& path) {
         }
         return console_.note(fmt::format("wrote {}", path));
     }
+    if (std::filesystem::path(path).extension() == ".cascade") return save_text(path);
     const auto written = save_run(path, run_->script(), run_->simulation());
     if (!written) return fail(written.error());
     console_.note(fmt::format("wrote {} files in {}", written->size(), path));
+}
+
+/// Fails where the text would grow another pattern than the run.
+void PromptSession::save_text(const std::string& path) {
+    if (!run_->script().overrides.sets.empty()) {
+        return fail({"parameters that ':set' changed are not in the text of the script",
+                     "type them into its stages, or write 'NAME.session', which has them"});
+    }
+    if (auto done = write_file(path, run_->script().text); !done) return fail(done.error());
+    console_.note(fmt::format("wrote {}", path));
 }
 
 void PromptSession::tell_place() {

@@ -1,10 +1,10 @@
 // The table of commands, and those that change the script; app/prompt_run.cpp has those of the run.
 #include "app/prompt_session.h"
 
+#include "app/prompt_names.h"
 #include "app/prompt_text.h"
 #include "core/file.h"
 #include "core/near_name.h"
-#include "lang/check/check.h"
 #include "lang/syntax/parse.h"
 #include "lang/syntax/replace_blocks.h"
 #include "run/commands/run.h"
@@ -38,7 +38,9 @@ std::span<const PromptSession::Command> PromptSession::commands() {
         {":init", "", "back to the starting values", &PromptSession::init},
         {":stages", "", "the stages, and how far they are", &PromptSession::list_stages},
         {":text", "", "the script so far", &PromptSession::print_text},
-        {":save", "PATH", "FOLDER: every field; NAME.session: all that was done",
+        {":save", "PATH",
+         "NAME.cascade: the script; NAME.session: all that was done;\n"
+         "                       FOLDER: every field",
          &PromptSession::save},
         {":load", "FILE", "a script, a picture, a session, or a folder that was saved",
          &PromptSession::load},
@@ -69,7 +71,7 @@ std::vector<std::string> PromptSession::names(const std::string& line) const {
         for (const Command& command : commands()) names.emplace_back(command.name);
         return names;
     }
-    return known_names(script() ? *script()->program : Program());
+    return names_at_end(line, script() ? *script()->program : Program());
 }
 
 bool PromptSession::take(const std::string& line) {

@@ -76,6 +76,7 @@ private:
     void print_value(const std::string& expression);
     void list_stages(const std::string&);
     void save(const std::string& path);
+    void save_text(const std::string& path);
     void tell_place();
     void tell_over();
     void remark(const std::string& words);

@@ -77,9 +77,14 @@ bool says_nothing(std::string_view line) {
     return trim(line.substr(0, comment_begin(line))).empty();
 }
 
-Completion complete_word(std::string_view line, std::vector<std::string> names) {
+std::string_view last_word(std::string_view line) {
     std::size_t begin = line.size();
     while (begin > 0 && is_word_character(line[begin - 1])) --begin;
+    return line.substr(begin);
+}
+
+Completion complete_word(std::string_view line, std::vector<std::string> names) {
+    std::size_t begin = line.size() - last_word(line).size();
     if (begin == 1 && line[0] == ':') begin = 0;
     const std::string_view word = line.substr(begin);
 

@@ -94,6 +94,13 @@ printf 'cascade session 1\nname x\n' >broken.session
 feed_wrong ':load broken.session'
 says err 'broken.session: line 3 of the session'
 
+# The script itself can be saved, unless it is not all that the run is made of.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':save mine.cascade'
+grep -q '^stage s: turing_spots { iterations: 10 }$' mine.cascade || fail "the script is not saved"
+feed_wrong ':load mine.cascade' ':set ka=1/30' ':save other.cascade'
+says err "that ':set' changed are not in the text"
+[ -e other.cascade ] && fail "another script was saved than was run"
+
 # What was painted is in a saved run, too.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run 20' ':paint beta = 13' \
     ':save painted' ':run 30' ':save on'
