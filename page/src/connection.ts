@@ -1,7 +1,7 @@
 // The WebSocket to the engine: requests with answers, and the newest snapshot.
 
 export interface Message { is_error: boolean; message: string; hint: string; from?: [number, number]; to?: [number, number]; notes?: string[] }
-export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[] }
+export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[]; text?: string }
 export interface Control { name: string; label: string; stage: number; doc: string; low: number; high: number; step?: number; value: number }
 export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[] }
 export interface Palette { name: string; description: string; stops: [number, number, number][] }
@@ -85,8 +85,8 @@ export class Connection {
         const message = JSON.parse(data);
         if (message.kind === "palettes") this.listener.palettes(message.palettes);
         else if (message.kind === "script") this.listener.script(message);
-        else if (message.kind === "answer") {
-            this.waiting.get(message.id)?.(message);
+        else {
+            this.waiting.get(message.id)?.({ is_done: true, messages: [], ...message });
             this.waiting.delete(message.id);
         }
     }

@@ -13,6 +13,7 @@ const brush_choice = element<HTMLSelectElement>("brush");
 let palettes: Palette[] = [];
 let is_text_open = false;  ///< The editor holds a text that the session does not run.
 let is_drawing = false;
+let was_opened = false;
 let noticed_until = 0;
 
 const connection = new Connection({
@@ -28,6 +29,9 @@ const connection = new Connection({
     script: show_script,
     snapshot(snapshot) {
         pattern.snapshot = snapshot;
+        // A session that nothing was done in yet starts when its page opens.
+        if (!was_opened && snapshot.stage === 1 && snapshot.steps === 0 && !snapshot.can_undo) void ask("run");
+        was_opened = true;
         if (performance.now() > noticed_until) notice("");
         if (is_drawing) return;
         is_drawing = true;
@@ -178,6 +182,7 @@ function show_state(snapshot: Snapshot) {
     button("run").ariaLabel = snapshot.is_going_on ? "Pause" : "Run";
     const is_over = stages.every((stage) => stage.has_ended);
     button("run").disabled = button("step").disabled = is_over && !snapshot.is_going_on;
+    button("next").disabled = snapshot.stage === stages.length;
     button("undo").disabled = !snapshot.can_undo;
     button("redo").disabled = !snapshot.can_redo;
     if (snapshot.failure) notice(snapshot.failure, true);
@@ -195,6 +200,15 @@ const actions: Record<string, () => void> = {
     restart: () => void ask("restart"),
     undo: () => go_back("undo"),
     redo: () => go_back("redo"),
+    next: () => void ask("next_stage"),
+    log: async () => {
+        const { text } = await ask("log");
+        if (text === undefined) return;
+        const href = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
+        const download = `${element("name").textContent!.replace(/\.cascade$/, "")}.session`;
+        Object.assign(document.createElement("a"), { href, download }).click();
+        setTimeout(() => URL.revokeObjectURL(href), 10000);
+    },
 };
 for (const [id, act] of Object.entries(actions)) button(id).addEventListener("click", act);
 
@@ -202,7 +216,7 @@ document.addEventListener("keydown", (event) => {
     const at = event.target as HTMLElement;
     if (at.id === "editor" || at.matches("select, #amount, #show")) return;
     const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
-    const act = { " ": "run", ".": "step", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
+    const act = { " ": "run", ".": "step", "n": "next", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
     if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
     event.preventDefault();
     actions[act]();

@@ -1,7 +1,7 @@
 // Steers the page of `cascade view spots.cascade` as a user does. Arguments: the browser and the program;
 // spots.cascade, colours.cascade and what `cascade run` draws of them are in the current folder. Screenshots are left there.
-import { spawn } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { spawn, spawnSync } from "node:child_process";
+import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Browser } from "./browser.mjs";
 
@@ -79,6 +79,18 @@ async function steer() {
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     expect(!(await browser.evaluate("location.href")).includes("token"), "the token stays in the address");
     expect(await browser.evaluate(`document.getElementById("name").textContent`) === "spots.cascade", "the name is missing");
+    await choose_leopard();
+
+    // Growth starts with the page, but not again with its reload.
+    await browser.until(is_over);
+    await expect_the_picture("the canvas that nobody has touched");
+    await click("restart");
+    await until_steps("0");
+    await browser.evaluate("window.is_old = true");
+    await browser.call("Page.reload");
+    await browser.until(`!window.is_old && document.getElementById("place")?.textContent.startsWith("step 0")`);
+    await new Promise((resolve) => setTimeout(resolve, 200));
+    expect(await steps() === 0, "the reload has started what was not growing");
     await choose_leopard();
 
     await click("step");
@@ -161,6 +173,27 @@ async function steer() {
     await expect_the_picture("the canvas of colours", "colours");
     await type_script(text);
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+
+    // The button pauses what grows. The next stage starts here, and the log says so.
+    await type_script(text.replace("iterations: 1500", "iterations: 100000000"));
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+    await browser.until(`document.getElementById("run").ariaLabel === "Pause" && !document.getElementById("place").textContent.startsWith("step 0")`);
+    await click("run");
+    await browser.until(`document.getElementById("run").ariaLabel === "Run"`);
+    const reached = await steps();
+    await browser.press("Escape");
+    await browser.press("n");
+    await browser.until(`document.querySelectorAll("#stages button")[1].hasAttribute("aria-current") && document.getElementById("next").disabled`);
+    rmSync("spots.session", { force: true });
+    await browser.call("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: process.cwd() });
+    await click("log");
+    for (let k = 0; k < 200 && !existsSync("spots.session"); ++k) await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 50))");
+    expect(readFileSync("spots.session", "utf8").includes(`at 1 ${reached}\nnext\n`), "the log does not name the next stage");
+    const { status, stderr } = spawnSync(program, ["repl", "spots.session"], { input: "", encoding: "utf8" });
+    expect(status === 0 && stderr === "", `the log cannot be played: ${stderr}`);
+    await type_script(text);
 
     // The same without WebGL, after a reload, for which the tab keeps the token.
     await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });
