@@ -2,6 +2,7 @@
 import { Answer, Connection, Control, Message, Palette, Script, Snapshot } from "./connection";
 import { Editor } from "./editor";
 import { Pattern } from "./pattern";
+import { PlaneView } from "./plane_view";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
@@ -201,6 +202,9 @@ const actions: Record<string, () => void> = {
     undo: () => go_back("undo"),
     redo: () => go_back("redo"),
     next: () => void ask("next_stage"),
+    fit: () => view.fit(),
+    nearer: () => view.scale(1.5),
+    farther: () => view.scale(1 / 1.5),
     log: async () => {
         const { text } = await ask("log");
         if (text === undefined) return;
@@ -210,13 +214,13 @@ const actions: Record<string, () => void> = {
         setTimeout(() => URL.revokeObjectURL(href), 10000);
     },
 };
-for (const [id, act] of Object.entries(actions)) button(id).addEventListener("click", act);
+for (const [id, act] of Object.entries(actions)) button(id)?.addEventListener("click", act);
 
 document.addEventListener("keydown", (event) => {
     const at = event.target as HTMLElement;
     if (at.id === "editor" || at.matches("select, #amount, #show")) return;
     const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
-    const act = { " ": "run", ".": "step", "n": "next", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
+    const act = { " ": "run", ".": "step", "n": "next", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
     if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
     event.preventDefault();
     actions[act]();
@@ -235,22 +239,14 @@ shown.addEventListener("change", async () => {
 
 // A stroke: discs of the given value, else of the highest one, or with Shift of the lowest.
 let stroke = Promise.resolve();
-let is_painting = false;
-async function paint(event: PointerEvent, joins_last: boolean) {
+async function paint(event: PointerEvent, is_first: boolean) {
     if (!brush_choice.value) return;
-    const [x, y] = pattern.place(event).map((part) => part.toFixed(4));
+    const longest = Math.max(pattern.canvas.width, pattern.canvas.height);
+    const [x, y] = pattern.place(event).map((part) => part.toFixed(6));
+    // As large on the screen at every zoom, but never so small that it misses all cells.
+    const radius = Math.max(0.03 / view.zoom, 0.71 / longest).toFixed(6);
     const item = brush_choice.value, given = element<HTMLInputElement>("amount").value;
     const value = given || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
-    await ask("paint", { item, expression: `if(disc(${x}, ${y}, 0.03) > 0, ${value}, ${item})`, joins_last });
+    await ask("paint", { item, expression: `if(disc(${x}, ${y}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });
 }
-pattern.canvas.addEventListener("pointerdown", (event) => {
-    pattern.canvas.setPointerCapture(event.pointerId);
-    is_painting = true;
-    stroke = paint(event, false);
-});
-pattern.canvas.addEventListener("pointermove", (event) => {
-    if (is_painting) stroke = stroke.then(() => paint(event, true));
-});
-for (const end of ["pointerup", "pointercancel"] as const) {
-    pattern.canvas.addEventListener(end, () => (is_painting = false));
-}
+const view = new PlaneView(pattern.canvas, (event, is_first) => (stroke = stroke.then(() => paint(event, is_first))));

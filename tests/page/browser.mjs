@@ -70,12 +70,23 @@ export class Browser {
         }
     }
 
-    async drag(x, y, to_x, to_y) {
-        const send = (type, x, y) => this.call("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1, clickCount: 1 });
+    async drag(x, y, to_x, to_y, button = "left") {
+        const send = (type, x, y) => this.call("Input.dispatchMouseEvent", { type, x, y, button, buttons: button === "left" ? 1 : 4, clickCount: 1 });
         await send("mousePressed", x, y);
         await send("mouseMoved", (x + to_x) / 2, (y + to_y) / 2);
         await send("mouseMoved", to_x, to_y);
         await send("mouseReleased", to_x, to_y);
+    }
+
+    async wheel(x, y, deltaY) { await this.call("Input.dispatchMouseEvent", { type: "mouseWheel", x, y, deltaX: 0, deltaY }); }
+
+    /// Fingers that move together from the first places to the last ones, each a list of [x, y].
+    async touch(...moments) {
+        for (const [k, places] of moments.entries()) {
+            const touchPoints = places.map(([x, y], id) => ({ x, y, id }));
+            await this.call("Input.dispatchTouchEvent", { type: k === 0 ? "touchStart" : "touchMove", touchPoints });
+        }
+        await this.call("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
     }
 
     end() {

@@ -138,17 +138,58 @@ async function steer() {
     await browser.until(`document.querySelectorAll("#controls input").length === 2`);
 
     // A stroke is seen where the pointer was.
-    const [x, y, width, height] = await browser.evaluate(
+    const box_of_pattern = () => browser.evaluate(
         `(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
-    const before = await canvas();
+    const [x, y, width, height] = await box_of_pattern();
+    let before = await canvas();
+    /// Columns and rows of cells that look different than before.
+    const changed_cells = async () => {
+        const after = await canvas(), cells = [];
+        for (let k = 2; k < after.length; k += 4) {
+            const cell = (k - 2) / 4;
+            if ([0, 1, 2].some((c) => Math.abs(before[k + c] - after[k + c]) > 8)) cells.push([cell % 48, Math.floor(cell / 48)].join());
+        }
+        return cells;
+    };
+    const until_changed = async (wanted, how) => {
+        for (let k = 0; k < 100; ++k) if (wanted(await changed_cells())) return;
+        throw new Error(`${how}: the cells ${(await changed_cells()).slice(0, 9).join(" ")} have changed`);
+    };
     await browser.drag(x + 0.2 * width, y + 0.5 * height, x + 0.3 * width, y + 0.5 * height);
-    const differs = (after, column, row) => [0, 1, 2].some((c) => Math.abs(before[2 + 4 * (48 * row + column) + c] - after[2 + 4 * (48 * row + column) + c]) > 8);
-    let is_seen = false;
-    for (let k = 0; k < 100 && !is_seen; ++k) {
-        const after = await canvas();
-        is_seen = differs(after, 10, 16) || differs(after, 12, 16);
-    }
-    expect(is_seen, "the stroke is not seen");
+    await until_changed((cells) => cells.includes("10,16") || cells.includes("12,16"), "a stroke");
+
+    // The wheel keeps the place under the pointer, the middle button moves it, and a stroke hits a single cell.
+    const there = [Math.round(x + 30.5 / 48 * width), Math.round(y + 20.5 / 32 * height)];
+    await browser.wheel(...there, -10000);
+    await browser.until(`document.getElementById("pattern").getBoundingClientRect().width > ${4 * width}`);
+    const [left, top, large, high] = await box_of_pattern();
+    expect(Math.abs(large - 64 * 48) < 2, `a cell is ${large / 48} pixels wide after zooming`);
+    const is_there = (place, start, size) => Math.abs(start[0] + place * size[0] / size[1] - start[1]) < 2;
+    expect(is_there(there[0] - x, [left, there[0]], [large, width]) && is_there(there[1] - y, [top, there[1]], [high, height]), "zooming moves what is under the pointer");
+    await browser.drag(...there, there[0] + 64, there[1] - 64, "middle");
+    const moved = await box_of_pattern();
+    expect(Math.abs(moved[0] - left - 64) < 2 && Math.abs(moved[1] - top + 64) < 2, "the middle button does not move the pattern");
+    await browser.evaluate(`document.getElementById("amount").value = "0.5"`);
+    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 300))");
+    before = await canvas();
+    await browser.drag(...there, ...there);
+    await until_changed((cells) => cells.join() === "29,21", "a stroke on a cell");
+    writeFileSync("zoomed.png", await browser.screenshot());
+    await click("undo");
+    await browser.evaluate(`document.activeElement.blur(), document.getElementById("amount").value = ""`);
+    await browser.press("0");
+    expect((await box_of_pattern())[2] === width, "the key does not fit the pattern again");
+
+    // Two fingers zoom, and paint nothing.
+    await until_changed((cells) => cells.length === 0, "undo");
+    const middle = [x + width / 2, y + height / 2];
+    const fingers = (apart) => [[middle[0] - apart, middle[1]], [middle[0] + apart, middle[1]]];
+    await browser.touch(fingers(40).slice(0, 1), fingers(40), fingers(60), fingers(80), fingers(120));
+    const [pinched_x, , pinched] = await box_of_pattern();
+    expect(Math.abs(pinched / width - 3) < 0.1, `two fingers zoom by ${pinched / width} instead of 3`);
+    expect(Math.abs(pinched_x + pinched / 2 - middle[0]) < 4, "the middle of two fingers moves");
+    expect((await changed_cells()).length === 0, "two fingers paint");
+    await click("fit");
 
     // Going to a stage starts it anew, with the values that the one before left.
     await browser.evaluate(`document.querySelectorAll("#stages button")[1].click()`);
