@@ -48,6 +48,11 @@ std::string_view name_of_setting(std::string_view setting) {
     return setting.substr(begin, setting.find_last_not_of(" \t") + 1 - begin);
 }
 
+/// Does it change the script, and not only values?
+bool is_of_script(const Change& change) {
+    return std::holds_alternative<SetText>(change) || std::holds_alternative<SetNumber>(change);
+}
+
 /// A script with another text. Settings from outside that no longer mean anything are dropped:
 /// their parameter may have gone with the old text.
 Script with_text(const Script& old, const std::string& text) {
@@ -336,16 +341,21 @@ void LiveRun::add_to_log(const Change& change, RunPlace at) {
 }
 
 Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool joins_last) {
-    Moment before = present();
+    const bool is_remembered = !joins_last || past_.empty();
+    std::optional<Moment> before;
+    // Parts of a stroke come many times a second, and need no copy of all values.
+    if (is_remembered || is_of_script(change)) before = present();
     const RunPlace at = place();
-    if (auto made = make(change, *before.values, control); !made) return made;
+    if (auto made = make(change, before ? *before->values : KeptState(), control); !made) {
+        return made;
+    }
     if (place() == RunPlace() && at != RunPlace()) {
         // The run began anew, so what was done before no longer matters.
         log_ = {script_->name, script_->text, script_->overrides, {}, {}};
     } else {
         add_to_log(change, at);
     }
-    if (!joins_last || past_.empty()) remember(std::move(before));
+    if (is_remembered) remember(std::move(*before));
     future_.clear();
     return {};
 }
@@ -379,11 +389,9 @@ Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
     }
     const auto changes = std::exchange(log_.changes, {});
     for (const auto& logged : changes) {
-        const bool is_of_script = std::holds_alternative<SetText>(logged->change) ||
-                                  std::holds_alternative<SetNumber>(logged->change);
         if (logged->at.stage < stage) {
             log_.changes.push_back(logged);
-        } else if (is_of_script) {
+        } else if (is_of_script(logged->change)) {
             add_to_log(logged->change, {stage, 0});
         }
     }
