@@ -52,5 +52,16 @@ stage grow: spots { iterations: 800 }
 picture { color: rgb(u, 3 * v, 0.5) }
 SCRIPT
 "$CASCADE" run colours.cascade -o colours.png --quiet || fail "the coloured picture was not drawn"
+cat >line.cascade <<'SCRIPT'
+domain { grid: 64 }
+system front {
+  interval: 10
+  u: if(x < 0.2, 1, 0)
+  u' = 0.2 * lap(u) + 0.05 * u * (1 - u)
+}
+stage grow: front { iterations: 630 }
+picture { color: palette(u, 0, 1, "leopard") }
+SCRIPT
+"$CASCADE" run line.cascade --space-time -o line.png --quiet || fail "the picture of a row was not drawn"
 rm -rf profile
 node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"

@@ -3,9 +3,11 @@ import { Answer, Connection, Control, Message, Palette, Script, Snapshot } from 
 import { Editor } from "./editor";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
+import { rows_of_time } from "./time_rows";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
+const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 2 });
 const number = (value: number) => String(Number(value.toPrecision(4)));
 
 const pattern = new Pattern(element<HTMLCanvasElement>("pattern"), !location.search.includes("2d"));
@@ -15,6 +17,8 @@ let palettes: Palette[] = [];
 let is_text_open = false;  ///< The editor holds a text that the session does not run.
 let is_drawing = false;
 let was_opened = false;
+let is_pacing = false;  ///< The page itself asks for the steps from one row of time to the next.
+let paced = "";          ///< The moment from which it has asked for steps.
 let noticed_until = 0;
 
 const connection = new Connection({
@@ -31,7 +35,7 @@ const connection = new Connection({
     snapshot(snapshot) {
         pattern.snapshot = snapshot;
         // A session that nothing was done in yet starts when its page opens.
-        if (!was_opened && snapshot.stage === 1 && snapshot.steps === 0 && !snapshot.can_undo) void ask("run");
+        if (!was_opened && snapshot.stage === 1 && snapshot.steps === 0 && !snapshot.can_undo) actions.run();
         was_opened = true;
         if (performance.now() > noticed_until) notice("");
         if (is_drawing) return;
@@ -39,6 +43,7 @@ const connection = new Connection({
         requestAnimationFrame(() => {
             is_drawing = false;
             pattern.draw();
+            keep_pace(pattern.snapshot!);
             show_state(pattern.snapshot!);
             connection.next_snapshot();
         });
@@ -176,13 +181,14 @@ function show_state(snapshot: Snapshot) {
         (go.lastElementChild as HTMLProgressElement).value = stage.has_ended ? 1
             : stage.duration > 0 ? stage.t / stage.duration : stage.steps / Math.max(stage.iterations, 1);
     });
-    const rate = snapshot.is_going_on && snapshot.steps_per_second > 0
-        ? ` · ${number(Number(snapshot.steps_per_second.toPrecision(2)))} steps/s` : "";
+    const is_going_on = snapshot.is_going_on || is_pacing;
+    const rate = is_going_on && snapshot.steps_per_second > 0
+        ? ` · ${compact.format(snapshot.steps_per_second)} steps/s` : "";
     element("place").textContent = `step ${snapshot.steps.toLocaleString("en")}${rate}`;
-    button("run").toggleAttribute("data-going", snapshot.is_going_on);
-    button("run").ariaLabel = snapshot.is_going_on ? "Pause" : "Run";
+    button("run").toggleAttribute("data-going", is_going_on);
+    button("run").ariaLabel = is_going_on ? "Pause" : "Run";
     const is_over = stages.every((stage) => stage.has_ended);
-    button("run").disabled = button("step").disabled = is_over && !snapshot.is_going_on;
+    button("run").disabled = button("step").disabled = is_over && !is_going_on;
     button("next").disabled = snapshot.stage === stages.length;
     button("undo").disabled = !snapshot.can_undo;
     button("redo").disabled = !snapshot.can_redo;
@@ -190,13 +196,32 @@ function show_state(snapshot: Snapshot) {
     else if (is_over && snapshot.remarks.length > 0) notice(snapshot.remarks.at(-1)!);
 }
 
+/// Rows of time are equally many steps apart, so many that a stage fills the picture.
+function keep_pace(snapshot: Snapshot) {
+    is_pacing &&= snapshot.rows === 1 && !snapshot.failure && !snapshot.stages.every((stage) => stage.has_ended);
+    const moment = `${snapshot.stage} ${snapshot.steps}`;
+    if (!is_pacing || snapshot.is_going_on || moment === paced) return;
+    paced = moment;
+    const { iterations } = snapshot.stages[snapshot.stage - 1];
+    void ask("step", { count: Math.max(1, Math.ceil(iterations / (rows_of_time(snapshot) - 1))) });
+}
+
 function go_back(what: "undo" | "redo") {
+    is_pacing = false;
     is_text_open = false;
     void ask(what);
 }
 
 const actions: Record<string, () => void> = {
-    run: () => void ask(pattern.snapshot?.is_going_on ? "pause" : "run"),
+    run: () => {
+        const { snapshot } = pattern;
+        if (!snapshot) return;
+        const was_going_on = snapshot.is_going_on || is_pacing;
+        is_pacing = !was_going_on && snapshot.rows === 1;
+        paced = "";
+        if (is_pacing) keep_pace(snapshot);
+        else void ask(was_going_on ? "pause" : "run");
+    },
     step: () => void ask("step", { count: 1 }),
     restart: () => void ask("restart"),
     undo: () => go_back("undo"),
@@ -235,16 +260,16 @@ const shown = element<HTMLInputElement>("show");
 shown.addEventListener("change", async () => {
     const answer = await ask("show", { expression: shown.value });
     shown.classList.toggle("wrong", !answer.is_done);
+    if (answer.is_done) pattern.time.clear();
 });
 
 // A stroke: discs of the given value, else of the highest one, or with Shift of the lowest.
 let stroke = Promise.resolve();
 async function paint(event: PointerEvent, is_first: boolean) {
     if (!brush_choice.value) return;
-    const longest = Math.max(pattern.canvas.width, pattern.canvas.height);
     const [x, y] = pattern.place(event).map((part) => part.toFixed(6));
     // As large on the screen at every zoom, but never so small that it misses all cells.
-    const radius = Math.max(0.03 / view.zoom, 0.71 / longest).toFixed(6);
+    const radius = Math.max(0.03 / view.zoom, 0.71 / pattern.longest).toFixed(6);
     const item = brush_choice.value, given = element<HTMLInputElement>("amount").value;
     const value = given || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
     await ask("paint", { item, expression: `if(disc(${x}, ${y}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });

@@ -1,5 +1,6 @@
 // The pattern on a canvas of one pixel a cell: by WebGL2, or by the processor where that is missing.
 import type { Palette, Snapshot } from "./connection";
+import { TimeRows } from "./time_rows";
 
 const vertex = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }`;
@@ -93,6 +94,7 @@ class ProcessorDrawer implements Drawer {
 
 export class Pattern {
     private readonly drawer: Drawer;
+    readonly time = new TimeRows();
     snapshot?: Snapshot;
     palette?: Palette;
 
@@ -105,20 +107,25 @@ export class Pattern {
     draw() {
         const { canvas, snapshot, palette } = this;
         if (!snapshot || !palette) return;
-        if (canvas.width !== snapshot.columns || canvas.height !== snapshot.rows) {
-            canvas.width = snapshot.columns;
-            canvas.height = snapshot.rows;
-            // As large as its frame, in the shape of the grid; one row becomes a band.
-            const ratio = snapshot.columns / Math.max(snapshot.rows, snapshot.columns / 8);
+        const shown = snapshot.rows === 1 ? this.time.with(snapshot) : snapshot;
+        if (canvas.width !== shown.columns || canvas.height !== shown.rows) {
+            canvas.width = shown.columns;
+            canvas.height = shown.rows;
+            // As large as its frame, in the shape of the grid.
+            const ratio = shown.columns / shown.rows;
             canvas.style.width = `min(100cqw, ${100 * ratio}cqh)`;
             canvas.style.height = `min(100cqh, ${100 / ratio}cqw)`;
         }
-        this.drawer.draw(snapshot, palette);
+        this.drawer.draw(shown, palette);
     }
+
+    /// The number of cells along the longest side of the grid.
+    get longest() { return Math.max(this.snapshot?.columns ?? 1, this.snapshot?.rows ?? 1); }
 
     /// The coordinates x and y of a pointer: the longest side of the grid is 1.
     place(event: PointerEvent): [number, number] {
-        const { width, height } = this.canvas, box = this.canvas.getBoundingClientRect(), longest = Math.max(width, height);
-        return [(event.clientX - box.left) / box.width * width / longest, (event.clientY - box.top) / box.height * height / longest];
+        const { canvas, longest } = this, box = canvas.getBoundingClientRect();
+        const x = (event.clientX - box.left) / box.width * canvas.width, y = (event.clientY - box.top) / box.height * canvas.height;
+        return [x / longest, (this.snapshot?.rows === 1 ? 0.5 : y) / longest];
     }
 }

@@ -236,6 +236,16 @@ async function steer() {
     expect(status === 0 && stderr === "", `the log cannot be played: ${stderr}`);
     await type_script(text);
 
+    // Time runs downwards over a grid of one row, as in the picture of `--space-time`.
+    await type_script(readFileSync("line.cascade", "utf8"));
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+    await until_picture("the canvas of a row", "line");
+    writeFileSync("line_page.png", await browser.screenshot());
+    await type_script(text);
+    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+
     // The same without WebGL, after a reload, for which the tab keeps the token.
     await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
