@@ -80,6 +80,27 @@ public:
     /// Complete steps of that stage.
     std::int64_t steps() const;
 
+    // A pattern can be changed between two steps (spec/session.md). Each change returns false if it
+    // is refused; error() then says why, nothing has changed, and the pattern stays ok.
+
+    /// Gives a parameter or setting another value, as `--set NAME=EXPRESSION` does: "ka", "1/80".
+    bool set(const std::string& name, const std::string& expression);
+    /// Goes on with another script. What has the same name in it keeps its values; with other cells
+    /// (grid, mask, model, seed, precision) the run begins anew.
+    bool set_script(const std::string& script);
+    /// Gives a species, or a parameter or `frozen` that varies, the values of an expression over
+    /// the present state of the current stage: "b", "if(disc(0.5, 0.5, 0.1) > 0, 8, b)".
+    bool paint(const std::string& item, const std::string& expression);
+    /// Ends the current stage at its present step and begins the next one.
+    bool begin_next_stage();
+    /// Back to the moment before the last change, to the bit, and forward again.
+    bool undo();
+    bool redo();
+    /// The log of all that was done, as text: play() grows the same pattern from it, bit for bit.
+    std::string session() const;
+    /// Plays a session again, up to its end. Its script's paths are relative to `options.folder`.
+    static Pattern play(const std::string& session, const PatternOptions& options = {});
+
     /// The values of an expression over the present state, row by row, slice after slice: a species
     /// or parameter of the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b -
     /// stage1.b"). Cells outside of the domain's mask are NaN, unless the expression is the same in
@@ -92,6 +113,7 @@ public:
 
 private:
     struct Implementation;
+    Pattern();
     std::unique_ptr<Implementation> self_;
 };
 

@@ -5,30 +5,33 @@
 #include "core/version.h"
 #include "lang/check/check.h"
 #include "lang/syntax/parse.h"
-#include "run/script/embedded_script.h"
-#include "run/script/script.h"
-#include "run/simulation/simulation.h"
+#include "run/session/live_run.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace cascade {
 
 struct Pattern::Implementation {
-    Script script;
-    std::unique_ptr<Simulation> simulation;
+    std::unique_ptr<LiveRun> run;            ///< Null if the script is wrong.
+    std::shared_ptr<const Program> program;  ///< Of a script that could not be run; may be null.
+    Diagnostics diagnostics;                 ///< Of the script,
+    Sources sources;                         ///< and its sources, where there is no run.
     RunControl control;
     std::string error;
-    std::uint32_t stage = 0;
     bool failed = false;
     std::map<std::string, Formula> formulas;  ///< Of values(), by stage and text.
 
     std::shared_ptr<const ModelCells> model() const {
-        return simulation ? simulation->model() : nullptr;
+        return run ? run->simulation().model() : nullptr;
     }
-    bool running() const { return simulation && !failed; }
+    bool running() const { return run && !failed; }
+    const Program* known_program() const {
+        return run ? run->script().program.get() : program.get();
+    }
 
     void fail(const Failure& failure) {
         failed = true;
@@ -36,72 +39,90 @@ struct Pattern::Implementation {
                                      : fmt::format("{} ({})", failure.message, failure.hint);
     }
 
-    bool start(std::uint32_t k) {
-        stage = k;
-        if (auto started = simulation->start_stage(k); !started) fail(started.error());
-        return !failed;
+    /// Takes over a run, or why there is none.
+    void begin(Accepted<std::unique_ptr<LiveRun>> begun) {
+        if (begun) {
+            run = std::move(*begun);
+            return;
+        }
+        Refusal& refused = begun.error();
+        if (refused.failure) fail(*refused.failure);
+        diagnostics = std::move(refused.diagnostics);
+        sources = std::move(refused.sources);
     }
+
+    /// Notes why a change was refused.
+    bool note(const Accepted<void>& done) {
+        error = done ? "" : done.error().messages(false);
+        if (done) formulas.clear();
+        return done.has_value();
+    }
+    bool change(const Change& made) { return running() && note(run->apply(made, control)); }
 
     /// The checked expression; null, with `error` set, if it has errors.
     const Formula* formula(const std::string& text);
 
-    const Stage& current() const { return script.program->stages[stage]; }
-    bool stage_is_done() const {
-        const StageState& state = simulation->state(stage);
-        return state.done || state.steps >= current().iterations;
-    }
-    bool is_last_stage() const { return stage + 1 == script.program->stages.size(); }
-
-    /// Takes steps within the current stage. True while there is more to do.
-    bool advance(std::int64_t& left) {
-        const std::int64_t before = simulation->state(stage).steps;
-        const std::int64_t last = std::min(current().iterations, before + left);
-        auto end = simulation->advance_stage(stage, last, control, {});
-        left -= simulation->state(stage).steps - before;
-        if (!end) fail(end.error());
-        return end && *end != StageEnd::cancelled;
+    std::uint32_t stage() const { return run->place().stage; }
+    const Stage& current() const { return run->script().program->stages[stage()]; }
+    /// Of all stages so far.
+    std::int64_t steps() const {
+        std::int64_t steps = 0;
+        for (std::uint32_t k = 0; k <= stage(); ++k) steps += run->simulation().state(k).steps;
+        return steps;
     }
 
     /// Are all values of the present step finite? Fails as the steps would have where not.
     bool check() {
         control.cancel = control.checks_later = false;
-        if (simulation->state(stage).steps == 0 || stage_is_done()) return true;
-        std::int64_t none = 0;
-        return advance(none);
+        if (const auto good = run->check(control); !good) fail(good.error());
+        return !failed;
     }
 };
 
-Pattern::Pattern(const std::string& text, const PatternOptions& options)
-    : self_(std::make_unique<Implementation>()) {
-    self_->script = load_script(options.name, text, options.folder);
-    if (!self_->script.program) return;
-    if (self_->script.program->stages.empty()) {
-        self_->fail({"this script has no stage to run", example_of_stage(*self_->script.program)});
-        return;
-    }
+namespace {
+
+SimulationOptions simulation_options(const PatternOptions& options) {
     SimulationOptions simulation;
     simulation.backend =
         options.native_code && has_jit() ? BackendKind::jit : BackendKind::interpreter;
     simulation.threads = options.threads;
-    auto created = Simulation::create(self_->script, simulation);
-    if (!created) {
-        self_->fail(created.error());
-        return;
+    return simulation;
+}
+
+}  // namespace
+
+Pattern::Pattern() : self_(std::make_unique<Implementation>()) {}
+
+Pattern::Pattern(const std::string& text, const PatternOptions& options) : Pattern() {
+    Script script = load_script(options.name, text, options.folder);
+    self_->program = script.program;
+    self_->begin(LiveRun::begin(std::move(script), simulation_options(options), self_->control));
+}
+
+Pattern Pattern::play(const std::string& session, const PatternOptions& options) {
+    Pattern pattern;
+    const auto log = parse_session_log(session);
+    if (!log) {
+        pattern.self_->fail(log.error());
+        return pattern;
     }
-    self_->simulation = std::move(*created);
-    self_->start(0);
+    pattern.self_->begin(
+        LiveRun::play(*log, options.folder, simulation_options(options), pattern.self_->control));
+    return pattern;
 }
 
 Pattern::~Pattern() = default;
 Pattern::Pattern(Pattern&&) noexcept = default;
 Pattern& Pattern::operator=(Pattern&&) noexcept = default;
 
-bool Pattern::ok() const { return self_->running() && !self_->script.diagnostics.has_errors(); }
+bool Pattern::ok() const { return self_->running(); }
 
 std::vector<Message> Pattern::diagnostics() const {
     std::vector<Message> messages;
-    const Sources& sources = self_->script.sources;
-    for (const Diagnostic& diagnostic : self_->script.diagnostics.sorted()) {
+    const bool has_run = self_->run != nullptr;
+    const Sources& sources = has_run ? self_->run->script().sources : self_->sources;
+    const Diagnostics& all = has_run ? self_->run->script().diagnostics : self_->diagnostics;
+    for (const Diagnostic& diagnostic : all.sorted()) {
         const Source& source = sources[diagnostic.span.source];
         const Location place = source.locate(diagnostic.span.begin);
         messages.push_back({diagnostic.severity == Severity::error, source.name(),
@@ -111,35 +132,41 @@ std::vector<Message> Pattern::diagnostics() const {
     return messages;
 }
 
-std::string Pattern::messages() const { return self_->script.messages(false); }
+std::string Pattern::messages() const {
+    return self_->run ? self_->run->script().messages(false)
+                      : render(self_->diagnostics, self_->sources, {});
+}
 std::string Pattern::error() const { return self_->error; }
 
 std::int64_t Pattern::width() const {
     if (const auto model = self_->model()) return static_cast<std::int64_t>(model->count());
-    return self_->script.program ? self_->script.program->domain.grid.width : 0;
+    const Program* const program = self_->known_program();
+    return program ? program->domain.grid.width : 0;
 }
 std::int64_t Pattern::height() const {
     if (self_->model()) return 1;
-    return self_->script.program ? self_->script.program->domain.grid.height : 0;
+    const Program* const program = self_->known_program();
+    return program ? program->domain.grid.height : 0;
 }
 std::int64_t Pattern::depth() const {
-    return self_->script.program ? self_->script.program->domain.grid.depth : 0;
+    const Program* const program = self_->known_program();
+    return program ? program->domain.grid.depth : 0;
 }
 
 std::vector<std::string> Pattern::stages() const {
     std::vector<std::string> names;
-    if (!self_->script.program) return names;
-    for (const Stage& stage : self_->script.program->stages) names.push_back(stage.name);
+    const Program* const program = self_->known_program();
+    if (!program) return names;
+    for (const Stage& stage : program->stages) names.push_back(stage.name);
     return names;
 }
 
 std::vector<std::string> Pattern::species(const std::string& stage) const {
     std::vector<std::string> names;
-    if (!self_->script.program) return names;
-    const Program& program = *self_->script.program;
-    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        if (program.stages[k].name != stage) continue;
-        for (const Quantity& quantity : program.system_of(k).quantities) {
+    const Program* const program = self_->known_program();
+    for (std::uint32_t k = 0; program && k < program->stages.size(); ++k) {
+        if (program->stages[k].name != stage) continue;
+        for (const Quantity& quantity : program->system_of(k).quantities) {
             if (quantity.is_species) names.push_back(quantity.name);
         }
     }
@@ -150,36 +177,45 @@ std::int64_t Pattern::step(std::int64_t count) {
     if (!self_->running()) return 0;
     self_->control.cancel = false;
     self_->control.checks_later = true;
-    std::int64_t left = std::max<std::int64_t>(count, 0);
-    while (!self_->failed) {
-        if (!self_->stage_is_done() && left > 0 && !self_->advance(left)) break;
-        if (!self_->stage_is_done() || self_->is_last_stage()) break;
-        if (!self_->start(self_->stage + 1)) break;
-    }
+    const std::int64_t before = self_->steps();
+    Watching watching;
+    watching.begins_next = true;
+    const auto end =
+        self_->run->advance(std::max<std::int64_t>(count, 0), self_->control, watching);
+    if (!end) self_->fail(end.error());
     // Fewer than none where a value that is not finite takes back steps of earlier calls.
-    return std::max<std::int64_t>(std::max<std::int64_t>(count, 0) - left, 0);
+    return std::max<std::int64_t>(self_->steps() - before, 0);
 }
 
-bool Pattern::finished() const {
-    return self_->running() && self_->is_last_stage() && self_->stage_is_done();
-}
+bool Pattern::finished() const { return self_->running() && self_->run->is_over(); }
 
-std::string Pattern::current_stage() const {
-    return self_->simulation ? self_->current().name : "";
+std::string Pattern::current_stage() const { return self_->run ? self_->current().name : ""; }
+std::int64_t Pattern::steps() const { return self_->run ? self_->run->place().steps : 0; }
+
+bool Pattern::set(const std::string& name, const std::string& expression) {
+    return self_->change(SetNumber{name, expression});
 }
-std::int64_t Pattern::steps() const {
-    return self_->simulation ? self_->simulation->state(self_->stage).steps : 0;
+bool Pattern::set_script(const std::string& script) { return self_->change(SetText{script}); }
+bool Pattern::paint(const std::string& item, const std::string& expression) {
+    return self_->change(Paint{item, expression});
+}
+bool Pattern::begin_next_stage() { return self_->change(NextStage{}); }
+bool Pattern::undo() { return self_->running() && self_->note(self_->run->undo(self_->control)); }
+bool Pattern::redo() { return self_->running() && self_->note(self_->run->redo(self_->control)); }
+std::string Pattern::session() const {
+    return self_->run ? print_session_log(self_->run->log()) : "";
 }
 
 const Formula* Pattern::Implementation::formula(const std::string& text) {
     // The same text in another stage is another expression.
     const std::string key = current().name + ":" + text;
     if (const auto known = formulas.find(key); known != formulas.end()) return &known->second;
+    Script& script = run->script();
     const SourceId source = script.sources.add("<values>", text);
     Diagnostics errors;
     std::optional<Formula> checked;
     if (const auto expression = parse_expression(source, script.sources, script.tree, errors)) {
-        checked = check_view(script.tree, *expression, stage, stage, *script.program,
+        checked = check_view(script.tree, *expression, stage(), stage(), *script.program,
                              script.sources, errors);
     }
     if (checked && checked->nodes.back().type != ValueType::number) {
@@ -197,7 +233,7 @@ std::vector<float> Pattern::values(const std::string& text) {
     self_->error.clear();
     const Formula* formula = self_->formula(text);
     if (!formula) return {};
-    Field field = std::move(self_->simulation->evaluate(*formula, self_->stage)[0]);
+    Field field = std::move(self_->run->simulation().evaluate(*formula, self_->stage())[0]);
     if (const auto model = self_->model()) field = in_one_row(field, *model);
     std::vector<float> values;
     field.visit([&](const auto& plane) {

@@ -213,11 +213,17 @@ Result<StageEnd> LiveRun::advance(std::int64_t count, RunControl& control,
             if (watching.stage_ended) watching.stage_ended(stage_);
         }
         if (is_over()) return StageEnd::finished;
-        if (count <= 0) return StageEnd::stopped;
+        if (count <= 0 && !watching.begins_next) return StageEnd::stopped;
         if (auto started = start_stage(stage_ + 1); !started) {
             return tl::unexpected(*started.error().failure);
         }
     }
+}
+
+Result<void> LiveRun::check(RunControl& control) {
+    if (state().steps == 0 || state().done) return {};
+    const auto end = simulation_->advance_stage(stage_, state().steps, control, {});
+    return end ? Result<void>() : tl::unexpected(end.error());
 }
 
 Accepted<void> LiveRun::run_to(RunPlace place, RunControl& control) {

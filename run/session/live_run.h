@@ -41,6 +41,8 @@ struct Watching {
     std::function<void()> observe;  ///< At multiples of `every`, as Simulation::advance_stage().
     std::int64_t every = 0;
     std::function<void(std::uint32_t stage)> stage_ended;
+    /// Begin the next stage where one has ended with the last step of a call.
+    bool begins_next = false;
 };
 
 /// Owns a script and its simulation. Every change is logged with the step at which it was made, so
@@ -74,6 +76,10 @@ public:
     /// step at which they were.
     Result<StageEnd> advance(std::int64_t count, RunControl& control,
                              const Watching& watching = {});
+
+    /// Are all values of the present step finite? Fails as advance() does where they are not, which
+    /// matters after calls with RunControl::checks_later.
+    Result<void> check(RunControl& control);
 
     /// Makes a change at the present step. Where it is refused, nothing has changed. With
     /// `joins_last`, undo() takes it back together with the change before, as the parts of one

@@ -45,6 +45,40 @@ TEST(Pattern, StepsDoNotDependOnHowTheyAreCounted) {
     EXPECT_EQ(at_once.values("b"), one_by_one.values("b"));
 }
 
+TEST(Pattern, IsChangedWhileItRuns) {
+    Pattern pattern(spots);
+    pattern.step(10);
+    EXPECT_TRUE(pattern.set("one.ka", "1/40")) << pattern.error();
+    EXPECT_TRUE(pattern.paint("b", "if(disc(0.3, 0.3, 0.2) > 0, 8, b)")) << pattern.error();
+    EXPECT_EQ(pattern.values("max(b over domain)")[0], 8);
+    pattern.step(5);
+    EXPECT_TRUE(pattern.begin_next_stage()) << pattern.error();
+    EXPECT_EQ(pattern.current_stage(), "two");
+    pattern.step(3);
+    EXPECT_EQ(Pattern::play(pattern.session()).values("b"), pattern.values("b"));
+    EXPECT_TRUE(pattern.undo());
+    EXPECT_EQ(pattern.current_stage(), "one");
+    EXPECT_EQ(pattern.steps(), 15);
+    EXPECT_TRUE(pattern.redo());
+    EXPECT_EQ(pattern.current_stage(), "two");
+    EXPECT_FALSE(pattern.redo());
+    EXPECT_TRUE(pattern.ok());
+}
+
+TEST(Pattern, AChangeThatIsRefusedSaysWhy) {
+    Pattern pattern(spots);
+    pattern.step(10);
+    const std::vector<float> before = pattern.values("b");
+    EXPECT_FALSE(pattern.set("one.kaa", "1"));
+    EXPECT_NE(pattern.error().find("kaa"), std::string::npos);
+    EXPECT_FALSE(pattern.set_script("stage x: nobody {}"));
+    EXPECT_NE(pattern.error().find("nobody"), std::string::npos);
+    EXPECT_TRUE(pattern.ok());
+    EXPECT_EQ(pattern.values("b"), before);
+    EXPECT_FALSE(Pattern("nonsense").set("a", "1"));
+    EXPECT_FALSE(Pattern::play("nonsense").ok());
+}
+
 /// Of all cells; those outside of a mask are NaN, which equals nothing.
 std::vector<std::uint32_t> bits_of(Pattern& pattern, const std::string& expression) {
     std::vector<std::uint32_t> bits;
