@@ -110,6 +110,7 @@ Then :help lists the commands.)";
 const std::string_view view =
     "Opens a script in the browser: its pattern grows while text and numbers change.";
 const std::string_view view_examples = R"(Examples:
+  cascade view                                       offers the systems of the library
   cascade view leopard.cascade
   cascade view leopard.cascade --no-browser          prints the address
 Only this machine reaches the page. Ctrl-C ends it.)";

@@ -189,7 +189,7 @@ void Parser::add_all() {
     groups::add_quiet(*repl, options);
 
     view = command("view", help::view, help::view_examples);
-    groups::add_script(*view, options, "A script");
+    groups::add_script(*view, options, "A script; without it the page offers the library");
     view->add_flag("--no-browser", options.no_browser, "Print the address and open nothing");
     groups::add_overrides(*view, options.overrides);
     groups::add_simulation(*view, options, "Threads; without it all cores");
@@ -270,7 +270,7 @@ std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::check ||
         options.command == Command::bench || options.command == Command::compile ||
-        options.command == Command::format || options.command == Command::view ||
+        options.command == Command::format ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
     if (options.command == Command::mesh && options.models.empty()) return "a model is missing";

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "lang/print/library_note.h"
 #include "view/page_files.h"
 #include "view/page_server.h"
 
@@ -67,10 +68,18 @@ void open_in_browser(const std::string& path) {
     posix_spawn_file_actions_destroy(&actions);
 }
 
+/// What is run until a system of the library is chosen on the page.
+LoadedFile script_to_replace(const Overrides& overrides) {
+    const std::string text = starting_script(*find_library_text("gray_scott"));
+    return {load_script("new.cascade", text, ".", overrides), ""};
+}
+
 }  // namespace
 
 int view_command(const Options& options, Console& console) {
-    auto file = load(options.scripts[0], options.overrides, console);
+    const bool chooses = options.scripts.empty();
+    auto file = chooses ? script_to_replace(options.overrides)
+                        : load(options.scripts[0], options.overrides, console);
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
     console.say(script.messages(console.error().colour));
@@ -82,8 +91,8 @@ int view_command(const Options& options, Console& console) {
 
     RunControl control;
     const InterruptGuard interrupt(control.cancel);
-    auto server =
-        PageServer::start(std::move(script), options.run.simulation, control, page_files());
+    auto server = PageServer::start(std::move(script), options.run.simulation, control,
+                                    page_files(), chooses);
     if (!server) {
         console.say(server.error().messages(console.error().colour));
         return exit_status::failed_run;

@@ -3,6 +3,7 @@
 
 #include "core/palette.h"
 #include "core/utf8.h"
+#include "lang/print/library_note.h"
 #include "picture/image.h"
 
 #include <nlohmann/json.hpp>
@@ -145,6 +146,18 @@ std::string print_palettes() {
                         {"stops", palette.stops}});
     }
     return print({{"kind", "palettes"}, {"palettes", std::move(list)}});
+}
+
+std::string print_systems() {
+    Json list = Json::array();
+    for (const LibraryText& text : library_texts()) {
+        const LibraryNote note = note_of(text);
+        list.push_back({{"name", text.system_name()},
+                        {"about", note.about},
+                        {"words", note.words},
+                        {"script", starting_script(text)}});
+    }
+    return print({{"kind", "systems"}, {"systems", std::move(list)}});
 }
 
 std::string print_script(const LiveRun& run) {

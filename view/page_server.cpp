@@ -38,6 +38,7 @@ struct PageServer::State {
     std::condition_variable is_wanted;
     std::map<PageId, OpenPage> pages;
     bool is_ending = false;
+    bool offers_library = false;
     std::uint64_t told_script = 0;  ///< Of the sending thread.
     // The session ends before the server, to which its answers go.
     std::optional<LocalServer> server;
@@ -84,6 +85,7 @@ void PageServer::State::greet(PageId page) {
         const std::lock_guard lock(mutex);
         pages[page] = {};
         server->send_text(page, print_palettes());
+        if (offers_library) server->send_text(page, print_systems());
     }
     tell_script({page});
 }
@@ -157,11 +159,13 @@ PageServer::~PageServer() = default;
 
 Accepted<std::unique_ptr<PageServer>> PageServer::start(Script script,
                                                         const SimulationOptions& options,
-                                                        RunControl& control, PageFiles files) {
+                                                        RunControl& control, PageFiles files,
+                                                        bool offers_library) {
     auto session = Session::begin(std::move(script), options, control);
     if (!session) return tl::unexpected(std::move(session.error()));
     auto state = std::make_unique<State>();
     state->session = std::move(*session);
+    state->offers_library = offers_library;
     if (auto started = state->start(std::move(files)); !started) {
         Refusal refused;
         refused.failure = started.error();

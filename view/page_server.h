@@ -12,10 +12,12 @@ namespace cascade {
 /// Serves one session to the pages that are open, which all see and steer the same one.
 class PageServer {
 public:
-    /// Begins a session of a checked script, as Session::begin(), and opens its page.
+    /// Begins a session of a checked script, as Session::begin(), and opens its page. With
+    /// `offers_library` pages are told the systems of the library, to choose another script from.
     static Accepted<std::unique_ptr<PageServer>> start(Script script,
                                                        const SimulationOptions& options,
-                                                       RunControl& control, PageFiles files);
+                                                       RunControl& control, PageFiles files,
+                                                       bool offers_library = false);
     /// Closes all pages and ends the session.
     ~PageServer();
 

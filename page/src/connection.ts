@@ -5,6 +5,7 @@ export interface Answer { kind: "answer"; id: number; is_done: boolean; messages
 export interface Control { name: string; label: string; stage: number; doc: string; low: number; high: number; step?: number; value: number }
 export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[] }
 export interface Palette { name: string; description: string; stops: [number, number, number][] }
+export interface LibrarySystem { name: string; about: string; words: string; script: string }
 export interface Stage { name: string; steps: number; iterations: number; t: number; duration: number; has_begun: boolean; has_ended: boolean }
 export interface Snapshot {
     number: number; script: number; is_going_on: boolean; stage: number; steps: number; stages: Stage[];
@@ -14,6 +15,7 @@ export interface Snapshot {
 
 export interface Listener {
     palettes(palettes: Palette[]): void;
+    systems(systems: LibrarySystem[]): void;
     script(script: Script): void;
     snapshot(snapshot: Snapshot): void;
     lost(reason: string): void;
@@ -84,6 +86,7 @@ export class Connection {
         if (typeof data !== "string") return this.listener.snapshot(read_snapshot(data));
         const message = JSON.parse(data);
         if (message.kind === "palettes") this.listener.palettes(message.palettes);
+        else if (message.kind === "systems") this.listener.systems(message.systems);
         else if (message.kind === "script") this.listener.script(message);
         else {
             this.waiting.get(message.id)?.({ is_done: true, messages: [], ...message });

@@ -1,6 +1,7 @@
 // The page: text, sliders, pattern and stages of one session.
 import { Answer, Connection, Control, Message, Palette, Script, Snapshot } from "./connection";
 import { Editor } from "./editor";
+import { Library } from "./library";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
 import { rows_of_time } from "./time_rows";
@@ -17,6 +18,7 @@ let palettes: Palette[] = [];
 let is_text_open = false;  ///< The editor holds a text that the session does not run.
 let is_drawing = false;
 let was_opened = false;
+let is_to_start = false;  ///< With the next snapshot that shows a start.
 let is_pacing = false;  ///< The page itself asks for the steps from one row of time to the next.
 let paced = "";          ///< The moment from which it has asked for steps.
 let noticed_until = 0;
@@ -31,12 +33,24 @@ const connection = new Connection({
         }
         choose_palette();
     },
+    systems(systems) {
+        library.fill(systems);
+        button("systems").hidden = false;
+    },
     script: show_script,
     snapshot(snapshot) {
         pattern.snapshot = snapshot;
-        // A session that nothing was done in yet starts when its page opens.
-        if (!was_opened && snapshot.stage === 1 && snapshot.steps === 0 && !snapshot.can_undo) actions.run();
+        const is_start = snapshot.stage === 1 && snapshot.steps === 0;
+        // A session that nothing was done in yet starts when its page opens, or when a script is chosen.
+        if (!was_opened && is_start && !snapshot.can_undo) {
+            if (library.is_filled) library.open();
+            else is_to_start = true;
+        }
         was_opened = true;
+        if (is_to_start && is_start) {
+            is_to_start = false;
+            actions.run();
+        }
         if (performance.now() > noticed_until) notice("");
         if (is_drawing) return;
         is_drawing = true;
@@ -49,6 +63,16 @@ const connection = new Connection({
         });
     },
     lost: (reason) => notice(reason, true),
+});
+
+const library = new Library(async (text) => {
+    is_text_open = false;
+    await ask("pause");
+    const answer = await ask("text", { text });
+    if (!answer.is_done) return;
+    // What has the same name in the script before would keep its values.
+    await ask("restart");
+    is_to_start = true;
 });
 
 const editor = new Editor(element("editor"), () => (element("text").ariaBusy = "true"), async (text) => {
@@ -227,6 +251,7 @@ const actions: Record<string, () => void> = {
     undo: () => go_back("undo"),
     redo: () => go_back("redo"),
     next: () => void ask("next_stage"),
+    systems: () => library.open(),
     fit: () => view.fit(),
     nearer: () => view.scale(1.5),
     farther: () => view.scale(1 / 1.5),
@@ -243,6 +268,7 @@ for (const [id, act] of Object.entries(actions)) button(id)?.addEventListener("c
 
 document.addEventListener("keydown", (event) => {
     const at = event.target as HTMLElement;
+    if (at.closest("dialog")) return;
     if (at.id === "editor" || at.matches("select, #amount, #show")) return;
     const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
     const act = { " ": "run", ".": "step", "n": "next", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];

@@ -1,5 +1,17 @@
-// A headless Chromium that is driven through a pipe by the DevTools protocol, without packages.
+// `cascade view`, and a headless Chromium that is driven through a pipe by the DevTools protocol, without packages.
 import { spawn } from "node:child_process";
+
+/// Starts `cascade view` with these arguments, and waits for its address.
+export async function serve(program, ...words) {
+    const cascade = spawn(program, ["view", ...words, "--no-browser"], { stdio: ["ignore", "pipe", "pipe"] });
+    let said = "";
+    cascade.stderr.on("data", (part) => (said += part));
+    const address = await new Promise((resolve, reject) => {
+        cascade.stdout.once("data", (text) => resolve(String(text).trim()));
+        cascade.once("exit", () => reject(new Error(`cascade view has ended: ${said}`)));
+    });
+    return { cascade, address };
+}
 
 export class Browser {
     static async start(command, profile) {

@@ -1,18 +1,13 @@
 // Steers the page of `cascade view spots.cascade` as a user does. Arguments: the browser and the program;
 // spots.cascade, colours.cascade and what `cascade run` draws of them are in the current folder. Screenshots are left there.
-import { spawn, spawnSync } from "node:child_process";
+import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { Browser } from "./browser.mjs";
+import { Browser, serve } from "./browser.mjs";
 
 const [command, program] = process.argv.slice(2);
-const cascade = spawn(program, ["view", "spots.cascade", "--no-browser"], { stdio: ["ignore", "pipe", "pipe"] });
-let said = "";
-cascade.stderr.on("data", (part) => (said += part));
-const address = await new Promise((resolve, reject) => {
-    cascade.stdout.once("data", (text) => resolve(String(text).trim()));
-    cascade.once("exit", () => reject(new Error(`cascade view has ended: ${said}`)));
-});
+const { cascade, address } = await serve(program, "spots.cascade");
+const start_page = await serve(program);
 const browser = await Browser.start(command, join(process.cwd(), "profile"));
 const limit = setTimeout(() => end(new Error("it took more than 4 minutes")), 240000);
 
@@ -25,6 +20,7 @@ async function end(error) {
     }
     browser.end();
     cascade.kill("SIGKILL");
+    start_page.cascade.kill("SIGKILL");
     process.exit(error ? 1 : 0);
 }
 
@@ -265,12 +261,33 @@ async function steer() {
         expect(overflow <= 0, `${name}: the page is ${overflow} pixels too wide`);
         writeFileSync(`${name}.png`, await browser.screenshot());
     }
+    // Without a script a start page offers the library. A click shows a system, which grows.
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
+    await browser.call("Page.navigate", { url: start_page.address });
+    await browser.until(`document.getElementById("library")?.open && document.querySelectorAll("#library li").length > 50`);
+    writeFileSync("start.png", await browser.screenshot());
+    expect(await steps() === 0, "a pattern grows under the start page");
+    const offered = () => browser.evaluate(`[...document.querySelectorAll("#library li:not([hidden]) code")].map((name) => name.textContent)`);
+    for (const [words, wanted] of [["aliev panf", "aliev_panfilov"], ["prigogine", "brusselator"]]) {
+        await browser.evaluate(`{ const input = document.querySelector("#library input"); input.value = "${words}"; input.dispatchEvent(new Event("input")); }`);
+        const found = await offered();
+        expect(found.length < 9 && found.includes(wanted), `a search for ${words} finds ${found}`);
+    }
+    await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("code").textContent === "gray_scott").click()`);
+    await browser.until(`document.getElementById("run").ariaLabel === "Pause" && !document.getElementById("place").textContent.startsWith("step 0")`);
+    const typed = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").textContent`;
+    expect((await browser.evaluate(typed)).includes("Gray-Scott"), "the script of the chosen system is missing");
+    // What was chosen before leaves no values to a system with species of the same names.
+    await click("systems");
+    await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("code").textContent === "kdv").click()`);
+    await browser.until(`document.getElementById("stages").textContent === "overtaking" && document.getElementById("place").textContent.includes("steps/s")`);
+
     // Chromium's own editing wants to style what replaces a selection, which the policy forbids.
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
 
     // The page says when Cascade has ended.
-    cascade.kill("SIGINT");
+    start_page.cascade.kill("SIGINT");
     await browser.until(`document.getElementById("notice").textContent !== ""`);
 }
 

@@ -25,7 +25,7 @@ protected:
             load_script("spots.cascade",
                         "domain { grid: 8, 8 }\nstage one: turing_spots { iterations: 1000000 }\n",
                         "."),
-            options, control, {});
+            options, control, {}, true);
         ASSERT_TRUE(started.has_value()) << started.error().messages(false);
         server_ = std::move(*started);
     }
@@ -73,8 +73,16 @@ TEST_F(PageServerTest, PagesSeeAndSteerOneSession) {
     open(first);
     open(second);
     EXPECT_EQ(hear(first, "palettes")["palettes"][0]["name"], "grey");
-    EXPECT_EQ(hear(second, "script")["name"], "spots.cascade");
     EXPECT_EQ(look(first)["steps"], 0);
+
+    const Json systems = hear(second, "systems")["systems"];
+    const auto brusselator = std::find_if(systems.begin(), systems.end(), [](const Json& system) {
+        return system["name"] == "brusselator";
+    });
+    EXPECT_EQ(hear(second, "script")["name"], "spots.cascade");
+    ASSERT_NE(brusselator, systems.end());
+    EXPECT_THAT((*brusselator)["words"].get<std::string>(), HasSubstr("prigogine"));
+    EXPECT_THAT((*brusselator)["script"].get<std::string>(), HasSubstr("stage "));
 
     say(first, R"({"id": 1, "do": "step", "count": 10})");
     EXPECT_EQ(hear(first, "answer")["is_done"], true);
