@@ -332,16 +332,19 @@ LiveRun::Moment LiveRun::present() const {
 }
 
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
-    // Of changes of one number, or of the whole text, at one step the last one counts.
-    while (!log_.changes.empty() && log_.changes.back()->at == at) {
-        const Change& last = log_.changes.back()->change;
-        const auto* number = std::get_if<SetNumber>(&change);
-        const auto* last_number = std::get_if<SetNumber>(&last);
-        const bool is_replaced =
-            (std::holds_alternative<SetText>(change) && std::holds_alternative<SetText>(last)) ||
-            (number != nullptr && last_number != nullptr && number->name == last_number->name);
-        if (!is_replaced) break;
-        log_.changes.pop_back();
+    // Of values of one number at one step the last one counts, as a slider gives many. With strokes
+    // it does not: a number that is the same in all cells drops what was painted, for good.
+    const bool has_strokes =
+        std::any_of(log_.changes.begin(), log_.changes.end(), [](const auto& logged) {
+            return std::holds_alternative<Paint>(logged->change);
+        });
+    const auto* number = std::get_if<SetNumber>(&change);
+    if (number != nullptr && !has_strokes && !log_.changes.empty()) {
+        const LoggedChange& last = *log_.changes.back();
+        const auto* before = std::get_if<SetNumber>(&last.change);
+        if (last.at == at && before != nullptr && before->name == number->name) {
+            log_.changes.pop_back();
+        }
     }
     log_.changes.push_back(std::make_shared<const LoggedChange>(LoggedChange{at, change}));
 }

@@ -263,6 +263,35 @@ TEST_F(LiveRunTest, PartsOfOneStrokeAreUndoneTogether) {
     EXPECT_EQ(difference(*run, *begun(two_stages)), "");
 }
 
+/// What the first of two changes loses does not come back with the second one.
+TEST_F(LiveRunTest, ChangesAtOneStepAreLoggedWhereTheFirstLosesValues) {
+    const std::string stage = "stage one: s { iterations: 60; speed: 0.2 }\n";
+    const std::string with_v =
+        "system s { u: 1 + x; v: y; u' = 0.1 * lap(u) - v; v' = 0.2 * lap(v) }\n" + stage;
+    const auto run = begun(with_v);
+    advance(*run, 30);
+    apply(*run, SetText{"system s { u: 1 + x; u' = 0.1 * lap(u) }\n" + stage});
+    apply(*run, SetText{with_v});
+    EXPECT_EQ(difference(*run, *played(run->log())), "");
+
+    const auto painted = begun(two_stages);
+    advance(*painted, 30);
+    apply(*painted, Paint{"k", "0.5"});
+    apply(*painted, SetNumber{"one.k", "3"});
+    apply(*painted, SetNumber{"one.k", "1 + y"});
+    advance(*painted, 10);
+    EXPECT_EQ(difference(*painted, *played(painted->log())), "");
+}
+
+TEST_F(LiveRunTest, ANumberThatIsMovedAtOneStepIsLoggedOnce) {
+    const auto run = begun(two_stages);
+    advance(*run, 30);
+    for (const char* value : {"0.2", "0.3", "0.4"}) apply(*run, SetNumber{"c", value});
+    const SessionLog log = run->log();
+    ASSERT_EQ(log.changes.size(), 1u);
+    EXPECT_EQ(*log.changes[0], (LoggedChange{{0, 30}, SetNumber{"c", "0.4"}}));
+}
+
 /// Whatever is done, the log gives the same bits again, from its text as well.
 TEST_F(LiveRunTest, ALogThatIsPlayedAgainGivesTheSameBits) {
     const std::string scripts[] = {
