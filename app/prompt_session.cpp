@@ -148,7 +148,7 @@ bool is_expression(const std::string& text) {
 
 }  // namespace
 
-/// What is typed again replaces what it was before.
+/// A block replaces the one of the same name.
 void PromptSession::add_text(const std::string& text) {
     if (is_expression(text)) return print_value(std::string(trim(text)));
     const std::string whole = script() ? with_blocks(script()->text, text) : text;
@@ -181,10 +181,8 @@ void PromptSession::load(const std::string& path) {
         load_saved(path);
         return;
     }
-    if (const auto text = read_file(path, largest_script); text && is_session_log(*text)) {
-        load_session(path, *text);
-        return;
-    }
+    constexpr std::size_t beginning = 64;  // More than the first line of a session.
+    if (is_session_log(first_bytes(path, beginning))) return load_session(path);
     auto file = load_script_file(path);
     if (!file) {
         fail(file.error());
@@ -218,8 +216,10 @@ void PromptSession::load_saved(const std::string& folder) {
     });
 }
 
-void PromptSession::load_session(const std::string& path, const std::string& text) {
-    const auto log = parse_session_log(text);
+void PromptSession::load_session(const std::string& path) {
+    const auto text = read_file(path, largest_script);
+    if (!text) return fail(text.error());
+    const auto log = parse_session_log(*text);
     if (!log) {
         fail({fmt::format("{}: {}", path, log.error().message), log.error().hint});
         return;

@@ -51,7 +51,7 @@ private:
     void add_text(const std::string& text);
     bool change(Script script);
     void load_saved(const std::string& folder);
-    void load_session(const std::string& path, const std::string& text);
+    void load_session(const std::string& path);
     void set(const std::string& assignment);
     void print_text(const std::string&);
     void forget(const std::string&);

@@ -17,8 +17,7 @@ using Json = nlohmann::json;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;  ///< Exact in the numbers of a page.
 constexpr std::int64_t most_stages = 1'000'000;
 
-/// Reads fields of a message. After the first one that is wrong, `fault` says why, and the others
-/// are empty.
+/// Reads the fields of a message. fault() describes the first wrong one.
 class FieldReader {
 public:
     explicit FieldReader(const Json& object) : object_(object) {}

@@ -13,7 +13,7 @@ namespace cascade {
 class PageServer {
 public:
     /// Begins a session of a checked script, as Session::begin(), and opens its page. With
-    /// `offers_library` pages are told the systems of the library, to choose another script from.
+    /// `offers_library`, pages receive the systems of the library, so that a user can pick one.
     static Accepted<std::unique_ptr<PageServer>> start(Script script,
                                                        const SimulationOptions& options,
                                                        RunControl& control, PageFiles files,

@@ -67,8 +67,8 @@ public:
           is_exact_(is_exact) {}
     virtual ~Cells() = default;
 
-    /// Computes what is computed for a group of so many vectors before all other values: Laplacians
-    /// and sums over links.
+    /// Begins a group of this number of vectors. Emits its Laplacians and sums over links, which
+    /// are computed before all other values.
     virtual void begin_group(int vectors) = 0;
     /// The following is about a vector of the group, by its number.
     void begin_vector(int number) { vector_ = number; }

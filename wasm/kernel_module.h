@@ -1,5 +1,5 @@
 // Cell kernels as WebAssembly modules: a browser compiles them in milliseconds, and they share the
-// memory of whoever calls them. Uses SIMD of 128 bits and no other extension, least of all relaxed
+// memory of their caller. Uses SIMD of 128 bits and no other extension, least of all relaxed
 // SIMD, whose results depend on the machine.
 //
 // The only header of this room that others include.

@@ -1,4 +1,4 @@
-// What is typed again takes the place of what it was before.
+// Adds blocks to a script; a block replaces the one of the same name.
 #pragma once
 
 #include <string>

@@ -220,7 +220,7 @@ function show_state(snapshot: Snapshot) {
     else if (is_over && snapshot.remarks.length > 0) notice(snapshot.remarks.at(-1)!);
 }
 
-/// Rows of time are equally many steps apart, so many that a stage fills the picture.
+/// Rows of time are the same number of steps apart, chosen so that a stage fills the picture.
 function keep_pace(snapshot: Snapshot) {
     is_pacing &&= snapshot.rows === 1 && !snapshot.failure && !snapshot.stages.every((stage) => stage.has_ended);
     const moment = `${snapshot.stage} ${snapshot.steps}`;

@@ -37,7 +37,7 @@ export class PlaneView {
         this.shift(0, 0);
     }
 
-    /// About a point of the window; without it about the middle of what is seen.
+    /// Scales about a point of the window, or about the middle of the visible part.
     scale(factor: number, x?: number, y?: number) {
         const frame = this.canvas.parentElement!.getBoundingClientRect(), box = this.canvas.getBoundingClientRect();
         const most = Math.max(1, largest_cell * this.canvas.width / this.canvas.offsetWidth);

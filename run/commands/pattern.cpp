@@ -3,8 +3,6 @@
 #include "cascade/cascade.h"
 
 #include "core/version.h"
-#include "lang/check/check.h"
-#include "lang/syntax/parse.h"
 #include "run/session/live_run.h"
 
 #include <fmt/format.h>
@@ -210,19 +208,10 @@ const Formula* Pattern::Implementation::formula(const std::string& text) {
     // The same text in another stage is another expression.
     const std::string key = current().name + ":" + text;
     if (const auto known = formulas.find(key); known != formulas.end()) return &known->second;
-    Script& script = run->script();
-    const SourceId source = script.sources.add("<values>", text);
     Diagnostics errors;
-    std::optional<Formula> checked;
-    if (const auto expression = parse_expression(source, script.sources, script.tree, errors)) {
-        checked = check_view(script.tree, *expression, stage(), stage(), *script.program,
-                             script.sources, errors);
-    }
-    if (checked && checked->nodes.back().type != ValueType::number) {
-        errors.error(checked->nodes.back().span, "this is not a number");
-    }
-    if (!checked || errors.has_errors()) {
-        error = render(errors, script.sources, {});
+    auto checked = run->number("<values>", text, errors);
+    if (!checked) {
+        error = render(errors, run->script().sources, {});
         return nullptr;
     }
     return &formulas.emplace(key, std::move(*checked)).first->second;

@@ -12,23 +12,13 @@ namespace cascade {
 namespace {
 
 std::size_t bytes_of_field(const Field& field) {
-    return field.visit([](const auto& plane) {
-        return static_cast<std::size_t>(plane.layout().row_count() * plane.layout().stride) *
-               sizeof(plane.origin()[0]);
-    });
+    return static_cast<std::size_t>(field.layout().size()) * bytes_of(field.precision());
 }
 
 std::vector<Field> copies(std::span<const Field> fields) {
     std::vector<Field> result;
     for (const Field& field : fields) result.push_back(field.clone());
     return result;
-}
-
-std::optional<ItemId> find_item(const System& system, std::string_view name) {
-    for (const ItemId item : system.items()) {
-        if (system.item_name(item) == name) return item;
-    }
-    return std::nullopt;
 }
 
 /// The kept stage that stage `k` of a program goes on from; null if there is none.
@@ -72,6 +62,13 @@ bool is_same(const std::optional<DirectionSettings>& first,
 
 }  // namespace
 
+std::optional<ItemId> find_item(const System& system, std::string_view name) {
+    for (const ItemId item : system.items()) {
+        if (system.item_name(item) == name) return item;
+    }
+    return std::nullopt;
+}
+
 std::size_t KeptState::bytes() const {
     std::size_t bytes = 0;
     for (const KeptStage& stage : stages) {
@@ -112,17 +109,17 @@ KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& pa
 }
 
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState& state,
-                                        Continuation how) {
+                                        Continuation how, std::size_t count) {
     const Program& program = simulation.program();
     std::vector<PaintedNames> painted;
-    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+    for (std::uint32_t k = 0; k < std::min(count, program.stages.size()); ++k) {
         const KeptStage* const kept = counterpart(program, k, state);
         if (kept == nullptr) break;
         if (auto started = simulation.start_stage(k); !started) {
             return tl::unexpected(started.error());
         }
         const System& system = program.system_of(k);
-        const bool is_current = state.is_running && k + 1 == state.stages.size();
+        const bool is_current = k + 1 == state.stages.size();
         const bool is_same_run = how == Continuation::same;
         const bool is_anew = !is_same_run && is_current && kept->moment.steps == 0;
         StageMoment moment;

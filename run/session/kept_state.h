@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
@@ -27,9 +29,7 @@ struct KeptStage {
 };
 
 struct KeptState {
-    std::vector<KeptStage> stages;
-    /// Is the last of them the stage in which steps are taken now? Otherwise all have ended.
-    bool is_running = true;
+    std::vector<KeptStage> stages;  ///< The last one is that in which steps are taken.
 
     std::size_t bytes() const;
 };
@@ -47,10 +47,13 @@ enum class Continuation {
 /// `state`: that of the same name, or at the same place where it was given another name. Parameters
 /// are computed anew but where they were painted; species take the values of those of the same
 /// name, the others those of their start. The current stage is started anew where it has taken no
-/// step, but for what was painted. Returns what is painted, for each stage that was started. Fails
-/// if a stage cannot be started.
+/// step, but for what was painted. At most `count` stages are started. Returns what is painted, for
+/// each stage that was started. Fails if a stage cannot be started.
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState& state,
-                                        Continuation how);
+                                        Continuation how, std::size_t count = SIZE_MAX);
+
+/// The item of a system with this name.
+std::optional<ItemId> find_item(const System& system, std::string_view name);
 
 /// Can a run of `after` go on from the values of a run of `before`? Their cells must be the same:
 /// the grid, the mask, the model, and the precision and seed of the run.

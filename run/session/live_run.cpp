@@ -100,13 +100,10 @@ Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunContr
     return std::move(*made);
 }
 
-Accepted<void> LiveRun::start_over(Script script, RunControl& control) {
-    return adopt(std::move(script), {}, Continuation::changed, control);
-}
-
-/// Goes on with another script from these values; without any, from its start.
+/// Goes on with another script from the values of at most `stages` stages, or from its start if
+/// there are none.
 Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuation how,
-                              RunControl& control) {
+                              RunControl& control, std::size_t stages) {
     if (!changed.program) return refuse(std::move(changed));
     if (changed.program->stages.empty()) {
         return refuse("this script has no stage to run", example_of_stage(*changed.program));
@@ -114,7 +111,7 @@ Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuat
     auto script = std::make_unique<Script>(std::move(changed));
     auto simulation = simulate(*script, control);
     if (!simulation) return tl::unexpected(std::move(simulation.error()));
-    auto painted = go_on(**simulation, values, how);
+    auto painted = go_on(**simulation, values, how, stages);
     if (painted && painted->empty()) {
         if (auto started = (*simulation)->start_stage(0); !started) {
             painted = tl::unexpected(started.error());
@@ -150,9 +147,8 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const Simulatio
                                                   RunControl& control) {
     auto run = made(script, options);
     if (!run) return run;
-    if (auto started = (*run)->start_over(std::move(script), control); !started) {
-        return tl::unexpected(std::move(started.error()));
-    }
+    auto started = (*run)->adopt(std::move(script), {}, Continuation::changed, control);
+    if (!started) return tl::unexpected(std::move(started.error()));
     return run;
 }
 
@@ -180,7 +176,11 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::play(const SessionLog& log,
     Accepted<void> done;
     for (const auto& logged : log.changes) {
         done = (*run)->run_to(logged->at, control);
-        if (done) done = (*run)->make(logged->change, (*run)->values(), control);
+        const bool needs_values = is_of_script(logged->change);
+        if (done) {
+            done = (*run)->make(logged->change, needs_values ? (*run)->values() : KeptState(),
+                                control);
+        }
         if (!done) return tl::unexpected(std::move(done.error()));
     }
     done = (*run)->run_to(log.end, control);
@@ -275,10 +275,7 @@ Accepted<void> LiveRun::make(const SetNumber& change, const KeptState& values,
 Accepted<void> LiveRun::make(const Paint& change) {
     const Program& program = *script_->program;
     const System& system = program.system_of(stage_);
-    std::optional<ItemId> item;
-    for (const ItemId each : system.items()) {
-        if (system.item_name(each) == change.item) item = each;
-    }
+    const std::optional<ItemId> item = find_item(system, change.item);
     const Stage& stage = program.stages[stage_];
     if (!item || *item == system.speed_item()) {
         return refuse(fmt::format("stage '{}' has nothing called '{}' that can be painted",
@@ -291,16 +288,8 @@ Accepted<void> LiveRun::make(const Paint& change) {
                                   change.item));
     }
     Diagnostics errors;
-    const SourceId source = script_->sources.add("<paint>", change.expression);
-    std::optional<Formula> formula;
-    if (const auto parsed = parse_expression(source, script_->sources, script_->tree, errors)) {
-        formula =
-            check_view(script_->tree, *parsed, stage_, stage_, program, script_->sources, errors);
-    }
-    if (formula && formula->nodes.back().type != ValueType::number) {
-        errors.error(formula->nodes.back().span, "this is not a number");
-    }
-    if (!formula || errors.has_errors()) {
+    const std::optional<Formula> formula = number("<paint>", change.expression, errors);
+    if (!formula) {
         Refusal refused;
         refused.diagnostics = std::move(errors);
         refused.sources = script_->sources;
@@ -314,6 +303,19 @@ Accepted<void> LiveRun::make(const Paint& change) {
     simulation_->set_field(stage_, *item, std::move(values));
     painted_[stage_].insert(change.item);
     return {};
+}
+
+std::optional<Formula> LiveRun::number(const std::string& name, const std::string& expression,
+                                       Diagnostics& errors) {
+    const SourceId source = script_->sources.add(name, expression);
+    const auto parsed = parse_expression(source, script_->sources, script_->tree, errors);
+    if (!parsed) return std::nullopt;
+    auto formula = check_view(script_->tree, *parsed, stage_, stage_, *script_->program,
+                              script_->sources, errors);
+    if (formula && formula->nodes.back().type != ValueType::number) {
+        errors.error(formula->nodes.back().span, "this is not a number");
+    }
+    return errors.has_errors() ? std::nullopt : formula;
 }
 
 Accepted<void> LiveRun::make(const NextStage&) {
@@ -382,13 +384,9 @@ Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
         return {};
     }
     Moment before = present();
-    KeptState kept = values();
-    kept.stages.resize(stage);
-    kept.is_running = false;
     Script script = load_script(script_->name, script_->text, script_->folder, script_->overrides);
-    if (auto adopted = adopt(std::move(script), kept, Continuation::changed, control); !adopted) {
-        return adopted;
-    }
+    auto adopted = adopt(std::move(script), *before.values, Continuation::changed, control, stage);
+    if (!adopted) return adopted;
     if (stage > 0) {
         if (auto started = start_stage(stage); !started) {
             // The values of the stage before are as they were.
@@ -428,20 +426,21 @@ Accepted<void> LiveRun::return_to(Moment& moment, RunControl& control) {
 
 Accepted<void> LiveRun::undo(RunControl& control) {
     if (past_.empty()) return refuse("nothing is left to undo");
-    Moment now = present();
-    if (auto back = return_to(past_.back(), control); !back) return back;
-    past_.pop_back();
-    future_.push_back(std::move(now));
-    forget_old_values();
-    return {};
+    return step_through(past_, future_, control);
 }
 
 Accepted<void> LiveRun::redo(RunControl& control) {
     if (future_.empty()) return refuse("nothing was undone");
+    return step_through(future_, past_, control);
+}
+
+/// Takes the last moment of `from`, and keeps the present one in `to`.
+Accepted<void> LiveRun::step_through(std::vector<Moment>& from, std::vector<Moment>& to,
+                                     RunControl& control) {
     Moment now = present();
-    if (auto forward = return_to(future_.back(), control); !forward) return forward;
-    future_.pop_back();
-    past_.push_back(std::move(now));
+    if (auto there = return_to(from.back(), control); !there) return there;
+    from.pop_back();
+    to.push_back(std::move(now));
     forget_old_values();
     return {};
 }

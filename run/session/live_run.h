@@ -71,9 +71,9 @@ public:
     /// Has every stage ended?
     bool is_over() const;
 
-    /// Takes up to `count` steps, from stage to stage. `stopped`: so many were taken; `finished`:
-    /// the last stage has ended. If values are not finite it fails, and the run is back at the last
-    /// step at which they were.
+    /// Takes up to `count` steps, from stage to stage. `stopped`: all of them were taken;
+    /// `finished`: the last stage has ended. If values are not finite it fails, and the run is back
+    /// at the last step at which they were.
     Result<StageEnd> advance(std::int64_t count, RunControl& control,
                              const Watching& watching = {});
 
@@ -85,6 +85,11 @@ public:
     /// `joins_last`, undo() takes it back together with the change before, as the parts of one
     /// stroke or of one move of a slider. A change of the domain's cells begins the run anew.
     Accepted<void> apply(const Change& change, RunControl& control, bool joins_last = false);
+
+    /// The checked expression of a number over the state of the current stage; null, with errors,
+    /// if it is wrong. `name` stands for its text in messages.
+    std::optional<Formula> number(const std::string& name, const std::string& expression,
+                                  Diagnostics& errors);
 
     /// Goes to the start of a stage: back, where texts and numbers stay as they are and strokes
     /// made since are taken back, or on, where the stages before it end as they are.
@@ -117,9 +122,8 @@ private:
                                                    const SimulationOptions& options);
     const StageState& state() const { return simulation_->state(stage_); }
     Accepted<std::unique_ptr<Simulation>> simulate(Script& script, RunControl& control) const;
-    Accepted<void> start_over(Script script, RunControl& control);
     Accepted<void> adopt(Script script, const KeptState& values, Continuation how,
-                         RunControl& control);
+                         RunControl& control, std::size_t stages = SIZE_MAX);
     Accepted<void> make(const Change& change, const KeptState& values, RunControl& control);
     Accepted<void> make(const SetText& change, const KeptState& values, RunControl& control);
     Accepted<void> make(const SetNumber& change, const KeptState& values, RunControl& control);
@@ -128,6 +132,8 @@ private:
     Accepted<void> start_stage(std::uint32_t stage);
     Accepted<void> run_to(RunPlace place, RunControl& control);
     Accepted<void> return_to(Moment& moment, RunControl& control);
+    Accepted<void> step_through(std::vector<Moment>& from, std::vector<Moment>& to,
+                                RunControl& control);
     KeptState values() const { return keep(*simulation_, painted_); }
     Moment present() const;
     void remember(Moment moment);

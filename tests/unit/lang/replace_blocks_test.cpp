@@ -1,4 +1,4 @@
-// What is typed again at the prompt takes the place of what it was before.
+// Blocks that are added to a script replace those of the same name.
 #include "lang/syntax/replace_blocks.h"
 
 #include <gtest/gtest.h>

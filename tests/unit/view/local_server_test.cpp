@@ -27,7 +27,7 @@ public:
         all_.push_back(std::move(event));
         came_.notify_all();
     }
-    /// Waits until there are so many.
+    /// Waits until there are this many.
     std::vector<std::string> wait_for(std::size_t count) {
         std::unique_lock lock(mutex_);
         came_.wait_for(lock, 20s, [&] { return all_.size() >= count; });

@@ -75,7 +75,7 @@ public:
         return all;
     }
 
-    /// Exactly so many bytes; fewer if the other side closes first.
+    /// Exactly this number of bytes; fewer if the other side closes first.
     std::string read(std::size_t count) {
         while (rest_.size() < count && read_some(rest_)) {
         }
