@@ -1,0 +1,179 @@
+// What a session does in a turn, and how long a turn is.
+#include "run/session/turns.h"
+
+#include "run/stage/stage_time.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+/// Steps are taken for about this long before the queue is looked at.
+constexpr double turn_seconds = 0.015;
+/// Fewer steps than this leave too little for several steps a pass through memory, so a turn takes
+/// at least these where that is not longer than
+constexpr std::int64_t least_steps = 32;
+constexpr double longest_turn_seconds = 0.2;
+/// Steps in which nothing happens take no time.
+constexpr double most_steps_of_turn = 1e9;
+/// Snapshots are at least this far apart, and take at most this part of the time.
+constexpr double snapshot_seconds = 1.0 / 60;
+constexpr double part_of_snapshots = 0.02;
+constexpr std::size_t most_remarks = 20;
+
+double seconds_since(std::chrono::steady_clock::time_point moment) {
+    return Seconds(std::chrono::steady_clock::now() - moment).count();
+}
+
+}  // namespace
+
+Turns::Turns(std::unique_ptr<LiveRun> run) : run_(std::move(run)) { control_.checks_later = true; }
+
+Accepted<void> Turns::obey(const SessionCommand& command) {
+    const Script* const script = &run_->script();
+    // Not while steps are taken: a stage that looks for what to warn of keeps nothing between
+    // turns.
+    control_.warn = [this](const std::string& words) { remark(words); };
+    Accepted<void> result = carry_out(command);
+    control_.warn = {};
+    if (&run_->script() != script) ++script_number_;
+    if (result) failure_.clear();
+    has_changed_ = true;
+    return result;
+}
+
+Accepted<void> Turns::carry_out(const SessionCommand& command) {
+    if (const auto* make = std::get_if<MakeChange>(&command)) {
+        return run_->apply(make->change, control_, make->joins_last);
+    }
+    if (const auto* go = std::get_if<GoToStage>(&command)) return run_->go_to(go->stage, control_);
+    if (std::holds_alternative<Undo>(command)) {
+        // What was undone should be looked at before it changes again.
+        is_going_on_ = false;
+        return run_->undo(control_);
+    }
+    if (std::holds_alternative<Redo>(command)) {
+        is_going_on_ = false;
+        return run_->redo(control_);
+    }
+    if (const auto* show = std::get_if<Show>(&command)) {
+        auto made = make_painter(show->expression);
+        if (!made) return tl::unexpected(std::move(made.error()));
+        shown_ = show->expression;
+        painter_ = std::move(*made);
+        painted_script_ = &run_->script();
+        return {};
+    }
+    const auto* steps = std::get_if<TakeSteps>(&command);
+    is_going_on_ = !std::holds_alternative<Pause>(command) && !run_->is_over();
+    steps_left_.reset();
+    if (steps != nullptr) steps_left_ = std::max<std::int64_t>(steps->count, 0);
+    return {};
+}
+
+std::int64_t Turns::steps_of_turn() const {
+    const double usual = std::min(turn_seconds * steps_per_second_, most_steps_of_turn);
+    const double longest = longest_turn_seconds * steps_per_second_;
+    const double least = std::min(static_cast<double>(least_steps), longest);
+    const auto steps = static_cast<std::int64_t>(std::max({usual, least, 1.0}));
+    return steps_left_ ? std::min(steps, *steps_left_) : steps;
+}
+
+void Turns::take() {
+    const Clock::time_point begun = Clock::now();
+    const RunPlace before = run_->place();
+    Watching watching;
+    watching.stage_ended = [this](std::uint32_t stage) {
+        if (const auto words = run_->simulation().remark_on(stage); !words.empty()) remark(words);
+    };
+    const std::int64_t asked = steps_of_turn();
+    const auto end = run_->advance(asked, control_, watching);
+    const RunPlace after = run_->place();
+    const std::int64_t taken = after.stage == before.stage ? after.steps - before.steps : asked;
+    if (steps_left_) *steps_left_ -= taken;
+    const double seconds = std::max(seconds_since(begun), 1e-6);
+    const double rate = static_cast<double>(taken) / seconds;
+    steps_per_second_ = steps_per_second_ == 0 || after.stage != before.stage
+                            ? rate
+                            : 0.7 * steps_per_second_ + 0.3 * rate;
+    has_changed_ = true;
+    if (!end) {
+        failure_ = end.error().message;
+        if (!end.error().hint.empty()) failure_ += " (" + end.error().hint + ")";
+    }
+    is_going_on_ = end && *end == StageEnd::stopped && steps_left_ != 0;
+}
+
+void Turns::remark(const std::string& words) {
+    if (remarks_.size() == most_remarks) remarks_.erase(remarks_.begin());
+    remarks_.push_back(words);
+}
+
+bool Turns::is_snapshot_due() const {
+    const double patience = std::max(snapshot_seconds, snapshot_cost_ / part_of_snapshots);
+    return !is_going_on_ || seconds_since(shown_at_) >= patience;
+}
+
+Accepted<Painter> Turns::make_painter(const std::string& expression) {
+    Script& script = run_->script();
+    PictureRequest request;
+    request.show = expression;
+    // The warnings of the script stay as they are.
+    Diagnostics warnings = std::exchange(script.diagnostics, {});
+    auto made = Painter::create(script, request);
+    Diagnostics errors = std::exchange(script.diagnostics, std::move(warnings));
+    if (made) return std::move(*made);
+    Refusal refused;
+    if (!errors.has_errors()) refused.failure = made.error();
+    refused.diagnostics = std::move(errors);
+    refused.sources = script.sources;
+    return tl::unexpected(std::move(refused));
+}
+
+Canvas Turns::canvas() {
+    if (painted_script_ != &run_->script()) {
+        auto made = make_painter(shown_);
+        // The expression may have lost its meaning with the old script.
+        if (!made) made = make_painter("");
+        painter_ = std::move(*made);
+        painted_script_ = &run_->script();
+    }
+    return painter_->canvas(run_->simulation());
+}
+
+std::shared_ptr<const Snapshot> Turns::snapshot() {
+    const Clock::time_point begun = Clock::now();
+    auto made = std::make_shared<Snapshot>();
+    made->number = ++snapshots_;
+    made->script = script_number_;
+    made->is_going_on = is_going_on_;
+    made->place = run_->place();
+    const Program& program = *run_->script().program;
+    for (std::uint32_t k = 0; k < run_->script().stage_count(); ++k) {
+        const Stage& stage = program.stages[k];
+        const StageState& state = run_->simulation().state(k);
+        StageProgress progress{stage.name, state.steps,   stage.iterations, state.t,
+                               0,          state.started, state.done};
+        if (state.started && stage.time.has_duration()) {
+            progress.duration = duration_of(stage, program.system_of(k), state);
+        }
+        made->stages.push_back(std::move(progress));
+    }
+    made->steps_per_second = steps_per_second_;
+    made->can_undo = run_->can_undo();
+    made->can_redo = run_->can_redo();
+    made->failure = failure_;
+    made->remarks = remarks_;
+    made->fields = std::move(canvas().fields);
+    made->model = run_->simulation().model();
+    has_changed_ = false;
+    shown_at_ = Clock::now();
+    snapshot_cost_ = seconds_since(begun);
+    return made;
+}
+
+}  // namespace cascade
