@@ -63,5 +63,13 @@ stage grow: front { iterations: 630 }
 picture { color: palette(u, 0, 1, "leopard") }
 SCRIPT
 "$CASCADE" run line.cascade --space-time -o line.png --quiet || fail "the picture of a row was not drawn"
+cat >volume.cascade <<'SCRIPT'
+domain { grid: 20, 16, 12; boundary: noflux }
+system heat { u: disc(0.3, 0.4, 0.25, 0.2) + 0.3 * x; u' = 0.1 * lap(u) }
+stage grow: heat { iterations: 10 }
+SCRIPT
+for slice in z=0.5 y=0.53 x=0.025; do
+    "$CASCADE" run volume.cascade --palette leopard --slice $slice -o "${slice%=*}.png" --quiet || fail "the slice was not drawn"
+done
 rm -rf profile
 node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"

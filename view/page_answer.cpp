@@ -118,22 +118,28 @@ Json print_header(const Snapshot& snapshot) {
     const PlaneLayout& layout = snapshot.fields[0].layout();
     const ValueRange range =
         snapshot.fields.size() == 1 ? automatic_range(spread_of(snapshot.fields[0])) : ValueRange();
-    return {{"number", snapshot.number},
-            {"script", snapshot.script},
-            {"is_going_on", snapshot.is_going_on},
-            {"stage", snapshot.place.stage + 1},
-            {"steps", snapshot.place.steps},
-            {"stages", std::move(stages)},
-            {"steps_per_second", snapshot.steps_per_second},
-            {"can_undo", snapshot.can_undo},
-            {"can_redo", snapshot.can_redo},
-            {"failure", snapshot.failure},
-            {"remarks", snapshot.remarks},
-            {"columns", layout.width},
-            {"rows", layout.row_count()},
-            {"fields", snapshot.fields.size()},
-            {"low", range.low},
-            {"high", range.high}};
+    Json header = {{"number", snapshot.number},
+                   {"script", snapshot.script},
+                   {"is_going_on", snapshot.is_going_on},
+                   {"stage", snapshot.place.stage + 1},
+                   {"steps", snapshot.place.steps},
+                   {"stages", std::move(stages)},
+                   {"steps_per_second", snapshot.steps_per_second},
+                   {"can_undo", snapshot.can_undo},
+                   {"can_redo", snapshot.can_redo},
+                   {"failure", snapshot.failure},
+                   {"remarks", snapshot.remarks},
+                   {"columns", layout.width},
+                   {"rows", layout.row_count()},
+                   {"fields", snapshot.fields.size()},
+                   {"low", range.low},
+                   {"high", range.high}};
+    if (const Grid& grid = snapshot.grid; grid.depth > 1) {
+        header["slice"] = {{"axis", name_of(snapshot.slice.axis)},
+                           {"number", slice_number(PlaneLayout(grid), snapshot.slice)},
+                           {"sides", {grid.width, grid.height, grid.depth}}};
+    }
+    return header;
 }
 
 }  // namespace

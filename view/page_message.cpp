@@ -42,6 +42,23 @@ public:
         return low;
     }
 
+    /// From 0 to 1.
+    double part(const char* name) {
+        const Json* const field = find(name);
+        if (field != nullptr && field->is_number()) {
+            const auto number = field->get<double>();
+            if (0 <= number && number <= 1) return number;
+        }
+        complain(name, "a number from 0 to 1");
+        return 0;
+    }
+
+    Axis axis(const char* name) {
+        const auto axis = axis_of_name(text(name));
+        if (!axis) complain(name, "x, y or z");
+        return axis.value_or(Axis::z);
+    }
+
     /// False if there is none.
     bool flag(const char* name) {
         const Json* const field = find(name);
@@ -74,7 +91,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 14> verbs{{
+constexpr std::array<Verb, 15> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -104,6 +121,11 @@ constexpr std::array<Verb, 14> verbs{{
     {"show",
      [](FieldReader& fields) -> PageRequest {
          return SessionCommand(Show{fields.text("expression")});
+     }},
+    {"slice",
+     [](FieldReader& fields) -> PageRequest {
+         const Axis axis = fields.axis("axis");
+         return SessionCommand(ShowSlice{{axis, fields.part("place")}});
      }},
     {"next_snapshot", [](FieldReader&) -> PageRequest { return NextSnapshot{}; }},
     {"log", [](FieldReader&) -> PageRequest { return AskForLog{}; }},

@@ -11,6 +11,7 @@ export interface Snapshot {
     number: number; script: number; is_going_on: boolean; stage: number; steps: number; stages: Stage[];
     steps_per_second: number; can_undo: boolean; can_redo: boolean; failure: string; remarks: string[];
     columns: number; rows: number; low: number; high: number; planes: Float32Array[];
+    slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };  ///< Of a volume.
 }
 
 export interface Listener {

@@ -4,7 +4,8 @@ import { Editor } from "./editor";
 import { Library } from "./library";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
-import { rows_of_time } from "./time_rows";
+import { Slices } from "./slices";
+import { is_row, rows_of_time } from "./time_rows";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
@@ -58,12 +59,15 @@ const connection = new Connection({
             is_drawing = false;
             pattern.draw();
             keep_pace(pattern.snapshot!);
+            slices.show(pattern.snapshot!);
             show_state(pattern.snapshot!);
             connection.next_snapshot();
         });
     },
     lost: (reason) => notice(reason, true),
 });
+
+const slices = new Slices((fields) => ask("slice", fields));
 
 const library = new Library(async (text) => {
     is_text_open = false;
@@ -222,7 +226,7 @@ function show_state(snapshot: Snapshot) {
 
 /// Rows of time are the same number of steps apart, chosen so that a stage fills the picture.
 function keep_pace(snapshot: Snapshot) {
-    is_pacing &&= snapshot.rows === 1 && !snapshot.failure && !snapshot.stages.every((stage) => stage.has_ended);
+    is_pacing &&= is_row(snapshot) && !snapshot.failure && !snapshot.stages.every((stage) => stage.has_ended);
     const moment = `${snapshot.stage} ${snapshot.steps}`;
     if (!is_pacing || snapshot.is_going_on || moment === paced) return;
     paced = moment;
@@ -241,7 +245,7 @@ const actions: Record<string, () => void> = {
         const { snapshot } = pattern;
         if (!snapshot) return;
         const was_going_on = snapshot.is_going_on || is_pacing;
-        is_pacing = !was_going_on && snapshot.rows === 1;
+        is_pacing = !was_going_on && is_row(snapshot);
         paced = "";
         if (is_pacing) keep_pace(snapshot);
         else void ask(was_going_on ? "pause" : "run");
@@ -255,6 +259,8 @@ const actions: Record<string, () => void> = {
     fit: () => view.fit(),
     nearer: () => view.scale(1.5),
     farther: () => view.scale(1 / 1.5),
+    slice_before: () => slices.move(-1),
+    slice_after: () => slices.move(1),
     log: async () => {
         const { text } = await ask("log");
         if (text === undefined) return;
@@ -271,7 +277,7 @@ document.addEventListener("keydown", (event) => {
     if (at.closest("dialog")) return;
     if (at.id === "editor" || at.matches("select, #amount, #show")) return;
     const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
-    const act = { " ": "run", ".": "step", "n": "next", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
+    const act = { " ": "run", ".": "step", "n": "next", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "PageUp": "slice_before", "PageDown": "slice_after", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
     if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
     event.preventDefault();
     actions[act]();
@@ -292,12 +298,13 @@ shown.addEventListener("change", async () => {
 // A stroke: discs of the given value, else of the highest one, or with Shift of the lowest.
 let stroke = Promise.resolve();
 async function paint(event: PointerEvent, is_first: boolean) {
-    if (!brush_choice.value) return;
-    const [x, y] = pattern.place(event).map((part) => part.toFixed(6));
+    const place = pattern.place(event);
+    if (!brush_choice.value || !place) return;
+    const at = [place.x, place.y, ...(place.z === undefined ? [] : [place.z])].map((part) => part.toFixed(6)).join(", ");
     // As large on the screen at every zoom, but never so small that it misses all cells.
-    const radius = Math.max(0.03 / view.zoom, 0.71 / pattern.longest).toFixed(6);
+    const radius = Math.max(0.03 / view.zoom, (place.z === undefined ? 0.71 : 0.87) / pattern.longest).toFixed(6);
     const item = brush_choice.value, given = element<HTMLInputElement>("amount").value;
     const value = given || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
-    await ask("paint", { item, expression: `if(disc(${x}, ${y}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });
+    await ask("paint", { item, expression: `if(disc(${at}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });
 }
 const view = new PlaneView(pattern.canvas, (event, is_first) => (stroke = stroke.then(() => paint(event, is_first))));

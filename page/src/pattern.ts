@@ -1,6 +1,6 @@
 // The pattern on a canvas of one pixel a cell: by WebGL2, or by the processor where that is missing.
 import type { Palette, Snapshot } from "./connection";
-import { TimeRows } from "./time_rows";
+import { TimeRows, is_row } from "./time_rows";
 
 const vertex = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }`;
@@ -24,6 +24,10 @@ void main() {
   int left = min(int(place), last - 1);
   colour = vec4(mix(stops[left], stops[left + 1], place - float(left)), 1);
 }`;
+
+/// Where a pointer is: coordinates as scripts have them, z in a volume, and the index of the cell in the planes of
+/// snapshots.
+export interface Place { x: number; y: number; z?: number; cell: number }
 
 interface Drawer { draw(snapshot: Snapshot, palette: Palette): void }
 
@@ -107,7 +111,7 @@ export class Pattern {
     draw() {
         const { canvas, snapshot, palette } = this;
         if (!snapshot || !palette) return;
-        const shown = snapshot.rows === 1 ? this.time.with(snapshot) : snapshot;
+        const shown = is_row(snapshot) ? this.time.with(snapshot) : snapshot;
         if (canvas.width !== shown.columns || canvas.height !== shown.rows) {
             canvas.width = shown.columns;
             canvas.height = shown.rows;
@@ -120,12 +124,22 @@ export class Pattern {
     }
 
     /// The number of cells along the longest side of the grid.
-    get longest() { return Math.max(this.snapshot?.columns ?? 1, this.snapshot?.rows ?? 1); }
+    get longest() {
+        const { snapshot } = this;
+        return snapshot ? Math.max(...(snapshot.slice?.sides ?? [snapshot.columns, snapshot.rows])) : 1;
+    }
 
-    /// The coordinates x and y of a pointer: the longest side of the grid is 1.
-    place(event: PointerEvent): [number, number] {
-        const { canvas, longest } = this, box = canvas.getBoundingClientRect();
-        const x = (event.clientX - box.left) / box.width * canvas.width, y = (event.clientY - box.top) / box.height * canvas.height;
-        return [x / longest, (this.snapshot?.rows === 1 ? 0.5 : y) / longest];
+    /// Where a pointer is on the pattern; nothing beside it.
+    place(event: { clientX: number; clientY: number }): Place | undefined {
+        const { canvas, snapshot, longest } = this, box = canvas.getBoundingClientRect();
+        if (!snapshot) return undefined;
+        const { slice, columns } = snapshot;
+        const right = (event.clientX - box.left) / box.width * canvas.width, down = (event.clientY - box.top) / box.height * canvas.height;
+        if (!(right >= 0 && right < canvas.width && down >= 0 && down < canvas.height)) return undefined;
+        if (is_row(snapshot)) return { x: right / longest, y: 0.5 / longest, cell: Math.floor(right) };
+        const cell = Math.floor(down) * columns + Math.floor(right), across = slice ? slice.number + 0.5 : 0;
+        const [x, y, z] = !slice || slice.axis === "z" ? [right, down, across]
+            : slice.axis === "y" ? [right, across, down] : [across, down, right];
+        return { x: x / longest, y: y / longest, ...(slice && { z: z / longest }), cell };
     }
 }

@@ -4,6 +4,9 @@ import type { Snapshot } from "./connection";
 /// The rows of such a picture: as many as a row has cells, within bounds.
 export const rows_of_time = ({ columns }: Snapshot) => Math.min(Math.max(columns, 16), 512);
 
+/// Is it of a grid of one row?
+export const is_row = ({ rows, slice }: Snapshot) => rows === 1 && !slice;
+
 export class TimeRows {
     private seen: Snapshot[] = [];
 

@@ -46,6 +46,8 @@ public:
     const PictureRequest& request() const { return request_; }
     /// Sets the view of later pictures.
     void set_view(const View& view) { request_.view = view; }
+    /// Sets the slice of later canvases.
+    void set_slice(const Slice& slice) { request_.slice = slice; }
     /// The values of the last canvas at the cells of its model.
     ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 

@@ -68,6 +68,10 @@ Accepted<void> Turns::carry_out(const SessionCommand& command) {
         painted_script_ = &run_->script();
         return {};
     }
+    if (const auto* show = std::get_if<ShowSlice>(&command)) {
+        slice_ = show->slice;
+        return {};
+    }
     const auto* steps = std::get_if<TakeSteps>(&command);
     is_going_on_ = !std::holds_alternative<Pause>(command) && !run_->is_over();
     steps_left_.reset();
@@ -142,6 +146,7 @@ Canvas Turns::canvas() {
         painter_ = std::move(*made);
         painted_script_ = &run_->script();
     }
+    painter_->set_slice(slice_);
     return painter_->canvas(run_->simulation());
 }
 
@@ -169,6 +174,8 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     made->failure = failure_;
     made->remarks = remarks_;
     made->fields = std::move(canvas().fields);
+    made->grid = run_->simulation().grid();
+    made->slice = slice_;
     made->model = run_->simulation().model();
     has_changed_ = false;
     shown_at_ = Clock::now();

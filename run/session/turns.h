@@ -27,10 +27,12 @@ struct Pause {};
 struct TakeSteps { std::int64_t count = 1; };    ///< And pauses then.
 /// The expression that snapshots show; empty: what pictures of the script show.
 struct Show { std::string expression; };
+/// The slice of a volume that snapshots show.
+struct ShowSlice { Slice slice; };
 // clang-format on
 
 using SessionCommand =
-    std::variant<MakeChange, GoToStage, Undo, Redo, GoOn, Pause, TakeSteps, Show>;
+    std::variant<MakeChange, GoToStage, Undo, Redo, GoOn, Pause, TakeSteps, Show, ShowSlice>;
 
 /// How far a stage has come.
 struct StageProgress {
@@ -57,6 +59,8 @@ struct Snapshot {
     /// What is shown, in binary32: one field, or red, green and blue; a slice of a volume. Outside
     /// of a mask it is NaN. The cells of a model are in their rows (ModelCells::order).
     std::vector<Field> fields;
+    Grid grid;                                ///< Of the domain.
+    Slice slice;                              ///< The one that is shown of a volume.
     std::shared_ptr<const ModelCells> model;  ///< Null on grids.
 };
 
@@ -102,6 +106,7 @@ private:
     double steps_per_second_ = 0;
     std::uint64_t script_number_ = 1;
     std::string shown_;  ///< The expression that is asked for.
+    Slice slice_;
     std::optional<Painter> painter_;
     const Script* painted_script_ = nullptr;
     std::uint64_t snapshots_ = 0;

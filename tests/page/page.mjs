@@ -143,7 +143,7 @@ async function steer() {
         const after = await canvas(), cells = [];
         for (let k = 2; k < after.length; k += 4) {
             const cell = (k - 2) / 4;
-            if ([0, 1, 2].some((c) => Math.abs(before[k + c] - after[k + c]) > 8)) cells.push([cell % 48, Math.floor(cell / 48)].join());
+            if ([0, 1, 2].some((c) => Math.abs(before[k + c] - after[k + c]) > 8)) cells.push([cell % after[0], Math.floor(cell / after[0])].join());
         }
         return cells;
     };
@@ -241,6 +241,47 @@ async function steer() {
     writeFileSync("line_page.png", await browser.screenshot());
     await type_script(text);
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+
+    // A volume: every slice that is asked for, and a ball that is painted into one of them.
+    await type_script(readFileSync("volume.cascade", "utf8"));
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+    await until_steps("10");
+    await until_picture("the middle slice", "z");
+    const choose_slice = (axis, number) => browser.evaluate(`{
+        const [choice, place] = document.querySelectorAll("#slice select, #slice input");
+        if (choice.value !== "${axis}") { choice.value = "${axis}"; choice.dispatchEvent(new Event("change")); }
+        place.value = "${number}";
+        place.dispatchEvent(new Event("input"));
+    }`);
+    await choose_slice("x", 0);
+    await until_picture("a slice across x", "x");
+    await choose_slice("y", 8);
+    await until_picture("a slice across y", "y");
+    const place = `document.querySelector("#slice input").value`;
+    await browser.evaluate("document.activeElement.blur()");
+    await browser.press("PageDown");
+    await browser.until(`${place} === "9"`);
+    await browser.press("PageUp");
+    await browser.until(`${place} === "8"`);
+    await until_picture("the slice before the next one", "y");
+    writeFileSync("volume_page.png", await browser.screenshot());
+    before = await canvas();
+    const [slice_x, slice_y, slice_wide, slice_high] = await box_of_pattern();
+    const in_slice = [slice_x + 15.5 / 20 * slice_wide, slice_y + 9.5 / 12 * slice_high];
+    await browser.drag(...in_slice, ...in_slice);
+    const level = (image, column, row) => image.slice(2 + 4 * (row * image[0] + column), 5 + 4 * (row * image[0] + column)).join();
+    const highest = "247,228,187";  // Of this palette.
+    await until_changed((cells) => cells.includes("15,9"), "a ball");
+    expect(!(await changed_cells()).includes("12,9"), "the ball is too large");
+    await choose_slice("z", 9);
+    await browser.until(`document.getElementById("pattern").height === 16`);
+    expect(level(await canvas(), 15, 8) === highest, `the middle of the ball is ${level(await canvas(), 15, 8)}`);
+    await click("undo");
+    await type_script(text);
+    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+    expect(await browser.evaluate(`document.getElementById("slice").hidden`), "a plane has slices");
 
     // The same without WebGL, after a reload, for which the tab keeps the token.
     await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });

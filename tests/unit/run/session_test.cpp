@@ -125,6 +125,26 @@ TEST(SessionTest, ShowsWhatIsAskedFor) {
     snapshot_when(*session, [](const Snapshot& s) { return s.fields.size() == 1; });
 }
 
+TEST(SessionTest, ShowsTheSliceThatIsAskedFor) {
+    const auto session = begun(
+        "domain { grid: 6, 5, 4 }\nsystem s { u: x + 10 * y + 100 * z; u' = 0 }\n"
+        "stage s: s { iterations: 9 }\n");
+    const auto is_wide = [](std::int64_t width, std::int64_t height) {
+        return [=](const Snapshot& s) {
+            const PlaneLayout& layout = s.fields[0].layout();
+            return layout.width == width && layout.height == height && layout.depth == 1;
+        };
+    };
+    snapshot_when(*session, is_wide(6, 5));
+    EXPECT_EQ(done(*session, ShowSlice{{Axis::y, 0.7}}), "");
+    const auto snapshot = snapshot_when(*session, is_wide(6, 4));
+    EXPECT_EQ(snapshot->slice, (Slice{Axis::y, 0.7}));
+    EXPECT_EQ(snapshot->grid.depth, 4);
+    EXPECT_NEAR(snapshot->fields[0].number_at(2, 1), (2.5 + 35 + 150) / 6, 1e-4);
+    EXPECT_EQ(done(*session, ShowSlice{{Axis::x, 0}}), "");
+    snapshot_when(*session, is_wide(4, 5));
+}
+
 TEST(SessionTest, AFailureStopsItAtTheLastGoodStep) {
     const auto session = begun(
         "domain { grid: 8, 8 }\nsystem s { u: 1 + x; u' = u^2 }\nstage s: s { iterations: 999 }\n");

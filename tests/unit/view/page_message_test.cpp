@@ -42,6 +42,8 @@ TEST(PageMessage, Commands) {
     parse_command<Pause>(R"({"do": "pause"})");
     EXPECT_EQ(parse_command<TakeSteps>(R"({"do": "step", "count": 100})").count, 100);
     EXPECT_EQ(parse_command<Show>(R"({"do": "show", "expression": ""})").expression, "");
+    EXPECT_EQ(parse_command<ShowSlice>(R"({"do": "slice", "axis": "x", "place": 0.25})").slice,
+              (Slice{Axis::x, 0.25}));
     const auto next = parse_page_message(R"({"do": "next_snapshot", "id": 7})");
     ASSERT_TRUE(next.has_value());
     EXPECT_EQ(next->id, 7U);
@@ -77,6 +79,9 @@ TEST(PageMessage, SaysWhatIsWrong) {
               "'id' must be a whole number from 0 to 9007199254740992");
     EXPECT_EQ(fault(R"({"do": "next_stage", "joins_last": 1})"),
               "'joins_last' must be true or false");
+    EXPECT_EQ(fault(R"({"do": "slice", "axis": "w", "place": 0})"), "'axis' must be x, y or z");
+    EXPECT_EQ(fault(R"({"do": "slice", "axis": "z", "place": 1.5})"),
+              "'place' must be a number from 0 to 1");
     const std::string count = "'count' must be a whole number from 1 to 9007199254740992";
     for (const std::string_view number :
          {"0", "-1", "1.5", "1e3", "\"1\"", "null", "true", "9007199254740993",

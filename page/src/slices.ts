@@ -1,0 +1,57 @@
+// The slice of a volume that is shown: an axis, and a place along it.
+import type { Snapshot } from "./connection";
+
+const axes = ["x", "y", "z"];
+
+export class Slices {
+    private readonly box = document.getElementById("slice")!;
+    private readonly axis = this.box.querySelector("select")!;
+    private readonly number = this.box.querySelector("input")!;
+    private sides: number[] = [];
+    private wanted = "";  ///< What was asked for last.
+    private is_asking = false;
+
+    /// `ask` gets an axis and the part of the way along it, and answers when snapshots show that.
+    constructor(private readonly ask: (fields: { axis: string; place: number }) => Promise<unknown>) {
+        this.axis.addEventListener("change", () => {
+            this.number.max = String(this.count - 1);
+            this.number.valueAsNumber = Math.floor(this.count / 2);
+            void this.choose();
+        });
+        this.number.addEventListener("input", () => void this.choose());
+    }
+
+    /// Fits the controls to what is shown; those that are being used keep their values.
+    show({ slice }: Snapshot) {
+        this.box.hidden = !slice;
+        if (!slice) return;
+        this.sides = slice.sides;
+        if (this.is_asking) return;
+        this.axis.value = slice.axis;
+        this.number.max = String(this.count - 1);
+        this.number.value = String(slice.number);
+        this.number.title = `slice ${slice.number + 1} of ${this.count}`;
+    }
+
+    /// By so many slices.
+    move(count: number) {
+        if (this.box.hidden) return;
+        this.number.valueAsNumber += count;
+        void this.choose();
+    }
+
+    private get count() { return this.sides[axes.indexOf(this.axis.value)]; }
+
+    /// Asks for one slice after the other, and of those that are passed quickly only for the last.
+    private async choose() {
+        const fields = () => ({ axis: this.axis.value, place: (this.number.valueAsNumber + 0.5) / this.count });
+        this.wanted = JSON.stringify(fields());
+        if (this.is_asking) return;
+        this.is_asking = true;
+        for (let asked = ""; asked !== this.wanted;) {
+            asked = this.wanted;
+            await this.ask(JSON.parse(asked));
+        }
+        this.is_asking = false;
+    }
+}
