@@ -2,7 +2,7 @@
 #include "app/prompt_names.h"
 
 #include "app/prompt_text.h"
-#include "lang/check/check.h"
+#include "lang/check/known_names.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -40,21 +40,18 @@ std::vector<std::string> names_at_end(std::string_view line, const Program& prog
     const std::string_view command = before.substr(0, before.find(' '));
     const std::string_view typed = trim(before.substr(std::min(command.size(), before.size())));
     if (command == ":load" || command == ":save") return files_in(typed);
-    if (before.ends_with('.')) {
-        const std::string_view stage = last_word(before.substr(0, before.size() - 1));
-        for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-            if (program.stages[k].name == stage) return items_of(program, k);
-        }
-    }
     if (command == ":goto") return names_of_stages(program);
-    if ((command == ":set" || command == ":paint") && typed.empty()) {
+    const bool is_dotted = before.ends_with('.');
+    if ((command == ":set" || command == ":paint") && typed.empty() && !is_dotted) {
         std::vector<std::string> names = names_of_stages(program);
         for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
             for (std::string& name : items_of(program, k)) names.push_back(std::move(name));
         }
         return names;
     }
-    return known_names(program);
+    std::vector<std::string> names;
+    for (KnownName& known : completions(line, program)) names.push_back(std::move(known.name));
+    return names;
 }
 
 }  // namespace cascade

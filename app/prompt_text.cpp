@@ -1,6 +1,8 @@
 // Counts brackets and looks at the last character, outside of comments and strings; does not parse.
 #include "app/prompt_text.h"
 
+#include "lang/check/known_names.h"
+
 #include <algorithm>
 #include <array>
 
@@ -8,14 +10,9 @@ namespace cascade {
 
 namespace {
 
-bool is_word_character(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 bool ends_in_word(std::string_view text, std::string_view word) {
     if (!text.ends_with(word)) return false;
-    const std::string_view before = text.substr(0, text.size() - word.size());
-    return before.empty() || !is_word_character(before.back());
+    return last_word(text.substr(0, text.size() - word.size())).empty();
 }
 
 bool ends_in_operator(std::string_view text) {
@@ -75,12 +72,6 @@ bool is_complete(std::string_view text) {
 
 bool says_nothing(std::string_view line) {
     return trim(line.substr(0, comment_begin(line))).empty();
-}
-
-std::string_view last_word(std::string_view line) {
-    std::size_t begin = line.size();
-    while (begin > 0 && is_word_character(line[begin - 1])) --begin;
-    return line.substr(begin);
 }
 
 Completion complete_word(std::string_view line, std::vector<std::string> names) {

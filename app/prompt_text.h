@@ -25,9 +25,6 @@ struct Completion {
 /// follows if there is only one choice.
 Completion complete_word(std::string_view line, std::vector<std::string> names);
 
-/// The letters, digits and _ at the end of a line.
-std::string_view last_word(std::string_view line);
-
 /// `text` without white space at both ends.
 std::string_view trim(std::string_view text);
 

@@ -196,10 +196,6 @@ std::string print_failure(std::uint64_t id, const Failure& failure) {
                   {"messages", Json::array({print_failure(failure)})}});
 }
 
-std::string print_log(std::uint64_t id, const SessionLog& log) {
-    return print({{"kind", "log"}, {"id", id}, {"text", print_session_log(log)}});
-}
-
 SharedBytes print_snapshot(const Snapshot& snapshot) {
     std::string header = print(print_header(snapshot));
     header.resize((header.size() + 3) / 4 * 4, ' ');

@@ -28,9 +28,6 @@ std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::st
 /// The answer to a message that could not be read, or obeyed.
 std::string print_failure(std::uint64_t id, const Failure& failure);
 
-/// The answer to a request for the log.
-std::string print_log(std::uint64_t id, const SessionLog& log);
-
 /// A snapshot: the size of the header, as 4 bytes, least significant first; the header, JSON,
 /// filled with blanks to a multiple of 4 bytes; the shown fields, row after row, as binary32.
 SharedBytes print_snapshot(const Snapshot& snapshot);

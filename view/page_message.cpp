@@ -91,7 +91,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 15> verbs{{
+constexpr std::array<Verb, 17> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -128,7 +128,15 @@ constexpr std::array<Verb, 15> verbs{{
          return SessionCommand(ShowSlice{{axis, fields.part("place")}});
      }},
     {"next_snapshot", [](FieldReader&) -> PageRequest { return NextSnapshot{}; }},
-    {"log", [](FieldReader&) -> PageRequest { return AskForLog{}; }},
+    {"log", [](FieldReader&) -> PageRequest { return PageQuestion(AskForLog{}); }},
+    {"names",
+     [](FieldReader& fields) -> PageRequest {
+         return PageQuestion(AskForNames{fields.text("text")});
+     }},
+    {"explain",
+     [](FieldReader& fields) -> PageRequest {
+         return PageQuestion(AskAboutName{fields.text("text")});
+     }},
 }};
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "run/session/session.h"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -13,10 +14,15 @@ namespace cascade {
 
 /// The page has drawn what it has and takes the next snapshot.
 struct NextSnapshot {};
-/// The page asks for the log of the session.
+// clang-format off
+// What a page asks, without changing anything.
 struct AskForLog {};
+struct AskForNames { std::string text; };  ///< That may stand in place of its last word.
+struct AskAboutName { std::string text; };  ///< About its last word.
+// clang-format on
 
-using PageRequest = std::variant<SessionCommand, NextSnapshot, AskForLog>;
+using PageQuestion = std::variant<AskForLog, AskForNames, AskAboutName>;
+using PageRequest = std::variant<SessionCommand, NextSnapshot, PageQuestion>;
 
 struct PageMessage {
     std::uint64_t id = 0;  ///< Chosen by the page; the answer carries it. 0 if there was none.

@@ -4,6 +4,7 @@
 #include "view/page_answer.h"
 #include "run/session/session.h"
 #include "view/page_message.h"
+#include "view/page_reply.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -108,9 +109,10 @@ void PageServer::State::obey(PageId page, std::string_view text) {
         }
         return is_wanted.notify_all();
     }
-    if (std::holds_alternative<AskForLog>(message->request)) {
-        return session->ask(
-            [this, page, id](LiveRun& run) { server->send_text(page, print_log(id, run.log())); });
+    if (const auto* question = std::get_if<PageQuestion>(&message->request)) {
+        return session->ask([this, page, id, asked = *question](LiveRun& run) {
+            server->send_text(page, print_reply(id, asked, run));
+        });
     }
     auto command = std::get<SessionCommand>(std::move(message->request));
     std::string script;  // The text that messages are about.

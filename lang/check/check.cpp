@@ -9,12 +9,6 @@
 #include "lang/check/check_time.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"
-#include "lang/vocabulary/settings.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <set>
 
 namespace cascade {
 
@@ -123,29 +117,6 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script) {
         }
     }
     return std::nullopt;
-}
-
-std::vector<std::string> known_names(const Program& program) {
-    std::set<std::string> names(std::begin(keywords), std::end(keywords));
-    names.insert(builtin_names.begin(), builtin_names.end());
-    for (std::size_t i = 0; i < setting_count; ++i) {
-        const auto setting = static_cast<Setting>(i);
-        names.emplace(info(setting).word);
-        for (std::string& word : words_taken_by(setting)) names.insert(std::move(word));
-    }
-    for (std::string& solver : solver_names()) names.insert(std::move(solver));
-    for (std::size_t i = 0; i < function_count; ++i) {
-        const FunctionInfo& row = info(static_cast<Function>(i));
-        if (!row.is_operator && !row.is_aggregate) names.emplace(row.spelling);
-    }
-    for (const LibraryText& text : library_texts()) names.emplace(text.system_name());
-    for (const System& system : program.systems) {
-        names.insert(system.name);
-        for (const Quantity& quantity : system.quantities) names.insert(quantity.name);
-        for (const Definition& definition : system.definitions) names.insert(definition.name);
-    }
-    for (const Stage& stage : program.stages) names.insert(stage.name);
-    return {names.begin(), names.end()};
 }
 
 }  // namespace cascade

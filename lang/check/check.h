@@ -6,8 +6,6 @@
 #include "lang/syntax/ast.h"
 
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace cascade {
 
@@ -28,8 +26,5 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
 
 /// The value of `color:` in the script's picture block, if it has one.
 std::optional<ast::Expression> picture_expression(const ast::Script& script);
-
-/// All names that may start an expression or a statement, for completion.
-std::vector<std::string> known_names(const Program& program);
 
 }  // namespace cascade

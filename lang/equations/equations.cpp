@@ -6,6 +6,7 @@
 #include "lang/check/system_statements.h"
 #include "lang/equations/equation_formula.h"
 #include "lang/equations/equation_lines.h"
+#include "lang/equations/mathml.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +41,18 @@ public:
     std::string run(EquationParts parts) const {
         const bool all = parts == EquationParts::all;
         return symbols_.notation == Notation::tex ? run_tex(all) : run_unicode(all);
+    }
+
+    /// Of an equation in TeX.
+    std::string mathml(std::string_view name) const {
+        const std::string symbol = symbols_.name(name);
+        for (const auto* lines : {&rates_, &definitions_, &parameters_}) {
+            for (const Line& line : *lines) {
+                const bool is_wanted = line.left == symbol || line.left == rate_of(symbol);
+                if (is_wanted) return mathml(line);
+            }
+        }
+        return "";
     }
 
 private:
@@ -86,14 +99,17 @@ private:
             .push_back({symbol, "=", std::move(value)});
     }
 
+    std::string rate_of(const std::string& symbol) const {
+        return is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t";
+    }
+
     /// All terms of one rate become one sum, wherever they were written.
     void add_rate(const SaidStatement& said, const std::string& symbol) {
         const ast::Statement& statement = *said.statement;
         const auto& value = statement.values.front();
         const auto [place, is_new] = rate_lines_.try_emplace(symbol, rates_.size());
         if (is_new) {
-            rates_.push_back({is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t", "=",
-                              typeset_value(said, value)});
+            rates_.push_back({rate_of(symbol), "=", typeset_value(said, value)});
             return;
         }
         std::string& sum = rates_[place->second].right;
@@ -178,6 +194,16 @@ private:
         }
         text += fmt::format("\\end{{{}}}\n", environment);
     }
+    /// A row for each part of a sum that is too long for a line.
+    static std::string mathml(const Line& line) {
+        std::string rows, left = line.left + " " + line.relation;
+        for (const std::string& piece : broken_sum(line.right)) {
+            rows += fmt::format("<mtr><mtd>{}</mtd><mtd>{}</mtd></mtr>", mathml_of(left),
+                                mathml_of(piece));
+            left.clear();
+        }
+        return fmt::format("<math><mtable>{}</mtable></math>", rows);
+    }
     static std::string inline_list(const std::vector<Line>& lines) {
         std::string text;
         for (const Line& line : lines) {
@@ -214,6 +240,14 @@ std::vector<std::string> print_equations(const ast::Script& script, const Source
 std::string print_equations(const ast::Script& script, const Sources& sources,
                             std::string_view system, Notation notation, EquationParts parts) {
     return print_equations(script, sources, std::span(&system, 1), notation, parts).front();
+}
+
+std::string equation_in_mathml(const ast::Script& script, const Sources& sources,
+                               std::string_view system, std::string_view name) {
+    const SystemBlocks blocks = system_blocks(script);
+    const SystemStatements statements(script, sources, blocks, system);
+    if (!statements.found()) return "";
+    return EquationPrinter(statements, Notation::tex, system).mathml(name);
 }
 
 }  // namespace cascade

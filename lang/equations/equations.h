@@ -34,4 +34,9 @@ std::vector<std::string> print_equations(const ast::Script& script, const Source
                                          std::span<const std::string_view> systems,
                                          Notation notation, EquationParts parts);
 
+/// What a system of the script or else of the library says about one name, in MathML: the rate of a
+/// species, a definition, or the value of a parameter. Empty if it says nothing.
+std::string equation_in_mathml(const ast::Script& script, const Sources& sources,
+                               std::string_view system, std::string_view name);
+
 }  // namespace cascade

@@ -1,7 +1,10 @@
 // The WebSocket to the engine: requests with answers, and the newest snapshot.
 
 export interface Message { is_error: boolean; message: string; hint: string; from?: [number, number]; to?: [number, number]; notes?: string[] }
-export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[]; text?: string }
+export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[] }
+export interface KnownName { name: string; what: string; note: string }
+/// Without a name if the engine knows nothing of it.
+export interface Explanation { name?: string; what?: string; note?: string; value?: number; range?: [number, number]; smallest?: number; largest?: number; equation?: string }
 export interface Control { name: string; label: string; stage: number; doc: string; low: number; high: number; step?: number; value: number }
 export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[] }
 export interface Palette { name: string; description: string; stops: [number, number, number][] }
@@ -52,10 +55,11 @@ export class Connection {
     constructor(private readonly listener: Listener) { this.open(); }
 
     /// The answer comes when the engine has obeyed or refused.
-    ask(what: string, fields: Record<string, unknown> = {}): Promise<Answer> {
+    /// A question is answered by what spec/page.md lists for it.
+    ask<Reply = object>(what: string, fields: Record<string, unknown> = {}): Promise<Answer & Reply> {
         const id = ++this.last_id;
         this.send(JSON.stringify({ do: what, id, ...fields }));
-        return new Promise((resolve) => this.waiting.set(id, resolve));
+        return new Promise((resolve) => this.waiting.set(id, resolve as (answer: Answer) => void));
     }
 
     next_snapshot() { if (this.socket?.readyState === WebSocket.OPEN) this.socket.send('{"do":"next_snapshot"}'); }

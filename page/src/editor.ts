@@ -6,6 +6,7 @@ import { EditorState } from "@codemirror/state";
 import { EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import type { Message } from "./connection";
+import { type EngineHelp, editor_help } from "./editor_help";
 
 const language = StreamLanguage.define({
     token(stream) {
@@ -48,7 +49,7 @@ export class Editor {
     readonly view: EditorView;
 
     /// `typed` is called with every key, `changed` some time after the last one.
-    constructor(parent: HTMLElement, typed: () => void, changed: (text: string) => void) {
+    constructor(parent: HTMLElement, engine: EngineHelp, typed: () => void, changed: (text: string) => void) {
         // In a shadow tree the editor's styles are sheets, which the page's policy lets be.
         const root = parent.attachShadow({ mode: "open" });
         const listen = EditorView.updateListener.of((update) => {
@@ -66,6 +67,7 @@ export class Editor {
                 lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(),
                 language, syntaxHighlighting(colours), theme, listen, EditorView.lineWrapping,
                 EditorView.contentAttributes.of({ "aria-label": "Script" }),
+                editor_help(engine),
                 keymap.of([{ key: "Escape", run: (view) => (view.contentDOM.blur(), true) }, indentWithTab, ...defaultKeymap, ...historyKeymap]),
             ] }),
         });

@@ -1,5 +1,5 @@
 // The page: text, sliders, pattern and stages of one session.
-import { Answer, Connection, Control, Message, Palette, Script, Snapshot } from "./connection";
+import { Answer, Connection, Control, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
 import { Editor } from "./editor";
 import { Library } from "./library";
 import { Pattern } from "./pattern";
@@ -79,7 +79,11 @@ const library = new Library(async (text) => {
     is_to_start = true;
 });
 
-const editor = new Editor(element("editor"), () => (element("text").ariaBusy = "true"), async (text) => {
+const engine_help = {
+    names: async (text: string) => (await connection.ask<{ names?: KnownName[] }>("names", { text })).names ?? [],
+    explain: (text: string) => connection.ask<Explanation>("explain", { text }),
+};
+const editor = new Editor(element("editor"), engine_help, () => (element("text").ariaBusy = "true"), async (text) => {
     is_text_open = true;
     const answer = await connection.ask("text", { text });
     if (text !== editor.text) return;
@@ -262,7 +266,7 @@ const actions: Record<string, () => void> = {
     slice_before: () => slices.move(-1),
     slice_after: () => slices.move(1),
     log: async () => {
-        const { text } = await ask("log");
+        const { text } = await connection.ask<{ text?: string }>("log");
         if (text === undefined) return;
         const href = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
         const download = `${element("name").textContent!.replace(/\.cascade$/, "")}.session`;

@@ -241,17 +241,6 @@ TEST(CheckProgram, Views) {
     EXPECT_FALSE(picture_expression(ast::Script{}).has_value());
 }
 
-TEST(CheckProgram, KnownNames) {
-    const auto checked = check_text("stage large: turing_spots {}\n");
-    ASSERT_TRUE(checked->program);
-    const std::vector<std::string> names = known_names(*checked->program);
-    for (const char* name :
-         {"large", "turing_spots", "beta", "iterations", "tanh", "stage", "sx"}) {
-        EXPECT_THAT(names, Contains(name));
-    }
-    EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
-}
-
 TEST(CheckProgram, CheckingAgainAddsNoSources) {
     const auto checked = check_text("system_name: stripes\n");
     const std::size_t sources = checked->sources.size();

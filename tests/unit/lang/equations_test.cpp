@@ -34,6 +34,90 @@ std::string tex(const std::string& expression) {
     return text.substr(begin, text.find("\n\\end", begin) - begin);
 }
 
+/// The right side of `q = …`, as one row.
+std::string mathml(const std::string& expression) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const ast::Script script =
+        parse(sources.add("test.cascade", "system s { q = " + expression + " }"), sources,
+              diagnostics);
+    const std::string text = equation_in_mathml(script, sources, "s", "q");
+    const std::string before = "<math><mtable><mtr><mtd><mi>q</mi><mo>=</mo></mtd><mtd>",
+                      after = "</mtd></mtr></mtable></math>";
+    EXPECT_TRUE(text.starts_with(before) && text.ends_with(after)) << text;
+    return text.substr(before.size(), text.size() - before.size() - after.size());
+}
+
+TEST(Equations, AreMathMLForBrowsers) {
+    EXPECT_EQ(mathml("a - 2.5 * lap(u)"),
+              "<mi>a</mi><mo>−</mo><mn>2.5</mn><mspace width=\"0.17em\"/>"
+              "<msup><mo>∇</mo><mn>2</mn></msup><mi>u</mi>");
+    EXPECT_EQ(mathml("u^2 / (1 + k)"),
+              "<mfrac><msup><mi>u</mi><mn>2</mn></msup>"
+              "<mrow><mn>1</mn><mo>+</mo><mi>k</mi></mrow></mfrac>");
+    EXPECT_EQ(mathml("(u + 1)^-k"),
+              "<msup><mrow><mo>(</mo><mi>u</mi><mo>+</mo><mn>1</mn><mo>)</mo></mrow>"
+              "<mrow><mo>−</mo><mi>k</mi></mrow></msup>");
+    EXPECT_EQ(mathml("beta * diff_u"),
+              "<mi>β</mi><mspace width=\"0.17em\"/>"
+              "<msub><mi mathvariant=\"normal\">diff</mi><mi>u</mi></msub>");
+    EXPECT_EQ(mathml("sqrt(abs(u))"), "<msqrt><mrow><mo>|</mo><mi>u</mi><mo>|</mo></mrow></msqrt>");
+    EXPECT_EQ(mathml("if(u < 1, 2, 3)"),
+              "<mrow><mo>{</mo><mtable><mtr><mtd><mn>2</mn></mtd><mtd><mtext>if </mtext>"
+              "<mi>u</mi><mo>&lt;</mo><mn>1</mn></mtd></mtr><mtr><mtd><mn>3</mn></mtd>"
+              "<mtd><mtext>otherwise</mtext></mtd></mtr></mtable></mrow>");
+    EXPECT_EQ(mathml("mean(u over domain)"), "<mrow><mo>⟨</mo><mi>u</mi><mo>⟩</mo></mrow>");
+    EXPECT_EQ(
+        mathml("max(tanh(u), 1e-3)"),
+        "<mi>max</mi><mrow><mo>(</mo><mi>tanh</mi><mrow><mo>(</mo><mi>u</mi><mo>)</mo></mrow>"
+        "<mo>,</mo><msup><mn>10</mn><mrow><mo>−</mo><mn>3</mn></mrow></msup><mo>)</mo></mrow>");
+}
+
+/// Do its tags nest?
+bool is_well_formed(std::string_view text) {
+    std::vector<std::string_view> open;
+    for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at)) {
+        const std::size_t end = text.find('>', at);
+        std::string_view tag = text.substr(at + 1, end - at - 1);
+        at = end;
+        if (tag.ends_with('/')) continue;
+        const bool closes = tag.starts_with('/');
+        if (closes) tag.remove_prefix(1);
+        tag = tag.substr(0, tag.find(' '));
+        if (!closes) {
+            open.push_back(tag);
+            continue;
+        }
+        if (open.empty() || open.back() != tag) return false;
+        open.pop_back();
+    }
+    return open.empty();
+}
+
+TEST(Equations, OfTheLibraryAreWellFormedMathML) {
+    for (const LibraryText& text : library_texts()) {
+        Sources sources;
+        Diagnostics diagnostics;
+        const ast::Script script =
+            parse(sources.add(std::string(text.system_name()), std::string(text.text)), sources,
+                  diagnostics);
+        for (const ast::Block& block : script.blocks) {
+            for (const ast::Statement& statement : block.statements) {
+                const std::string equation =
+                    equation_in_mathml(script, sources, block.name.text, statement.name.text);
+                EXPECT_TRUE(is_well_formed(equation)) << equation;
+                EXPECT_EQ(equation.find('\\'), std::string::npos) << equation;
+                EXPECT_EQ(equation.find("<mo></mo>"), std::string::npos) << equation;
+            }
+        }
+    }
+}
+
+TEST(Equations, DeepBracketsInMathMLNeedNoStack) {
+    const std::string deep = std::string(5000, '-') + "u";
+    EXPECT_TRUE(is_well_formed(mathml(deep)));
+}
+
 TEST(Equations, WriteASystemAsAPaperDoes) {
     const std::string script =
         "system s {\n  u: 1\n  v: 0.25\n  feed: 0.037\n  diff_u: 0.16\n"

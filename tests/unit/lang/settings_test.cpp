@@ -1,5 +1,6 @@
 // Every setting of the table is known to completion and to hints.
 #include "check_helpers.h"
+#include "lang/check/known_names.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -70,7 +71,8 @@ TEST(Settings, AreSuggestedInSystemsToo) {
 }
 
 TEST(Settings, AreCompletedAndTheirWordsAre) {
-    const std::vector<std::string> names = known_names(Program());
+    std::vector<std::string> names;
+    for (KnownName& known : known_names(Program())) names.push_back(std::move(known.name));
     for_each_setting([&](Setting setting) {
         EXPECT_THAT(names, Contains(std::string(info(setting).word)));
         for (const std::string& word : words_taken_by(setting)) EXPECT_THAT(names, Contains(word));

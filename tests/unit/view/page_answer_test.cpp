@@ -95,15 +95,10 @@ TEST(PageAnswer, MessagesCarryTheirPlaceInTheText) {
     EXPECT_EQ(failed["messages"][0]["hint"], "say more");
 }
 
-TEST(PageAnswer, PalettesAndLog) {
+TEST(PageAnswer, Palettes) {
     const Json palettes = Json::parse(print_palettes());
     EXPECT_EQ(palettes["palettes"][0]["name"], "grey");
     EXPECT_EQ(palettes["palettes"][0]["stops"][0], Json({0.0, 0.0, 0.0}));
-    const auto run = begin(waves);
-    ASSERT_TRUE(run);
-    const Json log = Json::parse(print_log(3, run->log()));
-    EXPECT_EQ(log["kind"], "log");
-    EXPECT_TRUE(is_session_log(log["text"].get<std::string>()));
 }
 
 TEST(PageAnswer, SnapshotsAreAHeaderAndPlanes) {

@@ -50,7 +50,16 @@ TEST(PageMessage, Commands) {
     EXPECT_TRUE(std::holds_alternative<NextSnapshot>(next->request));
     const auto log = parse_page_message(R"({"do": "log"})");
     ASSERT_TRUE(log.has_value());
-    EXPECT_TRUE(std::holds_alternative<AskForLog>(log->request));
+    EXPECT_TRUE(std::holds_alternative<PageQuestion>(log->request));
+}
+
+TEST(PageMessage, Questions) {
+    const auto names = parse_page_message(R"({"do": "names", "text": "u' = la"})");
+    ASSERT_TRUE(names.has_value());
+    EXPECT_EQ(std::get<AskForNames>(std::get<PageQuestion>(names->request)).text, "u' = la");
+    const auto about = parse_page_message(R"({"do": "explain", "text": "u"})");
+    ASSERT_TRUE(about.has_value());
+    EXPECT_EQ(std::get<AskAboutName>(std::get<PageQuestion>(about->request)).text, "u");
 }
 
 TEST(PageMessage, SaysWhatIsWrong) {

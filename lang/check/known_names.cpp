@@ -1,0 +1,313 @@
+// Collects names from the tables of the language, and reads as much of a text as tells its place.
+#include "lang/check/known_names.h"
+
+#include "core/palette.h"
+#include "lang/library/library.h"
+#include "lang/vocabulary/settings.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <initializer_list>
+#include <iterator>
+
+namespace cascade {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n";
+
+bool is_word_character(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+std::string_view first_word(std::string_view text) {
+    const auto end = std::find_if_not(text.begin(), text.end(), is_word_character);
+    return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+std::string_view without_blanks_before(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(blanks), text.size()));
+}
+
+void add_items(std::vector<KnownName>& names, const System& system) {
+    for (const Quantity& quantity : system.quantities) {
+        names.push_back({quantity.name,
+                         quantity.is_species ? NameKind::species : NameKind::parameter,
+                         quantity.doc});
+    }
+}
+
+std::vector<KnownName> names_of_program(const Program& program) {
+    std::vector<KnownName> names;
+    for (const System& system : program.systems) {
+        add_items(names, system);
+        for (const Definition& definition : system.definitions) {
+            names.push_back({definition.name, NameKind::definition, ""});
+        }
+        names.push_back({system.name, NameKind::system, system.title});
+    }
+    for (const Stage& stage : program.stages) {
+        names.push_back({stage.name, NameKind::stage, program.systems[stage.system].name});
+    }
+    return names;
+}
+
+std::vector<KnownName> names_of_language() {
+    std::vector<KnownName> names;
+    for (std::size_t k = 0; k < function_count; ++k) {
+        const FunctionInfo& row = info(static_cast<Function>(k));
+        if (row.is_operator || row.is_aggregate) continue;
+        names.push_back({std::string(row.spelling), NameKind::function, std::string(row.meaning)});
+    }
+    for (const std::string_view name : builtin_names) {
+        names.push_back({std::string(name), NameKind::value, ""});
+    }
+    for (std::size_t k = 0; k < setting_count; ++k) {
+        const auto setting = static_cast<Setting>(k);
+        names.push_back({std::string(info(setting).word), NameKind::setting,
+                         std::string(info(setting).meaning)});
+        for (std::string& word : words_taken_by(setting)) {
+            names.push_back({std::move(word), NameKind::word, ""});
+        }
+    }
+    for (std::string& solver : solver_names()) {
+        names.push_back({std::move(solver), NameKind::word, "a solver"});
+    }
+    for (const LibraryText& text : library_texts()) {
+        names.push_back({std::string(text.system_name()), NameKind::system, "of the library"});
+    }
+    for (const std::string_view word : keywords) {
+        names.push_back({std::string(word), NameKind::keyword, ""});
+    }
+    return names;
+}
+
+/// Of names that are there several times, the first is kept.
+std::vector<KnownName> sorted(std::vector<KnownName> names) {
+    std::stable_sort(names.begin(), names.end(),
+                     [](const auto& one, const auto& other) { return one.name < other.name; });
+    const auto same = [](const auto& one, const auto& other) { return one.name == other.name; };
+    names.erase(std::unique(names.begin(), names.end(), same), names.end());
+    return names;
+}
+
+std::vector<KnownName> of_kinds(const Program& program, std::initializer_list<NameKind> kinds) {
+    std::vector<KnownName> names = names_of_program(program), rest = names_of_language();
+    std::move(rest.begin(), rest.end(), std::back_inserter(names));
+    names.erase(std::remove_if(names.begin(), names.end(),
+                               [&](const KnownName& name) {
+                                   return std::find(kinds.begin(), kinds.end(), name.kind) ==
+                                          kinds.end();
+                               }),
+                names.end());
+    return names;
+}
+
+/// Where the end of a text is.
+struct TextPlace {
+    struct Block {
+        std::string_view keyword, name;  ///< As in `stage one: spots {`.
+    };
+    std::vector<Block> blocks;            ///< That are open, outermost first.
+    std::vector<std::string_view> calls;  ///< The words before the brackets that are open.
+    std::string_view statement;           ///< What has been written of the last statement.
+    bool is_comment = false;
+    bool is_string = false;
+};
+
+/// Does a statement go on in the line after this?
+bool goes_on(std::string_view statement) {
+    const std::size_t last = statement.find_last_not_of(blanks);
+    return last != std::string_view::npos &&
+           std::string_view("+-*/^,=<>:").find(statement[last]) != std::string_view::npos;
+}
+
+TextPlace place_at_end(std::string_view text) {
+    TextPlace place;
+    std::size_t begin = 0;
+    const auto statement_to = [&](std::size_t end) {
+        return without_blanks_before(text.substr(begin, end - begin));
+    };
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (c == '#' || c == '"') {
+            const std::size_t end = text.find_first_of(c == '#' ? "\n" : "\"\n", k + 1);
+            const bool is_open = end == std::string_view::npos;
+            place.is_comment = is_open && c == '#';
+            place.is_string = is_open && c == '"';
+            if (is_open) break;
+            k = text[end] == '\n' ? end - 1 : end;
+        } else if (c == '{') {
+            const std::string_view header = statement_to(k), keyword = first_word(header);
+            place.blocks.push_back(
+                {keyword, first_word(without_blanks_before(header.substr(keyword.size())))});
+        } else if (c == '}') {
+            if (!place.blocks.empty()) place.blocks.pop_back();
+        } else if (c == '(' || c == '[') {
+            place.calls.push_back(last_word(text.substr(0, k)));
+        } else if (c == ')' || c == ']') {
+            if (!place.calls.empty()) place.calls.pop_back();
+        }
+        const bool ends_line = c == '\n' && place.calls.empty() && !goes_on(statement_to(k));
+        if (ends_line || c == '{' || c == '}' || c == ';') begin = k + 1;
+        if (c == '{' || c == '}' || c == ';') place.calls.clear();
+    }
+    place.statement = statement_to(text.size());
+    return place;
+}
+
+std::optional<std::uint32_t> stage_named(const Program& program, std::string_view name) {
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (program.stages[k].name == name) return k;
+    }
+    return std::nullopt;
+}
+
+/// The stage before a dot at the end of a text.
+std::optional<std::uint32_t> stage_before_dot(std::string_view text, const Program& program) {
+    if (!text.ends_with('.')) return std::nullopt;
+    return stage_named(program, last_word(text.substr(0, text.size() - 1)));
+}
+
+std::vector<KnownName> items_of(const Program& program, std::uint32_t stage) {
+    std::vector<KnownName> names;
+    const System& system = program.system_of(stage);
+    add_items(names, system);
+    for (const ItemId item : {system.frozen_item(), system.speed_item()}) {
+        const std::string_view name = system.item_name(item);
+        names.push_back({std::string(name), NameKind::setting,
+                         std::string(info(*setting_named(name)).meaning)});
+    }
+    return names;
+}
+
+bool has_settings_of(std::string_view block, SettingBlock of) {
+    if (block == "picture") return of == SettingBlock::picture;
+    if (of == SettingBlock::side) return true;
+    if (block == "domain") return of == SettingBlock::domain;
+    return of == SettingBlock::stage || (block == "system" && of == SettingBlock::system);
+}
+
+/// What statements of a block can begin with.
+std::vector<KnownName> names_that_begin(std::string_view block, const Program& program) {
+    std::vector<KnownName> names;
+    if (block == "stage" || block == "system") {
+        names = of_kinds(program, {NameKind::species, NameKind::parameter});
+    }
+    for (std::size_t k = 0; k < setting_count; ++k) {
+        const SettingInfo& row = info(static_cast<Setting>(k));
+        if (!has_settings_of(block, row.block)) continue;
+        names.push_back({std::string(row.word), NameKind::setting, std::string(row.meaning)});
+    }
+    return names;
+}
+
+/// The names in a value of a setting, or of anything else.
+std::vector<KnownName> names_in_value(std::string_view statement, const Program& program) {
+    const std::string_view name = first_word(statement);
+    const bool has_value = without_blanks_before(statement.substr(name.size())).starts_with(':');
+    const auto setting = has_value ? setting_named(name) : std::nullopt;
+    std::vector<KnownName> names;
+    if (setting) {
+        for (std::string& word : words_taken_by(*setting)) {
+            names.push_back({std::move(word), NameKind::word, ""});
+        }
+        if (*setting == Setting::solver) {
+            for (std::string& word : solver_names()) {
+                names.push_back({std::move(word), NameKind::word, ""});
+            }
+        }
+        const SettingValue value = info(*setting).value;
+        if (value == SettingValue::word || value == SettingValue::words) return names;
+    }
+    for (KnownName& each :
+         of_kinds(program, {NameKind::species, NameKind::parameter, NameKind::definition,
+                            NameKind::stage, NameKind::function, NameKind::value})) {
+        names.push_back(std::move(each));
+    }
+    for (const std::string_view word : {"and", "or", "not", "over", "domain", "in", "pi"}) {
+        names.push_back({std::string(word), NameKind::keyword, ""});
+    }
+    return names;
+}
+
+}  // namespace
+
+std::string_view last_word(std::string_view text) {
+    std::size_t begin = text.size();
+    while (begin > 0 && is_word_character(text[begin - 1])) --begin;
+    return text.substr(begin);
+}
+
+std::string_view name_of(NameKind kind) {
+    constexpr std::array<std::string_view, 11> names{"species", "parameter", "definition",
+                                                     "stage",   "system",    "function",
+                                                     "value",   "setting",   "word",
+                                                     "palette", "keyword"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+std::vector<KnownName> known_names(const Program& program) {
+    std::vector<KnownName> names = names_of_program(program), rest = names_of_language();
+    std::move(rest.begin(), rest.end(), std::back_inserter(names));
+    return sorted(std::move(names));
+}
+
+std::vector<KnownName> completions(std::string_view text, const Program& program) {
+    text.remove_suffix(last_word(text).size());
+    const TextPlace place = place_at_end(text);
+    if (place.is_comment) return {};
+    if (place.is_string) {
+        std::vector<KnownName> names;
+        if (place.calls.empty() || place.calls.back() != "palette") return names;
+        for (const Palette& palette : palettes()) {
+            names.push_back(
+                {std::string(palette.name), NameKind::palette, std::string(palette.description)});
+        }
+        return names;
+    }
+    if (const auto stage = stage_before_dot(text, program)) return items_of(program, *stage);
+    const std::string_view keyword = first_word(place.statement);
+    const bool is_header = keyword == "stage" || keyword == "system";
+    if (keyword == "use" || keyword == "system_name" ||
+        (is_header && place.statement.find(':') != std::string_view::npos)) {
+        return sorted(of_kinds(program, {NameKind::system}));
+    }
+    if (place.blocks.empty()) return known_names(program);
+    if (place.statement.empty()) {
+        return sorted(names_that_begin(place.blocks.back().keyword, program));
+    }
+    return sorted(names_in_value(place.statement, program));
+}
+
+std::optional<Mention> mention_at_end(std::string_view text, const Program& program,
+                                      std::uint32_t stage) {
+    const std::string_view word = last_word(text);
+    text.remove_suffix(word.size());
+    const TextPlace place = place_at_end(text);
+    if (place.is_comment) return std::nullopt;
+    const auto named_before = stage_before_dot(text, program);
+    std::optional<std::uint32_t> first = named_before;
+    if (!first && !place.blocks.empty() && place.blocks.back().keyword == "stage") {
+        first = stage_named(program, place.blocks.back().name);
+    }
+    std::vector<std::uint32_t> stages{first.value_or(stage)};
+    for (std::uint32_t k = 0; k < program.stages.size() && !named_before; ++k) stages.push_back(k);
+    for (const std::uint32_t k : stages) {
+        const System& system = program.system_of(k);
+        for (const ItemId item : system.quantities.ids()) {
+            const Quantity& quantity = system.quantities[item];
+            if (quantity.name != word) continue;
+            const auto kind = quantity.is_species ? NameKind::species : NameKind::parameter;
+            return Mention{{quantity.name, kind, quantity.doc}, StageItem{k, item}};
+        }
+    }
+    for (const auto& list : {completions(text, program), known_names(program)}) {
+        for (const KnownName& known : list) {
+            if (known.name == word) return Mention{known, std::nullopt};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace cascade

@@ -1,0 +1,72 @@
+// What the engine knows about the text: the names that can follow, and what a name means.
+import { type CompletionContext, autocompletion, completionKeymap } from "@codemirror/autocomplete";
+import { EditorView, hoverTooltip, keymap } from "@codemirror/view";
+import type { Explanation, KnownName } from "./connection";
+
+export interface EngineHelp {
+    names(text: string): Promise<KnownName[]>;
+    explain(text: string): Promise<Explanation>;
+}
+
+const digits = (value: number) => String(Number(value.toPrecision(4)));
+
+/// What is worth a box: not what is plain to see.
+export function explanation_box(told: Explanation): HTMLElement | undefined {
+    if (!told.name) return undefined;
+    const box = document.createElement("div"), head = document.createElement("div");
+    box.className = "explanation";
+    head.append(Object.assign(document.createElement("b"), { textContent: told.name }), ` ${told.what}`);
+    box.append(head);
+    if (told.note) box.append(Object.assign(document.createElement("p"), { textContent: told.note }));
+    const range = told.range ? `, in ${told.range.map(digits).join(" … ")}` : "";
+    const values = told.value !== undefined ? `${digits(told.value)}${range}`
+        : told.smallest !== undefined && told.largest !== undefined ? `from ${digits(told.smallest)} to ${digits(told.largest)}` : "";
+    if (values) box.append(Object.assign(document.createElement("p"), { textContent: `now ${values}` }));
+    if (told.equation) {
+        // Made by the engine, which escapes what the script says.
+        const equation = document.createElement("p");
+        equation.innerHTML = told.equation;
+        box.append(equation);
+    }
+    return box;
+}
+
+export function editor_help(engine: EngineHelp) {
+    const complete = async (context: CompletionContext) => {
+        const word = context.matchBefore(/\w*/)!, before = context.state.sliceDoc(0, context.pos);
+        const is_asked = context.explicit || /[A-Za-z_]\w*$/.test(before) || /[A-Za-z_]\w*\.$/.test(before);
+        if (!is_asked) return null;
+        const names = await engine.names(before);
+        if (context.aborted) return null;
+        return {
+            from: word.from, validFor: /^\w*$/,
+            options: names.map(({ name, what, note }) => ({
+                label: name, detail: note || what,
+                // What the script itself says comes first.
+                boost: ["species", "parameter", "definition", "stage"].includes(what) ? 1 : 0,
+            })),
+        };
+    };
+    const explain = async (view: EditorView, at: number) => {
+        const word = view.state.wordAt(at);
+        if (!word) return null;
+        const box = explanation_box(await engine.explain(view.state.sliceDoc(0, word.to)));
+        return box ? { pos: word.from, end: word.to, above: true, create: () => ({ dom: box }) } : null;
+    };
+    return [
+        autocompletion({ override: [complete], defaultKeymap: false, icons: false, maxRenderedOptions: 60 }),
+        keymap.of(completionKeymap),
+        hoverTooltip(explain, { hoverTime: 400 }),
+        EditorView.theme({
+            ".cm-tooltip-autocomplete": { maxWidth: "min(34rem, 90vw)" },
+            ".cm-tooltip-autocomplete > ul": { fontFamily: "inherit" },
+            ".cm-tooltip-autocomplete > ul > li[aria-selected]": { background: "color-mix(in srgb, var(--accent) 22%, transparent)", color: "var(--ink)" },
+            ".cm-completionDetail": { color: "var(--faint)", fontStyle: "normal" },
+            ".cm-completionMatchedText": { textDecoration: "none", fontWeight: "600" },
+            ".explanation": { padding: "0.5rem 0.8rem", maxWidth: "min(38rem, 90vw)", overflowX: "auto", fontFamily: "system-ui, sans-serif", lineHeight: "1.4" },
+            ".explanation p": { margin: "0.25rem 0 0" },
+            ".explanation mtd:first-child": { textAlign: "right" },
+            ".explanation mtd": { textAlign: "left", padding: "0.1em 0.15em" },
+        }),
+    ];
+}

@@ -1,0 +1,15 @@
+// Replies to what pages ask about a run: JSON texts, which spec/page.md lists.
+#pragma once
+
+#include "run/session/live_run.h"
+#include "view/page_message.h"
+
+#include <cstdint>
+#include <string>
+
+namespace cascade {
+
+/// The reply to the question `id`. The run stays as it is.
+std::string print_reply(std::uint64_t id, const PageQuestion& question, LiveRun& run);
+
+}  // namespace cascade
