@@ -2,8 +2,10 @@
 import { Answer, Connection, Control, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
 import { Editor } from "./editor";
 import { Library } from "./library";
+import { LookControls } from "./look";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
+import { Pointed } from "./pointed";
 import { Slices } from "./slices";
 import { is_row, rows_of_time } from "./time_rows";
 
@@ -13,6 +15,13 @@ const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignif
 const number = (value: number) => String(Number(value.toPrecision(4)));
 
 const pattern = new Pattern(element<HTMLCanvasElement>("pattern"), !location.search.includes("2d"));
+const pointed = new Pointed(pattern);
+const look = new LookControls(() => pattern.draw());
+pattern.look = look.look;
+pattern.drawn = (shown) => {
+    look.show(shown);
+    pointed.show();
+};
 const palette_choice = element<HTMLSelectElement>("palette");
 const brush_choice = element<HTMLSelectElement>("brush");
 let palettes: Palette[] = [];
@@ -138,6 +147,7 @@ function show_script(script: Script) {
 
 function choose_palette() {
     pattern.palette = palettes.find(({ name }) => name === palette_choice.value) ?? palettes[0];
+    if (pattern.palette) look.show_palette(pattern.palette);
     pattern.draw();
 }
 
@@ -261,6 +271,7 @@ const actions: Record<string, () => void> = {
     next: () => void ask("next_stage"),
     systems: () => library.open(),
     fit: () => view.fit(),
+    hold: () => look.toggle_hold(),
     nearer: () => view.scale(1.5),
     farther: () => view.scale(1 / 1.5),
     slice_before: () => slices.move(-1),
@@ -279,9 +290,9 @@ for (const [id, act] of Object.entries(actions)) button(id)?.addEventListener("c
 document.addEventListener("keydown", (event) => {
     const at = event.target as HTMLElement;
     if (at.closest("dialog")) return;
-    if (at.id === "editor" || at.matches("select, #amount, #show")) return;
+    if (at.id === "editor" || at.matches("select, input:not([type=range])")) return;
     const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
-    const act = { " ": "run", ".": "step", "n": "next", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "PageUp": "slice_before", "PageDown": "slice_after", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
+    const act = { " ": "run", ".": "step", "n": "next", "h": "hold", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "PageUp": "slice_before", "PageDown": "slice_after", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
     if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
     event.preventDefault();
     actions[act]();
@@ -311,4 +322,4 @@ async function paint(event: PointerEvent, is_first: boolean) {
     const value = given || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
     await ask("paint", { item, expression: `if(disc(${at}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });
 }
-const view = new PlaneView(pattern.canvas, (event, is_first) => (stroke = stroke.then(() => paint(event, is_first))));
+const view = new PlaneView(pattern.canvas, () => pattern.columns, (event, is_first) => (stroke = stroke.then(() => paint(event, is_first))));

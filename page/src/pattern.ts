@@ -1,37 +1,75 @@
 // The pattern on a canvas of one pixel a cell: by WebGL2, or by the processor where that is missing.
 import type { Palette, Snapshot } from "./connection";
+import type { Look } from "./look";
 import { TimeRows, is_row } from "./time_rows";
 
 const vertex = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }`;
 
-/// The arithmetic is that of core/palette.cpp and picture/paint.cpp.
+/// Colours have the arithmetic of core/palette.cpp and picture/paint.cpp, light that of render/tracer.cpp without shadows.
 const fragment = `#version 300 es
 precision highp float;
 precision highp sampler2D;
 uniform sampler2D red, green, blue;
 uniform vec3 stops[64];
 uniform int last;
-uniform float low, high, rows;
-uniform bool is_colour;
+uniform float low, high, rows, scale, every, at, relief;
+uniform bool is_colour, has_line;
 out vec4 colour;
+/// Between the middles of cells.
+float value_at(vec2 place) {
+  ivec2 end = textureSize(red, 0) - 1;
+  vec2 from = clamp(place - 0.5, vec2(0), vec2(end)), part = fract(from);
+  ivec2 one = ivec2(from), other = min(one + 1, end);
+  return mix(mix(texelFetch(red, one, 0).r, texelFetch(red, ivec2(other.x, one.y), 0).r, part.x),
+    mix(texelFetch(red, ivec2(one.x, other.y), 0).r, texelFetch(red, other, 0).r, part.x), part.y);
+}
+float position_of(float value) { return high == low ? 0.5 : clamp((value - low) / (high - low), 0.0, 1.0); }
+vec3 colour_of(float value) {
+  float along = position_of(value) * float(last);
+  int left = min(int(along), last - 1);
+  return mix(stops[left], stops[left + 1], along - float(left));
+}
+float height_at(vec2 place) { return 12.0 * relief * position_of(value_at(place)); }
+vec3 lit(vec3 seen, vec2 place) {
+  vec3 normal = normalize(vec3(height_at(place - vec2(1, 0)) - height_at(place + vec2(1, 0)),
+    height_at(place + vec2(0, 1)) - height_at(place - vec2(0, 1)), 2));
+  if (isnan(normal.x)) return seen;
+  vec3 sun = normalize(vec3(-0.7, 0.9, 1));
+  // As much light as before where it is flat.
+  float light = (0.72 * max(0.0, dot(normal, sun)) + 0.42) / (0.72 * sun.z + 0.42);
+  float gleam = 0.06 * pow(max(0.0, dot(normal, normalize(sun + vec3(0, 0, 1)))), 40.0);
+  return pow(pow(seen, vec3(2.2)) * light + gleam, vec3(1.0 / 2.2));
+}
+/// How much of a pixel a contour line covers that is so many values away.
+float line(float away, float change) { return change > 0.0 ? clamp(1.2 - away / change, 0.0, 1.0) : 0.0; }
 void main() {
-  ivec2 cell = ivec2(gl_FragCoord.x, rows - gl_FragCoord.y);
+  vec2 place = vec2(gl_FragCoord.x, rows * scale - gl_FragCoord.y) / scale;
+  ivec2 cell = ivec2(place);
   vec3 value = vec3(texelFetch(red, cell, 0).r, texelFetch(green, cell, 0).r, texelFetch(blue, cell, 0).r);
+  float smooth_value = value_at(place), change = fwidth(smooth_value);
   if (isnan(value.r)) { colour = vec4(0); return; }
   if (is_colour) { colour = vec4(clamp(value, 0.0, 1.0), 1); return; }
-  float place = (high == low ? 0.5 : clamp((value.r - low) / (high - low), 0.0, 1.0)) * float(last);
-  int left = min(int(place), last - 1);
-  colour = vec4(mix(stops[left], stops[left + 1], place - float(left)), 1);
+  vec3 seen = colour_of(value.r);
+  if (relief > 0.0) seen = lit(seen, place);
+  float covered = 0.0;
+  if (every > 0.0 && change < every) covered = line(abs(fract(smooth_value / every + 0.5) - 0.5) * every, change);
+  if (has_line) covered = max(covered, line(abs(smooth_value - at), change));
+  colour = vec4(mix(seen, vec3(dot(colour_of(smooth_value), vec3(0.3, 0.6, 0.1)) < 0.4 ? 1 : 0), 0.8 * covered), 1);
 }`;
 
 /// Where a pointer is: coordinates as scripts have them, z in a volume, and the index of the cell in the planes of
 /// snapshots.
 export interface Place { x: number; y: number; z?: number; cell: number }
 
-interface Drawer { draw(snapshot: Snapshot, palette: Palette): void }
+interface Drawer {
+    /// Lines and relief want more pixels than one for each cell.
+    readonly has_lines: boolean;
+    draw(snapshot: Snapshot, palette: Palette, look: Look, scale: number): void;
+}
 
 class ShaderDrawer implements Drawer {
+    readonly has_lines = true;
     private readonly program: WebGLProgram;
     private readonly textures: WebGLTexture[];
 
@@ -59,9 +97,9 @@ class ShaderDrawer implements Drawer {
 
     private at(name: string) { return this.gl.getUniformLocation(this.program, name); }
 
-    draw(snapshot: Snapshot, palette: Palette) {
+    draw(snapshot: Snapshot, palette: Palette, look: Look, scale: number) {
         const gl = this.gl, { columns, rows, planes } = snapshot;
-        gl.viewport(0, 0, columns, rows);
+        gl.viewport(0, 0, columns * scale, rows * scale);
         this.textures.forEach((_, unit) => {
             gl.activeTexture(gl.TEXTURE0 + unit);
             if (unit > 0 && planes.length === 1) return;
@@ -69,15 +107,16 @@ class ShaderDrawer implements Drawer {
         });
         gl.uniform3fv(this.at("stops"), palette.stops.flat());
         gl.uniform1i(this.at("last"), palette.stops.length - 1);
-        gl.uniform1f(this.at("low"), snapshot.low);
-        gl.uniform1f(this.at("high"), snapshot.high);
-        gl.uniform1f(this.at("rows"), rows);
+        const numbers = { low: snapshot.low, high: snapshot.high, rows, scale, every: look.every ?? 0, at: look.at ?? 0, relief: look.relief };
+        for (const [name, value] of Object.entries(numbers)) gl.uniform1f(this.at(name), value);
+        gl.uniform1i(this.at("has_line"), look.at === undefined ? 0 : 1);
         gl.uniform1i(this.at("is_colour"), planes.length === 3 ? 1 : 0);
         gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
 }
 
 class ProcessorDrawer implements Drawer {
+    readonly has_lines = false;
     constructor(private readonly context: CanvasRenderingContext2D) {}
 
     draw({ columns, rows, planes, low, high }: Snapshot, { stops }: Palette) {
@@ -101,6 +140,11 @@ export class Pattern {
     readonly time = new TimeRows();
     snapshot?: Snapshot;
     palette?: Palette;
+    look: Look = { relief: 0 };
+    columns = 1;  ///< Of what is drawn.
+    rows = 1;
+    /// Is told what is drawn, with the range of its values.
+    drawn: (shown: Snapshot) => void = () => {};
 
     constructor(readonly canvas: HTMLCanvasElement, use_shader = true) {
         // Kept for whoever reads the picture after it was drawn.
@@ -109,18 +153,24 @@ export class Pattern {
     }
 
     draw() {
-        const { canvas, snapshot, palette } = this;
+        const { canvas, snapshot, palette, look } = this;
         if (!snapshot || !palette) return;
-        const shown = is_row(snapshot) ? this.time.with(snapshot) : snapshot;
-        if (canvas.width !== shown.columns || canvas.height !== shown.rows) {
-            canvas.width = shown.columns;
-            canvas.height = shown.rows;
+        const values = is_row(snapshot) ? this.time.with(snapshot) : snapshot, { columns, rows } = values;
+        this.drawn(values);
+        const shown = { ...values, low: look.low ?? values.low, high: look.high ?? values.high };
+        const is_smooth = look.relief > 0 || look.every !== undefined || look.at !== undefined;
+        const scale = is_smooth && this.drawer.has_lines ? Math.max(1, Math.min(16, Math.floor(2048 / Math.max(columns, rows)))) : 1;
+        if (canvas.width !== columns * scale || canvas.height !== rows * scale) {
+            canvas.width = columns * scale;
+            canvas.height = rows * scale;
             // As large as its frame, in the shape of the grid.
-            const ratio = shown.columns / shown.rows;
+            const ratio = columns / rows;
             canvas.style.width = `min(100cqw, ${100 * ratio}cqh)`;
             canvas.style.height = `min(100cqh, ${100 / ratio}cqw)`;
         }
-        this.drawer.draw(shown, palette);
+        this.columns = columns;
+        this.rows = rows;
+        this.drawer.draw(shown, palette, look, scale);
     }
 
     /// The number of cells along the longest side of the grid.
@@ -131,15 +181,23 @@ export class Pattern {
 
     /// Where a pointer is on the pattern; nothing beside it.
     place(event: { clientX: number; clientY: number }): Place | undefined {
-        const { canvas, snapshot, longest } = this, box = canvas.getBoundingClientRect();
+        const { canvas, snapshot, longest, columns: width, rows: height } = this, box = canvas.getBoundingClientRect();
         if (!snapshot) return undefined;
         const { slice, columns } = snapshot;
-        const right = (event.clientX - box.left) / box.width * canvas.width, down = (event.clientY - box.top) / box.height * canvas.height;
-        if (!(right >= 0 && right < canvas.width && down >= 0 && down < canvas.height)) return undefined;
+        const right = (event.clientX - box.left) / box.width * width, down = (event.clientY - box.top) / box.height * height;
+        if (!(right >= 0 && right < width && down >= 0 && down < height)) return undefined;
         if (is_row(snapshot)) return { x: right / longest, y: 0.5 / longest, cell: Math.floor(right) };
         const cell = Math.floor(down) * columns + Math.floor(right), across = slice ? slice.number + 0.5 : 0;
         const [x, y, z] = !slice || slice.axis === "z" ? [right, down, across]
             : slice.axis === "y" ? [right, across, down] : [across, down, right];
         return { x: x / longest, y: y / longest, ...(slice && { z: z / longest }), cell };
+    }
+
+    /// A cell of the planes of snapshots by its column and row, and in a volume its slice.
+    name_of_cell(cell: number) {
+        const { columns, slice, rows } = this.snapshot!, column = cell % columns, row = Math.floor(cell / columns);
+        if (!slice) return rows === 1 ? `cell ${column}` : `cell ${column}, ${row}`;
+        const { axis, number } = slice;
+        return `cell ${(axis === "z" ? [column, row, number] : axis === "y" ? [column, number, row] : [number, row, column]).join(", ")}`;
     }
 }

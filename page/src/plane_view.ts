@@ -16,8 +16,8 @@ export class PlaneView {
     private waiting?: PointerEvent;  ///< A finger's press that may become a stroke.
     private holds: "nothing" | "brush" | "plane" = "nothing";
 
-    /// `paint` is called for each place of a stroke, `is_first` with its first one.
-    constructor(private readonly canvas: HTMLCanvasElement, private readonly paint: (event: PointerEvent, is_first: boolean) => void) {
+    /// `columns` tells how many cells lie side by side. `paint` is called for each place of a stroke, `is_first` with its first one.
+    constructor(private readonly canvas: HTMLCanvasElement, private readonly columns: () => number, private readonly paint: (event: PointerEvent, is_first: boolean) => void) {
         canvas.addEventListener("pointerdown", (event) => this.press(event));
         canvas.addEventListener("pointermove", (event) => this.move(event));
         for (const end of ["pointerup", "pointercancel"] as const) canvas.addEventListener(end, (event) => this.release(event));
@@ -40,7 +40,7 @@ export class PlaneView {
     /// Scales about a point of the window, or about the middle of the visible part.
     scale(factor: number, x?: number, y?: number) {
         const frame = this.canvas.parentElement!.getBoundingClientRect(), box = this.canvas.getBoundingClientRect();
-        const most = Math.max(1, largest_cell * this.canvas.width / this.canvas.offsetWidth);
+        const most = Math.max(1, largest_cell * this.columns() / this.canvas.offsetWidth);
         const zoom = Math.min(Math.max(this.zoom * factor, 1), most), change = zoom / this.zoom;
         this.zoom = zoom;
         this.shift(((x ?? frame.x + frame.width / 2) - box.x) * (1 - change), ((y ?? frame.y + frame.height / 2) - box.y) * (1 - change));

@@ -66,11 +66,93 @@ async function help_with_the_text() {
     await browser.call("Input.dispatchMouseEvent", { type: "mouseMoved", x: 5, y: 5 });
 }
 
+/// The colour of the pixel in the middle of a cell, and the number of pixels along the canvas.
+const pixel = (column, row) => browser.evaluate(`(() => {
+    const canvas = document.getElementById("pattern"), copy = document.createElement("canvas"), scale = canvas.width / 48;
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    copy.getContext("2d").drawImage(canvas, 0, 0);
+    return [...copy.getContext("2d").getImageData((${column} + 0.5) * scale, (${row} + 0.5) * scale, 1, 1).data.slice(0, 3), canvas.width];
+})()`);
+const near = (one, other) => one.every((level, k) => Math.abs(level - other[k]) <= 1);
+
+async function look_closely() {
+    // A ramp, so that every value is known.
+    await type_script("domain { grid: 48, 32; boundary: noflux }\nsystem still { u: 10 * x; u' = 0 }\nstage one: still { iterations: 10 }\n");
+    await browser.until(`document.querySelectorAll("#stages li").length === 1`);
+    await click("restart");
+    await choose("palette", "grey");
+    const value = (column) => 10 * (column + 0.5) / 48, level = (low, high, column) => 255 * (value(column) - low) / (high - low);
+    const until_level = async (how, column, wanted) => {
+        for (let k = 0; k < 100; ++k) if (near((await pixel(column, 16)).slice(0, 3), [wanted, wanted, wanted])) return;
+        throw new Error(`${how}: ${await pixel(column, 16)} instead of ${wanted}`);
+    };
+    await until_level("the automatic range", 24, level(value(0), value(47), 24));
+
+    // A held range stays when the values change.
+    await browser.press("Escape");
+    await browser.press("h");
+    await browser.until(`document.getElementById("hold").ariaPressed === "true" && document.getElementById("low").value === "0.1042"`);
+    await choose("show", "u / 2");
+    await until_level("the held range", 24, level(value(0), value(47), 24) / 2 - 127.5 * value(0) / (value(47) - value(0)));
+    await choose("show", "");
+    await choose("low", "-10");
+    await choose("high", "10");
+    await until_level("the typed range", 24, level(-10, 10, 24));
+    await choose("high", "a word");
+    expect(await browser.evaluate(`document.getElementById("high").classList.contains("wrong")`), "a word is taken for a number");
+    await click("hold");
+    await until_level("the automatic range again", 24, level(value(0), value(47), 24));
+    expect(await browser.evaluate(`document.getElementById("high").value`) === "", "the end of the range is still there");
+
+    // The cell and its value where the pointer is.
+    const box = await browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
+    const point = (column, row) => browser.call("Input.dispatchMouseEvent", { type: "mouseMoved", x: box[0] + (column + 0.5) / 48 * box[2], y: box[1] + (row + 0.5) / 32 * box[3] });
+    await point(12, 5);
+    await browser.until(`document.getElementById("pointed").textContent === "cell 12, 5: 2.604"`);
+
+    // Lines are thinner than cells: the middle of the cell from 5 to 5.21 is on a line at 5.104, its neighbours are not.
+    const before = [await pixel(23, 16), await pixel(24, 16), await pixel(25, 16)];
+    await browser.evaluate(`document.getElementById("look").open = true`);
+    await choose("at", String(value(24)));
+    const [left, middle, right] = [await pixel(23, 16), await pixel(24, 16), await pixel(25, 16)];
+    expect(middle[3] > 48 * 8, `a line has ${middle[3]} pixels`);
+    expect(near(left.slice(0, 3), before[0]) && near(right.slice(0, 3), before[2]) && !near(middle.slice(0, 3), before[1]), `a line is at ${left}, ${middle}, ${right}`);
+    await choose("at", "");
+    await choose("every", String(value(24) / 2));
+    expect(!near((await pixel(24, 16)).slice(0, 3), before[1]) && near((await pixel(30, 16)).slice(0, 3), await pixel(30, 12)), "evenly spaced lines are missing");
+    await choose("every", "");
+    expect((await pixel(24, 16))[3] === 48, "the canvas stays large without lines");
+
+    // A slope that rises to the right faces the sun at the left; one that falls does not.
+    await choose("relief", "1", "input");
+    const [lit] = await pixel(24, 16);
+    await choose("show", "10 - u");
+    await browser.until(`document.getElementById("pointed").textContent.includes("7.396")`);
+    const [shaded] = await pixel(23, 16);
+    expect(lit > before[1][0] + 5 && shaded < before[1][0] - 5, `relief makes ${before[1][0]} ${lit} and ${shaded}`);
+    await choose("show", "");
+    await choose("relief", "0", "input");
+    await type_script(text);
+    await until_text_is_read();
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+    await browser.until(`document.getElementById("run").disabled`);
+    await choose("palette", "viridis");
+    await choose("every", "0.05");
+    await choose("relief", "0.6", "input");
+    writeFileSync("lines.png", await browser.screenshot());
+    await choose("every", "");
+    await choose("relief", "0", "input");
+    await browser.evaluate(`document.getElementById("look").open = false`);
+}
+
 async function use() {
     await size(1400, 900);
     await browser.call("Page.navigate", { url: address });
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     await help_with_the_text();
+    await look_closely();
 
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);

@@ -1,0 +1,29 @@
+// The cell under the pointer and its value, in words.
+import { digits } from "./look";
+import type { Pattern } from "./pattern";
+
+export class Pointed {
+    private readonly output = document.getElementById("pointed")!;
+    private last?: PointerEvent;
+
+    constructor(private readonly pattern: Pattern) {
+        pattern.canvas.addEventListener("pointermove", (event) => this.point(event));
+        pattern.canvas.addEventListener("pointerleave", () => this.point());
+    }
+
+    private point(event?: PointerEvent) {
+        this.last = event;
+        this.show();
+    }
+
+    /// Again whenever values or what is seen change.
+    show() {
+        const { snapshot } = this.pattern, place = this.last && this.pattern.place(this.last);
+        if (!place || !snapshot) {
+            this.output.textContent = "";
+            return;
+        }
+        const values = snapshot.planes.map((plane) => Number.isNaN(plane[place.cell]) ? "–" : digits(plane[place.cell]));
+        this.output.textContent = `${this.pattern.name_of_cell(place.cell)}: ${values.join(", ")}`;
+    }
+}
