@@ -5,7 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +15,9 @@ namespace cascade {
 /// The content of a file. Fails on a folder, on a missing or unreadable file, and on a file of more
 /// than `largest` bytes, which is checked before reading.
 Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t largest);
+
+/// The number of bytes of a file; nothing if there is none or it cannot be told.
+std::optional<std::uint64_t> size_of_file(const std::filesystem::path& path);
 
 /// The first bytes of a file, at most `count`. Empty if it cannot be opened, and for pipes and
 /// devices, whose bytes can be read only once.

@@ -1,11 +1,11 @@
 // Small planes come from the heap, large ones straight from the system, which clears their pages
 // when a thread first touches them.
+#include "core/enough_memory.h"
 #include "core/plane.h"
 
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 
 #include <sys/mman.h>
 
@@ -66,7 +66,7 @@ void* allocate_plane(std::size_t bytes) {
     const std::size_t shift = next_shift(bytes);
     const std::size_t rounded = round_up(bytes + shift, is_large ? huge_page : cache_line);
     void* const begin = is_large ? map_pages(rounded) : std::aligned_alloc(cache_line, rounded);
-    if (begin == nullptr) throw std::bad_alloc();
+    if (begin == nullptr) lack_memory();
     const Block block{begin, is_large ? rounded : 0};
     char* const plane = static_cast<char*>(begin) + shift;
     std::memcpy(plane - sizeof block, &block, sizeof block);

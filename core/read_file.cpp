@@ -71,6 +71,13 @@ Result<std::string> read_file(const fs::path& path, std::uint64_t largest) {
     return read_all(open_to_read(path, 0), largest, path.string(), Accepted::everything);
 }
 
+std::optional<std::uint64_t> size_of_file(const fs::path& path) {
+    std::error_code unknown;
+    const std::uint64_t size = fs::file_size(path, unknown);
+    if (unknown) return std::nullopt;
+    return size;
+}
+
 std::string first_bytes(const fs::path& path, std::size_t count) {
     const Descriptor file(open_to_read(path, O_NONBLOCK | O_NOCTTY));
     struct stat status {};

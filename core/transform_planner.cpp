@@ -1,11 +1,19 @@
 // The mutex for FFTW's planner.
 #include "core/transform_planner.h"
 
-namespace cascade {
+#include <mutex>
 
-std::mutex& transform_planner() {
+namespace cascade {
+namespace {
+
+std::mutex& planner() {
     static std::mutex mutex;
     return mutex;
 }
+
+}  // namespace
+
+TransformPlanner::TransformPlanner() { planner().lock(); }
+TransformPlanner::~TransformPlanner() { planner().unlock(); }
 
 }  // namespace cascade

@@ -1,11 +1,16 @@
 // FFTW's planner is not thread-safe, while its transforms are.
 #pragma once
 
-#include <mutex>
-
 namespace cascade {
 
-/// The mutex for creating and destroying FFTW plans of any precision, in solvers/ and measure/.
-std::mutex& transform_planner();
+/// While one exists, no other thread has one. Held while FFTW's plans of any precision are created
+/// or destroyed, in solvers/ and measure/.
+class TransformPlanner {
+public:
+    TransformPlanner();
+    ~TransformPlanner();
+    TransformPlanner(const TransformPlanner&) = delete;
+    TransformPlanner& operator=(const TransformPlanner&) = delete;
+};
 
 }  // namespace cascade

@@ -1,13 +1,13 @@
 // Writes the result of an encoder; errors and a lack of memory are reported with the file's name.
 #pragma once
 
+#include "core/enough_memory.h"
 #include "core/file.h"
 #include "core/result.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <new>
 #include <string>
 
 namespace cascade {
@@ -15,14 +15,15 @@ namespace cascade {
 /// Writes the bytes of `encode()`, a Result<std::string>, atomically. Fails as either does.
 template <typename Encode>
 Result<void> write_encoded(const std::filesystem::path& path, const Encode& encode) {
-    try {
-        const Result<std::string> bytes = encode();
-        if (bytes) return write_file(path, *bytes);
-        return failure(fmt::format("cannot write '{}': {}", path.string(), bytes.error().message),
-                       bytes.error().hint);
-    } catch (const std::bad_alloc&) {
-        return failure(fmt::format("cannot write '{}': there is not enough memory", path.string()));
-    }
+    const std::string name = path.string();
+    return enough_memory_for(
+        [&]() -> Result<void> {
+            const Result<std::string> bytes = encode();
+            if (bytes) return write_file(path, *bytes);
+            return failure(fmt::format("cannot write '{}': {}", name, bytes.error().message),
+                           bytes.error().hint);
+        },
+        fmt::format("cannot write '{}': there is not enough memory", name));
 }
 
 }  // namespace cascade

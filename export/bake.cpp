@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/counted.h"
+#include "core/enough_memory.h"
 #include "export/fill_gaps.h"
 #include "export/render_vertices.h"
 #include "export/texture_layout.h"
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 namespace cascade {
 
@@ -340,13 +340,13 @@ Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const Paint
     CHECK(is_side(options.width) && is_side(options.height) && options.samples >= 1 &&
               options.samples <= 8,
           "the size of a texture is checked where it is given");
-    try {
-        if (auto good = check_bakeable(mesh); !good) return tl::unexpected(good.error());
-        return TextureBaker(mesh, filter, cells, options).run(team, cancel);
-    } catch (const std::bad_alloc&) {
-        return failure(fmt::format("there is not enough memory for a texture of {} × {}",
-                                   options.width, options.height));
-    }
+    if (auto good = check_bakeable(mesh); !good) return tl::unexpected(good.error());
+    return enough_memory_for(
+        [&]() -> Result<Bake> {
+            return TextureBaker(mesh, filter, cells, options).run(team, cancel);
+        },
+        fmt::format("there is not enough memory for a texture of {} × {}", options.width,
+                    options.height));
 }
 
 }  // namespace cascade

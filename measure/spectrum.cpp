@@ -11,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <numeric>
 
 namespace cascade::measure {
@@ -69,11 +68,11 @@ void transform(const Samples& samples, double* values) {
     }
     fftw_plan plan = nullptr;
     {
-        const std::lock_guard lock(transform_planner());
+        const TransformPlanner planner;
         plan = fftw().plan_r2r(3, sizes, values, values, kinds, FFTW_ESTIMATE);
     }
     fftw().execute(plan);
-    const std::lock_guard lock(transform_planner());
+    const TransformPlanner planner;
     fftw().destroy_plan(plan);
 }
 

@@ -41,10 +41,9 @@ constexpr std::array<Format, 6> formats = {{{"ply", read_alone<read_ply>},
                                             {"glb", read_gltf}}};
 
 const Format* format_of(std::string_view ending) {
-    const auto* const found = std::find_if(formats.begin(), formats.end(), [&](const Format& each) {
-        return each.ending == ending;
-    });
-    return found == formats.end() ? nullptr : found;
+    const auto found = std::find_if(formats.begin(), formats.end(),
+                                    [&](const Format& each) { return each.ending == ending; });
+    return found == formats.end() ? nullptr : &*found;
 }
 
 /// The extension of a model's name in lower case; fails for others.

@@ -1,5 +1,7 @@
-// Parses numbers by from_chars(); those out of range become 0 or infinity.
+// Parses numbers by from_decimal(); those out of range become 0 or infinity.
 #include "mesh/text_words.h"
+
+#include "core/decimal.h"
 
 #include <algorithm>
 #include <limits>
@@ -21,13 +23,13 @@ std::vector<std::string_view> words_of(std::string_view line) {
 std::optional<double> number_in(std::string_view word) {
     if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
     double value = 0;
-    const auto [stop, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [stop, fault] = from_decimal(word.data(), word.data() + word.size(), value);
     if (fault == std::errc::invalid_argument || stop != word.data() + word.size()) {
         return std::nullopt;
     }
     if (fault == std::errc()) return value;
-    // Out of range, and from_chars does not tell at which end: the sign of the exponent does, or,
-    // without one, whether there are digits before the point.
+    // Out of range, and from_decimal() does not tell at which end: the sign of the exponent does,
+    // or, without one, whether there are digits before the point.
     const bool is_negative = word.starts_with('-');
     if (is_negative) word.remove_prefix(1);
     const std::size_t exponent = word.find_first_of("eE");

@@ -1,4 +1,5 @@
 // Reads the pixels of PNG files as numbers.
+#include "core/enough_memory.h"
 #include "core/file.h"
 #include "picture/grey_picture.h"
 #include "picture/png_reader.h"
@@ -6,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
 #include <vector>
 
 namespace cascade {
@@ -134,11 +134,7 @@ Result<GreyPicture> parse(std::string_view bytes) {
 
 Result<GreyPicture> parse_grey_picture(std::string_view bytes) {
     if (!has_png_signature(bytes)) return failure("it is not a PNG file");
-    try {
-        return parse(bytes);
-    } catch (const std::bad_alloc&) {
-        return failure("there is not enough memory");
-    }
+    return enough_memory_for([&] { return parse(bytes); });
 }
 
 Result<GreyPicture> read_grey_picture(const std::filesystem::path& path) {

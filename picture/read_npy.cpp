@@ -1,4 +1,5 @@
 // Reads .npy files.
+#include "core/enough_memory.h"
 #include "core/file.h"
 #include "picture/npy.h"
 #include "picture/npy_header.h"
@@ -10,7 +11,6 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <new>
 #include <type_traits>
 
 namespace cascade {
@@ -137,11 +137,11 @@ Result<NpyArray> parse_npy(std::string_view bytes, Precision precision) {
                                    wanted),
                        data.size() < wanted ? "the file is cut off" : "");
     }
-    try {
+    const auto allocated = enough_memory_for([&]() -> Result<void> {
         array->values.resize(count);
-    } catch (const std::bad_alloc&) {
-        return failure("there is not enough memory");
-    }
+        return {};
+    });
+    if (!allocated) return tl::unexpected(allocated.error());
     const Convert convert = precision == Precision::single ? type->to_single : type->to_double;
     convert(data, header->type[0] == '>', array->values);
     return array;

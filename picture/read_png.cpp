@@ -3,6 +3,7 @@
 // libpng reads texts before the picture's data easily, but those after it only by inflating the
 // picture. So this walks over the file's chunks and gives libpng short files of the header and one
 // text. libpng checks and inflates the text within the remaining limit for all texts.
+#include "core/enough_memory.h"
 #include "core/file.h"
 #include "picture/image.h"
 #include "picture/png_reader.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
 #include <optional>
 #include <span>
 #include <vector>
@@ -104,7 +104,7 @@ std::string text_of(const png_text& chunk) {
 
 Result<PngTexts> parse_png_texts(std::string_view bytes) {
     if (!has_png_signature(bytes)) return failure("it is not a PNG file");
-    try {
+    return enough_memory_for([&]() -> Result<PngTexts> {
         const Result<HeaderAndTexts> found = find_texts(bytes);
         if (!found) return tl::unexpected<Failure>(found.error());
         PngTexts texts;
@@ -126,9 +126,7 @@ Result<PngTexts> parse_png_texts(std::string_view bytes) {
             }
         }
         return texts;
-    } catch (const std::bad_alloc&) {
-        return failure("there is not enough memory");
-    }
+    });
 }
 
 Result<PngTexts> read_png_texts(const std::filesystem::path& path) {

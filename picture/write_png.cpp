@@ -1,6 +1,7 @@
 // Writes PNG files, chunk by chunk: W3C, "Portable Network Graphics (PNG) Specification (Second
 // Edition)", 2003.
 #include "core/check.h"
+#include "core/enough_memory.h"
 #include "core/write_encoded.h"
 #include "picture/image.h"
 #include "picture/png_rows.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <new>
 
 namespace cascade {
 namespace {
@@ -35,7 +35,7 @@ std::string compressed(const void* bytes, std::size_t size, int level) {
     const auto free = [](libdeflate_compressor* made) { libdeflate_free_compressor(made); };
     const std::unique_ptr<libdeflate_compressor, decltype(free)> compressor(
         libdeflate_alloc_compressor(level), free);
-    if (!compressor) throw std::bad_alloc();
+    if (!compressor) lack_memory();
     const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), size);
     const auto buffer = std::make_unique_for_overwrite<char[]>(most);
     const std::size_t used =
@@ -106,7 +106,7 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
     if (auto checked = check_texts(texts); !checked) {
         return tl::unexpected<Failure>(checked.error());
     }
-    try {
+    return enough_memory_for([&]() -> Result<std::string> {
         const int level = effort == PngEffort::fast ? 1 : 6;
         const PngFormat format = png_format(image, depth);
         std::string file = "\x89PNG\r\n\x1a\n";
@@ -121,9 +121,7 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
         }
         append_chunk(file, "IEND", {});
         return file;
-    } catch (const std::bad_alloc&) {
-        return failure("there is not enough memory");
-    }
+    });
 }
 
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,

@@ -5,7 +5,6 @@
 #include "core/late_library.h"
 #include "core/transform_planner.h"
 
-#include <mutex>
 #include <utility>
 
 namespace cascade {
@@ -65,7 +64,7 @@ FftwTransform<Number>::FftwTransform(Kind kind, int direction, std::int64_t cell
     const auto half = [](std::int64_t elements) { return static_cast<int>(elements / 2); };
     const auto r2r_kind = static_cast<fftw_r2r_kind>(direction);
     const Fftw<Number>& all = fftw<Number>();
-    const std::lock_guard lock(transform_planner());
+    const TransformPlanner planner;
     switch (kind) {
         case real:
             plan_ = all.plan_real(1, &n, many, from.at, nullptr, step(from.stride),
@@ -103,7 +102,7 @@ FftwTransform<Number>& FftwTransform<Number>::operator=(FftwTransform&& other) n
 template <typename Number>
 FftwTransform<Number>::~FftwTransform() {
     if (plan_ == nullptr) return;
-    const std::lock_guard lock(transform_planner());
+    const TransformPlanner planner;
     fftw<Number>().destroy(plan_);
 }
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
 namespace cascade {
 
@@ -85,19 +84,15 @@ private:
 };
 
 Result<Header> read_header(const std::filesystem::path& path, const CellKey& key) {
-    std::error_code error;
-    const std::uint64_t size = std::filesystem::file_size(path, error);
-    if (error) return failure(fmt::format("'{}' is not there", path.string()));
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return failure(fmt::format("'{}' cannot be read", path.string()));
-    Header header;
-    std::array<char, sizeof header> bytes{};
-    file.read(bytes.data(), bytes.size());
-    std::memcpy(&header, bytes.data(), sizeof header);
     const auto fails = [&](std::string_view why) {
         return failure(fmt::format("'{}' {}", path.string(), why));
     };
-    if (!file || std::string_view(header.magic.data(), header.magic.size()) != magic) {
+    if (!size_of_file(path)) return fails("is not there");
+    Header header;
+    const std::string bytes = first_bytes(path, sizeof header);
+    std::memcpy(&header, bytes.data(), bytes.size());
+    if (bytes.size() < sizeof header ||
+        std::string_view(header.magic.data(), header.magic.size()) != magic) {
         return fails("is no file of cells");
     }
     if (header.byte_order != byte_order_mark)
@@ -107,9 +102,8 @@ Result<Header> read_header(const std::filesystem::path& path, const CellKey& key
     }
     if (header.key != key.words)
         return fails("holds cells of another surface or made in another way");
-    if (header.cells > most || header.edges > most ||
-        size != sizeof header + header.cells * bytes_per_cell + header.edges * bytes_per_edge + 8) {
-        return fails("is damaged: its size is not what it says");
+    if (header.cells > most || header.edges > most) {
+        return fails("is damaged: it cannot be as large as it says");
     }
     return header;
 }
@@ -243,8 +237,9 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
     const auto damaged = [&](std::string_view why) {
         return failure(fmt::format("'{}' is damaged: {}", path.string(), why));
     };
+    if (bytes->size() != size) return damaged("its size is not what it says");
     // The file may have been replaced since its header was read.
-    if (bytes->size() != size || std::memcmp(bytes->data(), &*header, sizeof(Header)) != 0) {
+    if (std::memcmp(bytes->data(), &*header, sizeof(Header)) != 0) {
         return damaged("it changed while it was read");
     }
     const std::string_view content(bytes->data(), size - 8);

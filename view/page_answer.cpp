@@ -196,20 +196,20 @@ std::string print_failure(std::uint64_t id, const Failure& failure) {
                   {"messages", Json::array({print_failure(failure)})}});
 }
 
-SharedBytes print_snapshot(const Snapshot& snapshot) {
+std::string print_snapshot(const Snapshot& snapshot) {
     std::string header = print(print_header(snapshot));
     header.resize((header.size() + 3) / 4 * 4, ' ');
     const auto size = static_cast<std::uint32_t>(header.size());
     const PlaneLayout& layout = snapshot.fields[0].layout();
     const auto row_bytes = static_cast<std::size_t>(layout.width) * sizeof(float);
     const auto rows = static_cast<std::size_t>(layout.row_count());
-    auto bytes = std::make_shared<std::string>();
-    bytes->reserve(sizeof size + header.size() + snapshot.fields.size() * rows * row_bytes);
-    bytes->append(reinterpret_cast<const char*>(&size), sizeof size);
-    *bytes += header;
+    std::string bytes;
+    bytes.reserve(sizeof size + header.size() + snapshot.fields.size() * rows * row_bytes);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes += header;
     for (const Field& field : snapshot.fields) {
         for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-            bytes->append(reinterpret_cast<const char*>(field.row(row)), row_bytes);
+            bytes.append(reinterpret_cast<const char*>(field.row(row)), row_bytes);
         }
     }
     return bytes;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "run/session/session.h"
-#include "view/outbox.h"
 
 #include <cstdint>
 #include <string>
@@ -30,6 +29,6 @@ std::string print_failure(std::uint64_t id, const Failure& failure);
 
 /// A snapshot: the size of the header, as 4 bytes, least significant first; the header, JSON,
 /// filled with blanks to a multiple of 4 bytes; the shown fields, row after row, as binary32.
-SharedBytes print_snapshot(const Snapshot& snapshot);
+std::string print_snapshot(const Snapshot& snapshot);
 
 }  // namespace cascade

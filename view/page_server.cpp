@@ -139,7 +139,8 @@ void PageServer::State::send_snapshots() {
         }
         lock.unlock();
         const auto snapshot = session->newer_than(seen, std::chrono::milliseconds(100));
-        const SharedBytes frame = snapshot ? print_snapshot(*snapshot) : nullptr;
+        const SharedBytes frame =
+            snapshot ? std::make_shared<const std::string>(print_snapshot(*snapshot)) : nullptr;
         lock.lock();
         if (!snapshot) continue;
         if (const auto version = version_of_script(*snapshot); version != told_script) {

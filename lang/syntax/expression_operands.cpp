@@ -1,9 +1,9 @@
 // Expressions where an operand is expected: numbers, names in all forms, strings, signs, brackets.
+#include "core/decimal.h"
 #include "lang/syntax/expression_parser.h"
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace cascade {
@@ -73,7 +73,7 @@ ExpressionParser::Progress ExpressionParser::read_number() {
     const Token token = cursor_.take();
     const std::string_view text = cursor_.text(token);
     double value = 0;
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto result = from_decimal(text.data(), text.data() + text.size(), value);
     const bool vanishes = value != 0 && std::abs(value) < smallest;
     if (result.ec != std::errc() || value >= too_large || vanishes) {
         cursor_.error(token.span, "number out of range",

@@ -80,17 +80,16 @@ void read_image(Script& script, const Node& node, InputFiles& files) {
 void read_of_model(Script& script, const Node& node, Function function, const ModelCells& model,
                    InputFiles& files) {
     const Precision precision = script.program->domain.precision;
-    Result<Field> plane;
+    const auto add = [&](Result<Field> plane) {
+        if (plane) return files.add({function, text_of(node)}, *std::move(plane));
+        script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
+    };
     if (function == Function::attr) {
-        plane = attribute_plane(script.program->literals->text(text_of(node)), model, precision);
-    } else {
-        const auto picture = read_picture(script, node);
-        if (!picture) return;
-        plane = painted_plane(*picture, model, precision);
+        const std::string& name = script.program->literals->text(text_of(node));
+        add(attribute_plane(name, model, precision));
+    } else if (const auto picture = read_picture(script, node)) {
+        add(painted_plane(*picture, model, precision));
     }
-    if (!plane)
-        return script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
-    files.add({function, text_of(node)}, *std::move(plane));
 }
 
 /// Calls `read(function, text)` for each text that the script's formulas read, once.

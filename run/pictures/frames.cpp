@@ -2,6 +2,7 @@
 // known.
 #include "run/pictures/frames.h"
 
+#include "core/enough_memory.h"
 #include "core/parallel.h"
 #include "core/write_encoded.h"
 #include "run/domain/free_memory.h"
@@ -11,7 +12,6 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <new>
 
 namespace cascade {
 
@@ -24,16 +24,6 @@ std::size_t plane_size(const PlaneLayout& layout) {
 /// The whole plane including halo and padding, which is contiguous.
 const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
-
-/// The result of an action that may throw std::bad_alloc.
-template <typename Action>
-auto enough_memory_for(const Action& action) -> decltype(action()) {
-    try {
-        return action();
-    } catch (const std::bad_alloc&) {
-        return failure("there is not enough memory");
-    }
-}
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 // files.
 #include "run/pictures/model_files.h"
 
+#include "core/enough_memory.h"
 #include "export/bake.h"
 #include "export/cell_writer.h"
 #include "export/model_writer.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
-#include <new>
 #include <utility>
 
 namespace cascade {
@@ -72,16 +72,18 @@ const CellFilter& ModelFileWriter::filter() {
 
 Result<std::vector<std::filesystem::path>> ModelFileWriter::write(
     const std::filesystem::path& path) {
-    Result<void> written;
-    try {
-        if (output_kind(path) == OutputKind::cells) written = write_cells(path);
-        else if (options_.is_baked(path)) return write_maps(path);
-        else written = options_.retile ? write_retiled(path) : write_refined(path);
-    } catch (const std::bad_alloc&) {
-        return failure("cannot write '" + path.string() + "': there is not enough memory");
-    }
-    if (!written) return tl::unexpected(written.error());
-    return std::vector{path};
+    const auto write_one = [&]() -> Result<std::vector<std::filesystem::path>> {
+        if (options_.is_baked(path) && output_kind(path) != OutputKind::cells) {
+            return write_maps(path);
+        }
+        const auto written = output_kind(path) == OutputKind::cells ? write_cells(path)
+                             : options_.retile                      ? write_retiled(path)
+                                                                    : write_refined(path);
+        if (!written) return tl::unexpected(written.error());
+        return std::vector{path};
+    };
+    return enough_memory_for(write_one,
+                             "cannot write '" + path.string() + "': there is not enough memory");
 }
 
 Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {

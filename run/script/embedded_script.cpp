@@ -4,13 +4,11 @@
 #include "core/file.h"
 #include "core/json_size.h"
 #include "core/version.h"
+#include "run/script/json_fields.h"
 #include "run/script/script_folder.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <limits>
-#include <stdexcept>
 
 namespace cascade {
 
@@ -22,12 +20,6 @@ constexpr const char* key_overrides = "Cascade overrides";
 constexpr const char* key_seed = "Cascade seed";
 constexpr const char* key_picture = "Cascade picture";
 constexpr const char* key_sweep = "Cascade sweep";
-
-/// A whole number from 0 to `most`; throws otherwise.
-std::int64_t whole_number(const nlohmann::json& json, std::int64_t most) {
-    if (!json.is_number_integer() || json < 0 || json > most) throw std::out_of_range("number");
-    return json.get<std::int64_t>();
-}
 
 /// The list in a sheet's chunk; empty if it is not a list of strings.
 std::vector<std::string> texts_of(const std::string& text) {
@@ -65,45 +57,29 @@ std::string overrides_to_json(const Overrides& overrides) {
 }
 
 Result<Overrides> overrides_from_json(const std::string& text) {
-    constexpr const char* unreadable = "the stored overrides cannot be read";
-    constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
-    if (!is_small_json(text)) return failure(unreadable);
-    // The JSON library throws; no exception leaves this function.
-    try {
-        const auto json = nlohmann::json::parse(text);
-        if (!json.is_object()) return failure(unreadable);
-        Overrides overrides;
-        if (json.contains("set")) json.at("set").get_to(overrides.sets);
-        if (json.contains("grid")) {
-            const nlohmann::json& grid = json.at("grid");
-            overrides.grid = {whole_number(grid.at(0), largest), whole_number(grid.at(1), largest),
-                              grid.size() > 2 ? whole_number(grid.at(2), largest) : 1};
-        }
-        if (json.contains("seed")) {
-            overrides.seed = static_cast<std::uint32_t>(
-                whole_number(json.at("seed"), std::numeric_limits<std::uint32_t>::max()));
-        }
-        if (json.contains("steps")) overrides.steps = whole_number(json.at("steps"), largest);
-        if (json.contains("until_stage")) {
-            overrides.until_stage = json.at("until_stage").get<std::string>();
-        }
-        if (json.contains("used")) json.at("used").get_to(overrides.used);
-        if (json.contains("solver")) overrides.solver = json.at("solver").get<std::string>();
-        if (json.contains("precision")) {
-            overrides.precision = precision_of_name(json.at("precision").get<std::string>());
-            if (!overrides.precision) return failure(unreadable);
-        }
-        if (json.contains("fast")) json.at("fast").get_to(overrides.fast);
-        if (json.contains("mesh")) overrides.model = json.at("mesh").get<std::string>();
-        if (json.contains("cells")) overrides.cells = json.at("cells").get<std::string>();
-        if (json.contains("up")) {
-            overrides.up = axis_of_name(json.at("up").get<std::string>());
-            if (!overrides.up) return failure(unreadable);
-        }
-        return overrides;
-    } catch (const std::exception&) {
-        return failure(unreadable);
+    const Failure unreadable{"the stored overrides cannot be read", ""};
+    if (!is_small_json(text)) return tl::unexpected(unreadable);
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    JsonFields fields(json);
+    Overrides overrides;
+    std::vector<std::int64_t> grid;
+    fields.read("set", overrides.sets);
+    fields.read("grid", grid);
+    fields.read("seed", overrides.seed);
+    fields.read("steps", overrides.steps);
+    fields.read("until_stage", overrides.until_stage);
+    fields.read("used", overrides.used);
+    fields.read("solver", overrides.solver);
+    fields.read("precision", overrides.precision, precision_of_name);
+    fields.read("fast", overrides.fast);
+    fields.read("mesh", overrides.model);
+    fields.read("cells", overrides.cells);
+    fields.read("up", overrides.up, axis_of_name);
+    if (!fields.is_sound() || grid.size() == 1 || grid.size() > 3) {
+        return tl::unexpected(unreadable);
     }
+    if (!grid.empty()) overrides.grid = {grid[0], grid[1], grid.size() > 2 ? grid[2] : 1};
+    return overrides;
 }
 
 Overrides merge(Overrides base, const Overrides& changes) {

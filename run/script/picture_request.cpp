@@ -3,6 +3,7 @@
 #include "run/script/picture_request.h"
 
 #include "core/json_size.h"
+#include "run/script/json_fields.h"
 
 #include <nlohmann/json.hpp>
 
@@ -54,37 +55,45 @@ std::string to_json(const PictureRequest& request) {
 }
 
 Result<PictureRequest> picture_request_from_json(const std::string& text) {
-    if (!is_small_json(text)) return failure("the stored picture options cannot be read");
-    // The JSON library throws; no exception leaves this function.
-    try {
-        const auto json = nlohmann::json::parse(text);
-        PictureRequest request;
-        request.palette = json.value("palette", request.palette);
-        request.scale = json.value("scale", request.scale);
-        request.depth = json.value("depth", request.depth);
-        request.space_time = json.value("space_time", request.space_time);
-        request.show = json.value("show", request.show);
-        if (json.contains("slice")) {
-            const auto axis = axis_of_name(json.at("slice").at(0).get<std::string>());
-            if (!axis) return failure("the stored picture options make no sense");
-            request.slice = {*axis, json.at("slice").at(1).get<double>()};
-        }
-        request.flat = json.value("flat", request.flat);
-        if (json.contains("view")) {
-            request.view.azimuth = json.at("view").at(0).get<float>();
-            request.view.elevation = json.at("view").at(1).get<float>();
-        }
-        request.view.is_turning = json.value("turning", false);
-        request.bump = json.value("bump", request.bump);
-        if (json.contains("range")) {
-            request.range = ValueRange{json.at("range").at(0).get<float>(),
-                                       json.at("range").at(1).get<float>()};
-        }
-        if (!makes_sense(request)) return failure("the stored picture options make no sense");
-        return request;
-    } catch (const nlohmann::json::exception&) {
-        return failure("the stored picture options cannot be read");
+    const Failure unreadable{"the stored picture options cannot be read", ""};
+    const Failure senseless{"the stored picture options make no sense", ""};
+    if (!is_small_json(text)) return tl::unexpected(unreadable);
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    JsonFields fields(json);
+    PictureRequest request;
+    std::vector<float> view, range;
+    fields.read("palette", request.palette);
+    fields.read("scale", request.scale);
+    fields.read("depth", request.depth);
+    fields.read("space_time", request.space_time);
+    fields.read("show", request.show);
+    fields.read("flat", request.flat);
+    fields.read("view", view);
+    fields.read("turning", request.view.is_turning);
+    fields.read("bump", request.bump);
+    fields.read("range", range);
+    const auto is_none_or_two = [](std::size_t count) { return count == 0 || count == 2; };
+    if (!fields.is_sound() || !is_none_or_two(view.size()) || !is_none_or_two(range.size())) {
+        return tl::unexpected(unreadable);
     }
+    if (json.contains("slice")) {
+        const nlohmann::json& slice = json["slice"];
+        std::string axis;
+        if (!slice.is_array() || slice.size() != 2 || !from_json_value(slice[0], axis) ||
+            !from_json_value(slice[1], request.slice.place)) {
+            return tl::unexpected(unreadable);
+        }
+        const auto found = axis_of_name(axis);
+        if (!found) return tl::unexpected(senseless);
+        request.slice.axis = *found;
+    }
+    if (!view.empty()) {
+        request.view.azimuth = view[0];
+        request.view.elevation = view[1];
+    }
+    if (!range.empty()) request.range = ValueRange{range[0], range[1]};
+    if (!makes_sense(request)) return tl::unexpected(senseless);
+    return request;
 }
 
 }  // namespace cascade

@@ -161,11 +161,10 @@ Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides
     const bool is_picture = first_bytes(path, signature.size()) == signature;
     auto bytes = read_file(path, is_picture ? largest_picture : largest_script);
     if (!bytes) {
-        std::error_code unknown;
-        const auto size = std::filesystem::file_size(path, unknown);
-        if (unknown || is_picture || size <= largest_script) return tl::unexpected(bytes.error());
+        const auto size = size_of_file(path);
+        if (!size || is_picture || *size <= largest_script) return tl::unexpected(bytes.error());
         return failure(fmt::format("{}: this script has {} bytes; the largest allowed has {}",
-                                   path.string(), size, largest_script),
+                                   path.string(), *size, largest_script),
                        "is it really a Cascade script?");
     }
     if (bytes->starts_with("cascade session ")) {

@@ -142,8 +142,7 @@ Canvas Turns::canvas() {
     if (painted_script_ != &run_->script()) {
         auto made = make_painter(shown_);
         // The expression may have lost its meaning with the old script.
-        if (!made) made = make_painter("");
-        painter_ = std::move(*made);
+        painter_ = made ? std::move(*made) : std::move(*make_painter(""));
         painted_script_ = &run_->script();
     }
     painter_->set_slice(slice_);

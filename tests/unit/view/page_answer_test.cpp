@@ -107,12 +107,12 @@ TEST(PageAnswer, SnapshotsAreAHeaderAndPlanes) {
                                   interpreted(), control);
     ASSERT_TRUE(session.has_value());
     const auto snapshot = (*session)->newest();
-    const SharedBytes bytes = print_snapshot(*snapshot);
+    const std::string bytes = print_snapshot(*snapshot);
     std::uint32_t size = 0;
-    std::memcpy(&size, bytes->data(), sizeof size);
+    std::memcpy(&size, bytes.data(), sizeof size);
     ASSERT_EQ(size % 4, 0U);
-    ASSERT_EQ(bytes->size(), sizeof size + size + 6 * 4 * sizeof(float));
-    const Json header = Json::parse(bytes->substr(sizeof size, size));
+    ASSERT_EQ(bytes.size(), sizeof size + size + 6 * 4 * sizeof(float));
+    const Json header = Json::parse(bytes.substr(sizeof size, size));
     EXPECT_EQ(header["number"], snapshot->number);
     EXPECT_EQ(header["columns"], 6);
     EXPECT_EQ(header["rows"], 4);
@@ -122,7 +122,7 @@ TEST(PageAnswer, SnapshotsAreAHeaderAndPlanes) {
     EXPECT_EQ(header["stages"][1]["name"], "two");
     EXPECT_EQ(header["stages"][1]["has_begun"], false);
     std::vector<float> cells(24);
-    std::memcpy(cells.data(), bytes->data() + sizeof size + size, 24 * sizeof(float));
+    std::memcpy(cells.data(), bytes.data() + sizeof size + size, 24 * sizeof(float));
     for (std::int64_t row = 0; row < 4; ++row) {
         for (std::int64_t column = 0; column < 6; ++column) {
             const float seen = cells[static_cast<std::size_t>(6 * row + column)];
