@@ -142,10 +142,10 @@ TEST(PageAnswer, SnapshotsOfVolumesNameTheirSlice) {
         "domain { grid: 6, 5, 4 }\nsystem s { u: x; u' = 0 }\nstage s: s { iterations: 9 }\n";
     auto session = Session::begin(load_script("ball.cascade", ball, "."), interpreted(), control);
     ASSERT_TRUE(session.has_value());
-    const SharedBytes bytes = print_snapshot(*(*session)->newest());
+    const std::string bytes = print_snapshot(*(*session)->newest());
     std::uint32_t size = 0;
-    std::memcpy(&size, bytes->data(), sizeof size);
-    const Json header = Json::parse(bytes->substr(sizeof size, size));
+    std::memcpy(&size, bytes.data(), sizeof size);
+    const Json header = Json::parse(bytes.substr(sizeof size, size));
     EXPECT_EQ(header["columns"], 6);
     EXPECT_EQ(header["rows"], 5);
     EXPECT_EQ(header["slice"], Json({{"axis", "z"}, {"number", 2}, {"sides", {6, 5, 4}}}));
