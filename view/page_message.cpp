@@ -91,7 +91,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 17> verbs{{
+constexpr std::array<Verb, 19> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -136,6 +136,15 @@ constexpr std::array<Verb, 17> verbs{{
     {"explain",
      [](FieldReader& fields) -> PageRequest {
          return PageQuestion(AskAboutName{fields.text("text")});
+     }},
+    {"values",
+     [](FieldReader& fields) -> PageRequest {
+         return PageQuestion(AskForValues{fields.whole("cell", -1, most_steps)});
+     }},
+    {"measure",
+     [](FieldReader& fields) -> PageRequest {
+         auto x = fields.text("x");
+         return PageQuestion(AskForMeasures{std::move(x), fields.text("y")});
      }},
 }};
 

@@ -19,9 +19,15 @@ struct NextSnapshot {};
 struct AskForLog {};
 struct AskForNames { std::string text; };  ///< That may stand in place of its last word.
 struct AskAboutName { std::string text; };  ///< About its last word.
+/// The spread of each species, and its value in a cell: column + width · row, with rows numbered
+/// through all slices. No cell if it is −1.
+struct AskForValues { std::int64_t cell = -1; };
+/// Distribution and spectrum of a species, and how it and another one occur together.
+struct AskForMeasures { std::string x, y; };
 // clang-format on
 
-using PageQuestion = std::variant<AskForLog, AskForNames, AskAboutName>;
+using PageQuestion =
+    std::variant<AskForLog, AskForNames, AskAboutName, AskForValues, AskForMeasures>;
 using PageRequest = std::variant<SessionCommand, NextSnapshot, PageQuestion>;
 
 struct PageMessage {

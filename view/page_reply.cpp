@@ -3,14 +3,24 @@
 
 #include "lang/check/known_names.h"
 #include "lang/equations/equations.h"
+#include "measure/spectrum.h"
 #include "picture/image.h"
+#include "run/pictures/measured.h"
+#include "run/session/kept_state.h"
 
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace cascade {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr std::size_t bins_of_histogram = 64, bins_of_density = 48;
+constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
 
 Json reply_to(const AskForLog&, LiveRun& run) {
     return {{"kind", "log"}, {"text", print_session_log(run.log())}};
@@ -25,11 +35,15 @@ Json reply_to(const AskForNames& question, LiveRun& run) {
     return {{"kind", "names"}, {"names", std::move(names)}};
 }
 
+Formula formula_of_item(ItemId item) {
+    Formula formula;
+    formula.nodes.push_back({item});
+    return formula;
+}
+
 /// The values of an item now; outside of a mask they are NaN.
 Field values_of(const LiveRun& run, StageItem at) {
-    Formula formula;
-    formula.nodes.push_back({at.item});
-    return std::move(run.simulation().evaluate(formula, at.stage)[0]);
+    return std::move(run.simulation().evaluate(formula_of_item(at.item), at.stage)[0]);
 }
 
 /// The present value of an item, or the range of its values.
@@ -68,6 +82,97 @@ Json reply_to(const AskAboutName& question, LiveRun& run) {
         reply["equation"] = equation_in_mathml(script.tree, script.sources,
                                                script.program->system_of(of).name, known.name);
     }
+    return reply;
+}
+
+/// Since the first stage began.
+double time_of_run(const LiveRun& run) {
+    double time = time_of(run.simulation(), run.place().stage);
+    for (std::uint32_t k = 0; k < run.place().stage; ++k) time += run.simulation().state(k).t;
+    return time;
+}
+
+Json reply_to(const AskForValues& question, LiveRun& run) {
+    const Simulation& simulation = run.simulation();
+    const std::uint32_t stage = run.place().stage;
+    const System& system = run.script().program->system_of(stage);
+    const Grid& grid = simulation.grid();
+    Json species = Json::array();
+    for (const ItemId item : system.species()) {
+        const Field field = values_of(run, {stage, item});
+        const Spread spread = spread_of(field);
+        species.push_back({{"name", system.item_name(item)},
+                           {"mean", spread.mean},
+                           {"smallest", spread.smallest},
+                           {"largest", spread.largest}});
+        if (question.cell < 0 || question.cell >= grid.cell_count()) continue;
+        species.back()["value"] = field.visit([&](const auto& plane) {
+            return static_cast<double>(
+                plane.row(question.cell / grid.width)[question.cell % grid.width]);
+        });
+    }
+    return {{"kind", "values"},
+            {"t", time_of_run(run)},
+            {"stage", stage + 1},
+            {"steps", run.place().steps},
+            {"species", std::move(species)}};
+}
+
+/// Numbers in as many bins of equal width as there are counts.
+class Bins {
+public:
+    Bins(const Spread& spread, std::size_t count)
+        : low_(spread.smallest),
+          width_((spread.largest - spread.smallest) / static_cast<double>(count)),
+          count_(count) {}
+    /// Of a finite number of the spread.
+    std::size_t operator()(double value) const {
+        const double place = width_ > 0 ? (value - low_) / width_ : 0;
+        return std::min(static_cast<std::size_t>(std::max(place, 0.0)), count_ - 1);
+    }
+
+private:
+    double low_, width_;
+    std::size_t count_;
+};
+
+void add_spectrum(Json& reply, const measure::Samples& samples) {
+    const measure::Spectrum spectrum = measure::radial_spectrum(samples);
+    reply["spectrum"] = spectrum.power;
+    reply["ring_width"] = spectrum.ring_width;
+    reply["wavelength"] = measure::peak_wavelength(spectrum);
+}
+
+/// Fails on names that are no species of the present stage.
+Json reply_to(const AskForMeasures& question, LiveRun& run) {
+    Json reply = {{"kind", "measures"}};
+    const Simulation& simulation = run.simulation();
+    const std::uint32_t stage = run.place().stage;
+    const System& system = run.script().program->system_of(stage);
+    const auto x = find_item(system, question.x), y = find_item(system, question.y);
+    if (!x || !y || !system.is_species(*x) || !system.is_species(*y)) return reply;
+    const Field fields[] = {values_of(run, {stage, *x}), values_of(run, {stage, *y})};
+    const Spread spreads[] = {spread_of(fields[0]), spread_of(fields[1])};
+    if (spreads[0].count == 0 || spreads[1].count == 0) return reply;
+    const measure::Samples samples[] = {to_samples(fields[0], simulation.grid()),
+                                        to_samples(fields[1], simulation.grid())};
+    std::vector<int> histogram(bins_of_histogram), density(bins_of_density * bins_of_density);
+    const Bins bins(spreads[0], bins_of_histogram);
+    const Bins columns(spreads[0], bins_of_density), rows(spreads[1], bins_of_density);
+    for (std::size_t k = 0; k < samples[0].count(); ++k) {
+        const double first = samples[0].values[k], second = samples[1].values[k];
+        if (!std::isfinite(first) || !std::isfinite(second)) continue;
+        ++histogram[bins(first)];
+        ++density[rows(second) * bins_of_density + columns(first)];
+    }
+    reply["histogram"] = histogram;
+    reply["density"] = density;
+    for (const std::size_t k : {0, 1}) {
+        reply[k == 0 ? "x" : "y"] = {spreads[k].smallest, spreads[k].largest};
+    }
+    // A model has no waves along axes, and large fields would stop the run for too long.
+    const bool is_small = simulation.grid().cell_count() <= most_cells_of_spectrum;
+    if (is_small && !simulation.model()) add_spectrum(reply, samples[0]);
     return reply;
 }
 

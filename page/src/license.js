@@ -1,8 +1,9 @@
-/*! Cascade. This file contains CodeMirror and Lezer, under the following license.
+/*! Cascade. This file contains CodeMirror, Lezer and uPlot, under the following license.
 
 MIT License
 
 Copyright (C) 2018-2021 by Marijn Haverbeke <marijn@haverbeke.berlin> and others
+Copyright (c) 2022 Leon Sorokin
 
 Permission is hereby granted, free of charge, to any person obtaining a copy
 of this software and associated documentation files (the "Software"), to deal

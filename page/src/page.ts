@@ -3,6 +3,7 @@ import { Answer, Connection, Control, Explanation, KnownName, Message, Palette, 
 import { Editor } from "./editor";
 import { Library } from "./library";
 import { LookControls } from "./look";
+import { Measure } from "./measure";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
@@ -20,7 +21,7 @@ const look = new LookControls(() => pattern.draw());
 pattern.look = look.look;
 pattern.drawn = (shown) => {
     look.show(shown);
-    pointed.show();
+    show_marks();
 };
 const palette_choice = element<HTMLSelectElement>("palette");
 const brush_choice = element<HTMLSelectElement>("brush");
@@ -69,12 +70,19 @@ const connection = new Connection({
             pattern.draw();
             keep_pace(pattern.snapshot!);
             slices.show(pattern.snapshot!);
+            void measure.look_at(pattern.snapshot!);
             show_state(pattern.snapshot!);
             connection.next_snapshot();
         });
     },
     lost: (reason) => notice(reason, true),
 });
+
+const measure = new Measure(pattern, (what, fields) => connection.ask(what, fields));
+function show_marks() {
+    pointed.show();
+    measure.show_mark();
+}
 
 const slices = new Slices((fields) => ask("slice", fields));
 
@@ -139,6 +147,7 @@ function show_script(script: Script) {
         show_messages(script.messages);
     }
     show_controls(script.controls);
+    measure.species = script.species;
     if ([...brush_choice.options].map((o) => o.value).join() !== script.species.join()) {
         brush_choice.replaceChildren(...script.species.map((name) => new Option(name)));
         element("names").replaceChildren(...script.species.map((name) => new Option(name)));
@@ -272,6 +281,8 @@ const actions: Record<string, () => void> = {
     systems: () => library.open(),
     fit: () => view.fit(),
     hold: () => look.toggle_hold(),
+    measure: () => measure.toggle(),
+    pick: () => measure.wait_for_pick(),
     nearer: () => view.scale(1.5),
     farther: () => view.scale(1 / 1.5),
     slice_before: () => slices.move(-1),
@@ -285,14 +296,14 @@ const actions: Record<string, () => void> = {
         setTimeout(() => URL.revokeObjectURL(href), 10000);
     },
 };
-for (const [id, act] of Object.entries(actions)) button(id)?.addEventListener("click", act);
+for (const [id, act] of Object.entries(actions)) document.querySelector(`button#${id}`)?.addEventListener("click", act);
 
 document.addEventListener("keydown", (event) => {
     const at = event.target as HTMLElement;
     if (at.closest("dialog")) return;
     if (at.id === "editor" || at.matches("select, input:not([type=range])")) return;
     const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
-    const act = { " ": "run", ".": "step", "n": "next", "h": "hold", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "PageUp": "slice_before", "PageDown": "slice_after", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
+    const act = { " ": "run", ".": "step", "n": "next", "h": "hold", "m": "measure", "p": "pick", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "PageUp": "slice_before", "PageDown": "slice_after", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
     if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
     event.preventDefault();
     actions[act]();
@@ -314,7 +325,7 @@ shown.addEventListener("change", async () => {
 let stroke = Promise.resolve();
 async function paint(event: PointerEvent, is_first: boolean) {
     const place = pattern.place(event);
-    if (!brush_choice.value || !place) return;
+    if (measure.takes(event, place, is_first) || !brush_choice.value || !place) return;
     const at = [place.x, place.y, ...(place.z === undefined ? [] : [place.z])].map((part) => part.toFixed(6)).join(", ");
     // As large on the screen at every zoom, but never so small that it misses all cells.
     const radius = Math.max(0.03 / view.zoom, (place.z === undefined ? 0.71 : 0.87) / pattern.longest).toFixed(6);
@@ -323,3 +334,4 @@ async function paint(event: PointerEvent, is_first: boolean) {
     await ask("paint", { item, expression: `if(disc(${at}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });
 }
 const view = new PlaneView(pattern.canvas, () => pattern.columns, (event, is_first) => (stroke = stroke.then(() => paint(event, is_first))));
+view.moved = show_marks;

@@ -193,11 +193,38 @@ export class Pattern {
         return { x: x / longest, y: y / longest, ...(slice && { z: z / longest }), cell };
     }
 
-    /// A cell of the planes of snapshots by its column and row, and in a volume its slice.
-    name_of_cell(cell: number) {
-        const { columns, slice, rows } = this.snapshot!, column = cell % columns, row = Math.floor(cell / columns);
-        if (!slice) return rows === 1 ? `cell ${column}` : `cell ${column}, ${row}`;
-        const { axis, number } = slice;
-        return `cell ${(axis === "z" ? [column, row, number] : axis === "y" ? [column, number, row] : [number, row, column]).join(", ")}`;
+    /// The number of a cell in the grid: column + width · (row + height · slice). On planes and models it is the
+    /// index in the planes of snapshots; of a volume these hold a slice only.
+    cell_in_grid(cell: number) {
+        const { columns, slice } = this.snapshot!, column = cell % columns, row = Math.floor(cell / columns);
+        if (!slice) return cell;
+        const { axis, number, sides: [width, height] } = slice;
+        const [i, j, k] = axis === "z" ? [column, row, number] : axis === "y" ? [column, number, row] : [number, row, column];
+        return i + width * (j + height * k);
+    }
+
+    /// Where a cell of the grid is on the page; nothing if it is not seen.
+    box_of_cell(cell: number): DOMRect | undefined {
+        const { canvas, snapshot, columns } = this;
+        if (!snapshot) return undefined;
+        const { slice } = snapshot, [i, j, k] = this.place_of(cell);
+        if (slice && [i, j, k]["xyz".indexOf(slice.axis)] !== slice.number) return undefined;
+        const [column, row] = !slice || slice.axis === "z" ? [i, j] : slice.axis === "y" ? [i, k] : [k, j];
+        if (column >= columns || row >= this.rows) return undefined;
+        const box = canvas.getBoundingClientRect(), side = box.width / columns;
+        return new DOMRect(box.x + column * side, box.y + row * side, side, side);
+    }
+
+    /// Column, row and slice of a cell of the grid.
+    private place_of(cell: number) {
+        const [width, height] = this.snapshot!.slice?.sides ?? [this.snapshot!.columns, this.snapshot!.rows];
+        const line = Math.floor(cell / width);
+        return [cell % width, line % height, Math.floor(line / height)];
+    }
+
+    /// A cell of the grid in words.
+    name_of(cell: number) {
+        const { slice, rows } = this.snapshot!;
+        return `cell ${this.place_of(cell).slice(0, slice ? 3 : rows === 1 ? 1 : 2).join(", ")}`;
     }
 }

@@ -10,6 +10,7 @@ function distance(one: PointerEvent, other: PointerEvent) {
 
 export class PlaneView {
     zoom = 1;
+    moved: () => void = () => {};  ///< Is called when another part is seen.
     private left = 0;  ///< Of the canvas, from where it lies without zoom.
     private top = 0;
     private readonly pressed = new Map<number, PointerEvent>();  ///< Where each pointer was last.
@@ -57,6 +58,7 @@ export class PlaneView {
         this.top = inside(this.top + down, canvas.offsetTop, canvas.offsetHeight, frame.clientHeight);
         canvas.style.transform = zoom === 1 ? "" : `translate(${this.left}px, ${this.top}px) scale(${zoom})`;
         frame.toggleAttribute("data-zoomed", zoom > 1);
+        this.moved();
     }
 
     private press(event: PointerEvent) {

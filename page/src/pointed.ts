@@ -24,6 +24,6 @@ export class Pointed {
             return;
         }
         const values = snapshot.planes.map((plane) => Number.isNaN(plane[place.cell]) ? "–" : digits(plane[place.cell]));
-        this.output.textContent = `${this.pattern.name_of_cell(place.cell)}: ${values.join(", ")}`;
+        this.output.textContent = `${this.pattern.name_of(this.pattern.cell_in_grid(place.cell))}: ${values.join(", ")}`;
     }
 }

@@ -147,12 +147,73 @@ async function look_closely() {
     await browser.evaluate(`document.getElementById("look").open = false`);
 }
 
+/// What was asked of the engine since the page was opened.
+const asked = (what) => browser.evaluate(`(window.asked ?? []).filter((text) => text.includes('"do":"${what}"')).length`);
+
+async function measure() {
+    await browser.evaluate(`{
+        const send = WebSocket.prototype.send;
+        window.asked = [];
+        WebSocket.prototype.send = function (text) { window.asked.push(text); send.call(this, text); };
+    }`);
+    await type_script(text);
+    await until_text_is_read();
+    await click("restart");
+    await until_steps("0");
+    await click("step");
+    await until_steps("1");
+    expect(await asked("measure") + await asked("values") === 0, "a closed panel measures");
+
+    const caption = (id) => `document.querySelector("#${id} figcaption").textContent`;
+    await browser.evaluate(`document.activeElement.blur()`);
+    await browser.press("Escape");
+    await browser.press("m");
+    await browser.until(`document.getElementById("measure").open && ${caption("whole")}.startsWith("u: ")`);
+    expect(await browser.evaluate(`document.getElementById("probe").hidden`), "there is a probe before a cell was chosen");
+
+    // A chosen cell: all species there, and nothing is painted.
+    await browser.press("p");
+    const box_of_pattern = () => browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
+    let box = await box_of_pattern();
+    const at = (column, row) => [box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3]];
+    await browser.drag(...at(24, 14), ...at(26, 14));
+    await browser.until(`${caption("probe")}.startsWith("cell 24, 14:")`);
+    expect(await asked("paint") === 0, "choosing a cell paints");
+    box = await box_of_pattern();  // The panel has grown.
+    const ring = await browser.evaluate(`(({ x, y, width, height }) => [x + width / 2, y + height / 2])(document.querySelector(".mark.probe").getBoundingClientRect())`);
+    expect(Math.hypot(ring[0] - at(24, 14)[0], ring[1] - at(24, 14)[1]) < 2, `the probe is at ${ring} instead of ${at(24, 14)}`);
+    await browser.call("Input.dispatchMouseEvent", { type: "mouseMoved", x: at(24, 14)[0], y: at(24, 14)[1] });
+    await browser.until(`document.getElementById("pointed").textContent.startsWith("cell 24, 14")`);
+    await browser.until(`${caption("probe")}.includes(" u " + document.getElementById("pointed").textContent.split(": ")[1])`);
+
+    // The curves follow the run, forwards and back.
+    const moments = `Number(document.getElementById("whole").dataset.moments)`;
+    const first = await browser.evaluate(moments);
+    await click("run");
+    await browser.until(`document.getElementById("run").disabled && ${moments} > ${first}`);
+    await browser.until(`${caption("spectrum")}.includes("wavelength")`);
+    await browser.until(`document.querySelectorAll("#measure .uplot canvas").length === 4`);
+    await browser.until(`document.querySelector("#phase canvas").width === 48`);
+    writeFileSync("measures.png", await browser.screenshot());
+    await click("restart");
+    await browser.until(`${moments} === 1`);
+
+    await choose("of_x", "v");
+    await browser.until(`${caption("histogram")} === "cells by v" && ${caption("phase")} === "v over v"`);
+    await browser.evaluate(`document.getElementById("measure").open = false`);
+    const before = await asked("values");
+    await click("step");
+    await until_steps("1");
+    expect(await asked("values") <= before + 1, "a closed panel goes on measuring");
+}
+
 async function use() {
     await size(1400, 900);
     await browser.call("Page.navigate", { url: address });
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     await help_with_the_text();
     await look_closely();
+    await measure();
 
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);

@@ -60,6 +60,12 @@ TEST(PageMessage, Questions) {
     const auto about = parse_page_message(R"({"do": "explain", "text": "u"})");
     ASSERT_TRUE(about.has_value());
     EXPECT_EQ(std::get<AskAboutName>(std::get<PageQuestion>(about->request)).text, "u");
+    const auto values = parse_page_message(R"({"do": "values", "cell": 7})");
+    ASSERT_TRUE(values.has_value());
+    EXPECT_EQ(std::get<AskForValues>(std::get<PageQuestion>(values->request)).cell, 7);
+    const auto measures = parse_page_message(R"({"do": "measure", "x": "u", "y": "v"})");
+    ASSERT_TRUE(measures.has_value());
+    EXPECT_EQ(std::get<AskForMeasures>(std::get<PageQuestion>(measures->request)).y, "v");
 }
 
 TEST(PageMessage, SaysWhatIsWrong) {

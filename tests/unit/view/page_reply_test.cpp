@@ -66,5 +66,50 @@ TEST_F(PageReply, MeaningOfANameNow) {
     EXPECT_FALSE(reply(AskAboutName{"nobody"}).contains("name"));
 }
 
+TEST_F(PageReply, ValuesOfACellAndOfAll) {
+    const Json reply = this->reply(AskForValues{7});
+    EXPECT_EQ(reply["kind"], "values");
+    EXPECT_EQ(reply["t"], 0);
+    const Json& u = reply["species"][0];
+    EXPECT_EQ(u["name"], "u");
+    EXPECT_FLOAT_EQ(u["value"].get<float>(), 1.25F) << "the second cell of the second row";
+    EXPECT_FLOAT_EQ(u["mean"].get<float>(), 1.25F);
+    EXPECT_LT(u["smallest"], 1.1);
+    EXPECT_TRUE(this->reply(AskForValues{4})["species"][0]["value"].is_null()) << "outside";
+    for (const std::int64_t cell : {-1, 24}) {
+        EXPECT_FALSE(this->reply(AskForValues{cell})["species"][0].contains("value"));
+    }
+    RunControl control;
+    ASSERT_TRUE(run_->advance(2, control));
+    EXPECT_EQ(this->reply(AskForValues{})["t"], 2);
+}
+
+TEST_F(PageReply, Measures) {
+    const Json reply = this->reply(AskForMeasures{"u", "u"});
+    EXPECT_EQ(reply["kind"], "measures");
+    int cells = 0, pairs = 0;
+    for (const int count : reply["histogram"]) cells += count;
+    for (const int count : reply["density"]) pairs += count;
+    EXPECT_EQ(cells, 12) << "half of the grid is outside";
+    EXPECT_EQ(pairs, 12);
+    EXPECT_EQ(reply["histogram"][0], 4);
+    EXPECT_EQ(reply["density"][0], 4);
+    EXPECT_EQ(reply["density"].back(), 4);
+    EXPECT_FLOAT_EQ(reply["x"][0].get<float>(), 1 + 0.5F / 6);
+    EXPECT_FALSE(this->reply(AskForMeasures{"u", "k"}).contains("histogram"));
+}
+
+TEST_F(PageReply, SpectrumWithItsWavelength) {
+    const std::string script =
+        "domain { grid: 32, 32 }\n"
+        "system s { u: sin(8 * pi * x); u' = 0 }\nstage one: s { }\n";
+    RunControl control;
+    ASSERT_TRUE(run_->apply(SetText{script}, control));
+    const Json reply = this->reply(AskForMeasures{"u", "u"});
+    EXPECT_NEAR(reply["wavelength"].get<double>(), 8, 1e-6);
+    EXPECT_NEAR(reply["ring_width"].get<double>(), 1.0 / 32, 1e-12);
+    EXPECT_NEAR(reply["spectrum"][4].get<double>(), 0.5, 1e-6);
+}
+
 }  // namespace
 }  // namespace cascade

@@ -1,0 +1,86 @@
+// The drawings of what was measured.
+import uPlot from "uplot";
+
+const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 3 });
+/// Numbers that keep axes narrow.
+function short(value: number | null) {
+    if (value === null || value === undefined) return "";
+    return value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential(0) : compact.format(value);
+}
+const colours = ["#1f8a66", "#d1703c", "#7a5fd0", "#b8518f", "#4a87c4", "#9a8b2c"];
+export const colour_of_curve = (k: number) => colours[k % colours.length];
+const swatch = document.createElement("span");
+/// The colour of a variable of the style sheet as canvases understand it.
+function css(name: string) {
+    if (!swatch.isConnected) document.body.append(Object.assign(swatch, { hidden: true }));
+    swatch.style.color = `var(${name})`;
+    return getComputedStyle(swatch).color;
+}
+
+const plot_height = 120;
+
+export interface Curve { name: string; is_dashed?: boolean }
+
+/// Curves over one axis, in the place of a figure.
+export class Plot {
+    private plot?: uPlot;
+    private shape = "";
+
+    constructor(private readonly figure: HTMLElement, private readonly is_histogram = false) {
+        new ResizeObserver(() => this.plot?.setSize(this.size)).observe(figure);
+    }
+
+    private get size() { return { width: Math.max(this.figure.clientWidth, 60), height: plot_height }; }
+
+    show(curves: Curve[], data: (number | null)[][], marked?: number) {
+        this.marked = marked;
+        const shape = JSON.stringify(curves);
+        if (this.shape !== shape) {
+            this.plot?.destroy();
+            this.shape = shape;
+            this.plot = this.make(curves);
+        }
+        this.plot!.setData(data as uPlot.AlignedData);
+    }
+    private marked?: number;
+
+    private make(curves: Curve[]) {
+        const axis = { stroke: () => css("--faint"), grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui", values: (_: uPlot, marks: number[]) => marks.map(short) };
+        const series = curves.map(({ name }, k) => ({
+            label: name, stroke: colour_of_curve(k), width: 1.5, points: { show: false }, value: (_: uPlot, value: number) => short(value),
+            ...(this.is_histogram && { paths: uPlot.paths.bars!({ size: [1, 100] }), fill: `${colours[k]}80` }),
+        }));
+        return new uPlot({
+            ...this.size, legend: { show: false }, cursor: { show: true, y: false, points: { show: false } },
+            scales: { x: { time: false } }, series: [{ value: (_, value) => short(value) }, ...series],
+            axes: [{ ...axis, size: 24, space: 60 }, { ...axis, size: 46, space: 26 }],
+            hooks: { draw: [(plot) => this.draw_mark(plot)] },
+        }, [[0]], this.figure);
+    }
+
+    /// A line across the plot, at a value of its axis.
+    private draw_mark(plot: uPlot) {
+        if (this.marked === undefined) return;
+        const x = plot.valToPos(this.marked, "x", true), { ctx, bbox } = plot;
+        ctx.save();
+        ctx.strokeStyle = css("--accent");
+        ctx.lineWidth = devicePixelRatio;
+        ctx.beginPath();
+        ctx.moveTo(x, bbox.top);
+        ctx.lineTo(x, bbox.top + bbox.height);
+        ctx.stroke();
+        ctx.restore();
+    }
+}
+
+/// How often two values occur together: darker where more cells are.
+export function draw_density(canvas: HTMLCanvasElement, counts: number[]) {
+    const side = Math.round(Math.sqrt(counts.length)), most = Math.log(1 + Math.max(...counts));
+    canvas.width = canvas.height = side;
+    const context = canvas.getContext("2d")!, image = context.createImageData(side, side);
+    counts.forEach((count, k) => {
+        const row = side - 1 - Math.floor(k / side), at = 4 * (row * side + k % side);
+        image.data.set([31, 138, 102, count === 0 ? 0 : 60 + 195 * Math.log(1 + count) / most], at);
+    });
+    context.putImageData(image, 0, 0);
+}
