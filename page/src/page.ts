@@ -8,6 +8,7 @@ import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
 import { Slices } from "./slices";
+import { Stages } from "./stages";
 import { is_row, rows_of_time } from "./time_rows";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -84,6 +85,7 @@ function show_marks() {
     measure.show_mark();
 }
 
+const strip = new Stages((stage) => void ask("go_to_stage", { stage }));
 const slices = new Slices((fields) => ask("slice", fields));
 
 const library = new Library(async (text) => {
@@ -214,24 +216,9 @@ function make_slider(control: Control): HTMLElement {
 }
 
 function show_state(snapshot: Snapshot) {
-    const { stages } = snapshot, list = element("stages");
-    if (list.childElementCount !== stages.length) {
-        list.replaceChildren(...stages.map((_, k) => {
-            const item = document.createElement("li"), go = document.createElement("button");
-            go.append(document.createElement("span"), document.createElement("progress"));
-            go.addEventListener("click", () => ask("go_to_stage", { stage: k + 1 }));
-            item.append(go);
-            return item;
-        }));
-    }
-    stages.forEach((stage, k) => {
-        const go = list.children[k].firstElementChild as HTMLButtonElement;
-        go.firstElementChild!.textContent = stage.name;
-        go.toggleAttribute("aria-current", k + 1 === snapshot.stage);
-        go.title = stage.has_ended ? "ended" : `step ${stage.steps} of ${stage.iterations}`;
-        (go.lastElementChild as HTMLProgressElement).value = stage.has_ended ? 1
-            : stage.duration > 0 ? stage.t / stage.duration : stage.steps / Math.max(stage.iterations, 1);
-    });
+    const { stages } = snapshot;
+    strip.show(snapshot);
+    strip.keep_picture(snapshot, pattern.canvas);
     const is_going_on = snapshot.is_going_on || is_pacing;
     const rate = is_going_on && snapshot.steps_per_second > 0
         ? ` · ${compact.format(snapshot.steps_per_second)} steps/s` : "";

@@ -207,6 +207,25 @@ async function measure() {
     expect(await asked("values") <= before + 1, "a closed panel goes on measuring");
 }
 
+async function see_the_stages() {
+    await type_script(text.replaceAll("grow", "first").replaceAll("more", "second"));
+    await until_text_is_read();
+    await click("restart");
+    await until_steps("0");
+    const pictures = `[...document.querySelectorAll("#stages canvas")].map(({ hidden }) => hidden).join()`;
+    await browser.until(`${pictures} === "false,true"`);
+    await click("run");
+    await browser.until(`document.getElementById("run").disabled && ${pictures} === "false,false"`);
+    // As wide as the grid, in its colours: not of one colour.
+    const seen = await browser.evaluate(`(({ width, height, colours }) => [width, height, colours])((() => {
+        const canvas = document.querySelectorAll("#stages canvas")[1], { width, height } = canvas;
+        return { width, height, colours: new Set(canvas.getContext("2d").getImageData(0, 0, width, height).data).size };
+    })())`);
+    expect(seen[0] === 40 && seen[1] === 27 && seen[2] > 9, `the picture of a stage is ${seen}`);
+    await type_script(text);
+    await browser.until(`document.getElementById("stages").textContent === "growmore"`);
+}
+
 async function use() {
     await size(1400, 900);
     await browser.call("Page.navigate", { url: address });
@@ -214,6 +233,7 @@ async function use() {
     await help_with_the_text();
     await look_closely();
     await measure();
+    await see_the_stages();
 
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);

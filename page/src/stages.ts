@@ -1,0 +1,54 @@
+// The strip of stages: name, progress, and what each looked like when it was last seen.
+import type { Snapshot } from "./connection";
+
+const milliseconds_between_pictures = 400;
+const side = 40;  ///< Of a picture's longest side, in pixels of the page.
+
+export class Stages {
+    private readonly list = document.getElementById("stages")!;
+    private drawn_at = 0;
+    private drawn = 0;  ///< The stage that was drawn last.
+
+    /// `go_to` gets the number of a stage, from 1.
+    constructor(private readonly go_to: (stage: number) => void) {}
+
+    show({ stages, stage: current }: Snapshot) {
+        const names = stages.map(({ name }) => name).join();
+        if (this.list.dataset.names !== names) {
+            this.list.dataset.names = names;
+            this.list.replaceChildren(...stages.map((_, k) => this.make(k + 1)));
+        }
+        stages.forEach((stage, k) => {
+            const go = this.list.children[k].firstElementChild as HTMLButtonElement;
+            go.querySelector("span")!.textContent = stage.name;
+            go.toggleAttribute("aria-current", k + 1 === current);
+            go.title = stage.has_ended ? "ended" : `step ${stage.steps.toLocaleString("en")} of ${stage.iterations.toLocaleString("en")}`;
+            go.querySelector("progress")!.value = stage.has_ended ? 1
+                : stage.duration > 0 ? stage.t / stage.duration : stage.steps / Math.max(stage.iterations, 1);
+        });
+    }
+
+    private make(stage: number) {
+        const item = document.createElement("li"), go = document.createElement("button"), picture = document.createElement("canvas");
+        picture.hidden = true;
+        go.append(picture, document.createElement("span"), document.createElement("progress"));
+        go.addEventListener("click", () => this.go_to(stage));
+        item.append(go);
+        return item;
+    }
+
+    /// Keeps a picture of what is seen now: some times a second, and of the last moment.
+    keep_picture({ stage, is_going_on }: Snapshot, pattern: HTMLCanvasElement) {
+        const now = performance.now();
+        const is_due = stage !== this.drawn || !is_going_on || now - this.drawn_at > milliseconds_between_pictures;
+        const picture = this.list.children[stage - 1]?.querySelector("canvas");
+        if (!picture || !is_due) return;
+        this.drawn = stage;
+        this.drawn_at = now;
+        const scale = side * devicePixelRatio / Math.max(pattern.width, pattern.height);
+        picture.width = Math.max(1, Math.round(pattern.width * scale));
+        picture.height = Math.max(1, Math.round(pattern.height * scale));
+        picture.getContext("2d")!.drawImage(pattern, 0, 0, picture.width, picture.height);
+        picture.hidden = false;
+    }
+}
