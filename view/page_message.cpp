@@ -91,7 +91,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 19> verbs{{
+constexpr std::array<Verb, 20> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -127,6 +127,7 @@ constexpr std::array<Verb, 19> verbs{{
          const Axis axis = fields.axis("axis");
          return SessionCommand(ShowSlice{{axis, fields.part("place")}});
      }},
+    {"page", [](FieldReader& fields) -> PageRequest { return NamePage{fields.text("name")}; }},
     {"next_snapshot", [](FieldReader&) -> PageRequest { return NextSnapshot{}; }},
     {"log", [](FieldReader&) -> PageRequest { return PageQuestion(AskForLog{}); }},
     {"names",

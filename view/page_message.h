@@ -12,6 +12,10 @@
 
 namespace cascade {
 
+/// The name by which the page is known over several connections.
+struct NamePage {
+    std::string name;
+};
 /// The page has drawn what it has and takes the next snapshot.
 struct NextSnapshot {};
 // clang-format off
@@ -28,7 +32,7 @@ struct AskForMeasures { std::string x, y; };
 
 using PageQuestion =
     std::variant<AskForLog, AskForNames, AskAboutName, AskForValues, AskForMeasures>;
-using PageRequest = std::variant<SessionCommand, NextSnapshot, PageQuestion>;
+using PageRequest = std::variant<SessionCommand, NextSnapshot, NamePage, PageQuestion>;
 
 struct PageMessage {
     std::uint64_t id = 0;  ///< Chosen by the page; the answer carries it. 0 if there was none.

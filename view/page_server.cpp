@@ -5,6 +5,7 @@
 #include "run/session/session.h"
 #include "view/page_message.h"
 #include "view/page_reply.h"
+#include "view/page_requests.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -38,6 +39,7 @@ struct PageServer::State {
     std::mutex mutex;  ///< Of all below but what locks for itself.
     std::condition_variable is_wanted;
     std::map<PageId, OpenPage> pages;
+    PageRequests requests;
     bool is_ending = false;
     bool offers_library = false;
     std::uint64_t told_script = 0;  ///< Of the sending thread.
@@ -59,6 +61,7 @@ Result<void> PageServer::State::start(PageFiles files) {
     handlers.opened = [this](PageId page) { greet(page); };
     handlers.message = [this](PageId page, std::string_view text) { obey(page, text); };
     handlers.closed = [this](PageId page) {
+        requests.close(page);
         const std::lock_guard lock(mutex);
         pages.erase(page);
     };
@@ -109,21 +112,28 @@ void PageServer::State::obey(PageId page, std::string_view text) {
         }
         return is_wanted.notify_all();
     }
+    if (const auto* named = std::get_if<NamePage>(&message->request)) {
+        return requests.name(page, named->name);
+    }
     if (const auto* question = std::get_if<PageQuestion>(&message->request)) {
         return session->ask([this, page, id, asked = *question](LiveRun& run) {
             server->send_text(page, print_reply(id, asked, run));
         });
     }
+    PageRequests::Begun begun = requests.begin(page, id);
+    if (begun.answer) return server->send_text(page, std::move(*begun.answer));
+    if (!begun.is_new) return;
     auto command = std::get<SessionCommand>(std::move(message->request));
     std::string script;  // The text that messages are about.
     if (const auto* made = std::get_if<MakeChange>(&command)) {
         if (const auto* set = std::get_if<SetText>(&made->change)) script = set->text;
     }
     if (std::holds_alternative<Pause>(command)) session->cancel();
-    session->post(std::move(command),
-                  [this, page, id, script = std::move(script)](const Accepted<void>& result) {
-                      server->send_text(page, print_answer(id, result, script));
-                  });
+    session->post(std::move(command), [this, from = std::move(begun.page), id,
+                                       script = std::move(script)](const Accepted<void>& result) {
+        const std::string answer = print_answer(id, result, script);
+        server->send_text(requests.finish(*from, id, answer), answer);
+    });
 }
 
 void PageServer::State::send_snapshots() {

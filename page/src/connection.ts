@@ -45,43 +45,48 @@ function read_snapshot(bytes: ArrayBuffer): Snapshot {
     return header;
 }
 
+const largest_message = 1 << 20;  ///< Of what the engine reads, in bytes.
+
 export class Connection {
     private readonly token = take_token();
+    /// By it the engine knows what this page has asked before its connection was lost.
+    private readonly name = [...crypto.getRandomValues(new Uint32Array(4))].map((part) => part.toString(36)).join("");
     private socket?: WebSocket;
     private last_id = 0;
-    private readonly waiting = new Map<number, (answer: Answer) => void>();
-    private readonly queue: string[] = [];
+    /// What was not answered, in the order of its ids. It is sent again over a new connection.
+    private readonly waiting = new Map<number, { text: string; resolve: (answer: Answer) => void }>();
 
     constructor(private readonly listener: Listener) { this.open(); }
 
-    /// The answer comes when the engine has obeyed or refused.
-    /// A question is answered by what spec/page.md lists for it.
+    /// The answer comes when the engine has obeyed or refused. A question is answered by what spec/page.md lists for it.
     ask<Reply = object>(what: string, fields: Record<string, unknown> = {}): Promise<Answer & Reply> {
         const id = ++this.last_id;
-        this.send(JSON.stringify({ do: what, id, ...fields }));
-        return new Promise((resolve) => this.waiting.set(id, resolve as (answer: Answer) => void));
+        // Halves of characters, which a text may hold, are no JSON.
+        const text = JSON.stringify({ do: what, id, ...fields }, (_, value) => typeof value === "string" ? value.replace(/\p{Surrogate}/gu, "\ufffd") : value);
+        if (new TextEncoder().encode(text).length > largest_message) {
+            const message = { is_error: true, message: "the text is too long", hint: "" };
+            return Promise.resolve({ kind: "answer", id, is_done: false, messages: [message] } as unknown as Answer & Reply);
+        }
+        if (this.is_open) this.socket!.send(text);
+        return new Promise((resolve) => this.waiting.set(id, { text, resolve: resolve as (answer: Answer) => void }));
     }
 
-    next_snapshot() { if (this.socket?.readyState === WebSocket.OPEN) this.socket.send('{"do":"next_snapshot"}'); }
+    next_snapshot() { if (this.is_open) this.socket!.send('{"do":"next_snapshot"}'); }
 
-    private send(text: string) {
-        if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(text);
-        else this.queue.push(text);
-    }
+    private get is_open() { return this.socket?.readyState === WebSocket.OPEN; }
 
     private open() {
         if (!this.token) return this.listener.lost("Open the address that Cascade printed.");
         const socket = new WebSocket(`ws://${location.host}/session?token=${this.token}`);
         socket.binaryType = "arraybuffer";
         socket.onopen = () => {
-            for (const text of this.queue.splice(0)) socket.send(text);
+            socket.send(JSON.stringify({ do: "page", name: this.name }));
+            for (const { text } of this.waiting.values()) socket.send(text);
             this.next_snapshot();
         };
         socket.onmessage = ({ data }) => this.take(data);
         socket.onclose = ({ code }) => {
-            for (const [id, resolve] of this.waiting) resolve({ kind: "answer", id, is_done: false, messages: [] });
-            this.waiting.clear();
-            this.listener.lost(code === 1001 ? "Cascade has ended." : "The connection is lost; trying again.");
+            this.listener.lost(code === 1001 ? "Cascade has ended." : "The connection is lost; trying again. What is done now is kept.");
             setTimeout(() => this.open(), 1000);
         };
         this.socket = socket;
@@ -94,7 +99,7 @@ export class Connection {
         else if (message.kind === "systems") this.listener.systems(message.systems);
         else if (message.kind === "script") this.listener.script(message);
         else {
-            this.waiting.get(message.id)?.({ is_done: true, messages: [], ...message });
+            this.waiting.get(message.id)?.resolve({ is_done: true, messages: [], ...message });
             this.waiting.delete(message.id);
         }
     }

@@ -1,6 +1,7 @@
 // The page: text, sliders, pattern and stages of one session.
 import { Answer, Connection, Control, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
 import { Editor } from "./editor";
+import { Failure } from "./failure";
 import { Library } from "./library";
 import { LookControls } from "./look";
 import { Measure } from "./measure";
@@ -83,8 +84,10 @@ const measure = new Measure(pattern, (what, fields) => connection.ask(what, fiel
 function show_marks() {
     pointed.show();
     measure.show_mark();
+    failure.show_mark();
 }
 
+const failure = new Failure(pattern, (what, fields) => void ask(what, fields));
 const strip = new Stages((stage) => void ask("go_to_stage", { stage }));
 const slices = new Slices((fields) => ask("slice", fields));
 
@@ -230,8 +233,8 @@ function show_state(snapshot: Snapshot) {
     button("next").disabled = snapshot.stage === stages.length;
     button("undo").disabled = !snapshot.can_undo;
     button("redo").disabled = !snapshot.can_redo;
-    if (snapshot.failure) notice(snapshot.failure, true);
-    else if (is_over && snapshot.remarks.length > 0) notice(snapshot.remarks.at(-1)!);
+    failure.show(snapshot);
+    if (is_over && snapshot.remarks.length > 0) notice(snapshot.remarks.at(-1)!);
 }
 
 /// Rows of time are the same number of steps apart, chosen so that a stage fills the picture.

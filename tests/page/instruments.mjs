@@ -226,6 +226,94 @@ async function see_the_stages() {
     await browser.until(`document.getElementById("stages").textContent === "growmore"`);
 }
 
+async function recover_from_a_blow_up() {
+    await type_script(text);
+    await until_text_is_read();
+    await click("restart");
+    await until_steps("0");
+    await click("step");
+    await until_steps("1");
+    expect(await browser.evaluate(`document.getElementById("failure").hidden`), "there is a failure before anything went wrong");
+    await type_script(text.replace("0.16 * lap(u)", "16 * lap(u)"));
+    await until_text_is_read();
+    await click("run");
+    await browser.until(`document.getElementById("failure").textContent.includes("u is not finite any more at column")`);
+    // The cell is that of the message.
+    const [column, row] = (await browser.evaluate(`document.getElementById("failure").textContent`)).match(/column (\d+), row (\d+)/).slice(1).map(Number);
+    const away = await browser.evaluate(`(() => {
+        const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2, width, height];
+        const [x, y] = middle(document.querySelector(".mark.failed").getBoundingClientRect()), box = document.getElementById("pattern").getBoundingClientRect();
+        return Math.hypot(x - box.x - (${column} + 0.5) / 48 * box.width, y - box.y - (${row} + 0.5) / 32 * box.height);
+    })()`);
+    expect(away < 2, `the mark is ${away} pixels away from column ${column}, row ${row}`);
+    writeFileSync("blow_up.png", await browser.screenshot());
+    await browser.evaluate(`document.querySelector("#failure button").click()`);
+    await browser.until(`document.getElementById("failure").hidden && document.querySelector(".mark.failed").hidden`);
+    await until_steps("1");
+    await browser.until(`!${in_editor(".cm-content")}.textContent.includes("16 * lap(u) - u * v^2") || ${in_editor(".cm-content")}.textContent.includes("0.16 * lap(u)")`);
+}
+
+/// The log of the session, asked for beside the page.
+const log_of_session = () => browser.evaluate(`new Promise((resolve) => {
+    const socket = window.sockets.at(-1), id = 1e9;
+    socket.addEventListener("message", ({ data }) => typeof data === "string" && JSON.parse(data).id === id && resolve(JSON.parse(data).text));
+    socket.send(JSON.stringify({ do: "log", id }));
+})`);
+const count = (text, words) => text.split(words).length - 1;
+
+async function lose_the_connection() {
+    await browser.call("Page.addScriptToEvaluateOnNewDocument", { source: `
+        window.sockets = [];
+        window.WebSocket = class extends WebSocket {
+            constructor(address) {
+                super(window.is_cut ? "ws://127.0.0.1:9/" : address);
+                window.sockets.push(this);
+            }
+        };` });
+    await browser.call("Page.reload");
+    await browser.until(`window.sockets?.at(-1)?.readyState === 1 && document.querySelectorAll("#stages li").length === 2`);
+    await click("restart");
+    await until_steps("0");
+    const box = await browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
+    const press = (column, row) => browser.drag(box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3], box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3]);
+    const slide = (value) => browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "${value}"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
+
+    // Answers that are lost on their way: what was asked is not done again.
+    await browser.evaluate(`window.sockets.at(-1).onmessage = () => {}, window.is_cut = true`);
+    await slide("0.03");
+    await press(10, 10);
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    await browser.evaluate(`window.sockets.at(-1).close()`);
+    await browser.until(`document.getElementById("notice").textContent.includes("trying again")`);
+    // What is done without a connection arrives with the next one.
+    await slide("0.05");
+    await press(20, 20);
+    await type_script(text.replace("kill: 0.06", "kill: 0.061"));
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    expect(await browser.evaluate(`document.getElementById("text").ariaBusy`) === "true", "the text was read without a connection");
+    await browser.evaluate(`window.is_cut = false`);
+    await browser.until(`window.sockets.at(-1).readyState === 1`);
+    await until_text_is_read();
+    await browser.until(`document.querySelector("#controls output").value === "0.05" && document.getElementById("notice").textContent === ""`);
+    expect((await browser.evaluate(`${in_editor(".cm-content")}.textContent`)).includes("0.061"), "the text that was typed is lost");
+    const log = await log_of_session();
+    // A press that moves twice is three strokes.
+    const seen = ["\npaint ", "set grow.feed=0.03\n", "set grow.feed=0.05\n", "kill: 0.061"].map((words) => count(log, words));
+    expect(seen.join() === "6,1,1,1", `${seen} strokes, numbers and texts in ${log}`);
+    await click("run");
+    await browser.until(`document.getElementById("run").disabled`);
+
+    // Whatever is typed, the page and the run go on.
+    for (const wrong of ["\ud800 stage", "stage", "}{", '"', "\u0000", "a".repeat(1 << 20), "system s { u: u' = ", "domain { grid: 99999999, 99999999 }", "((((".repeat(9999)]) {
+        await browser.evaluate(`${in_editor(".cm-content")}.focus(), document.execCommand("selectAll"), document.execCommand("insertText", false, ${wrong.length > 1e6 ? `"a".repeat(${wrong.length})` : JSON.stringify(wrong)})`);
+        await browser.until(`document.getElementById("text").ariaBusy === "false" && document.getElementById("messages").textContent !== ""`);
+    }
+    await type_script(text);
+    await browser.until(`document.getElementById("messages").textContent === ""`);
+    await click("restart");
+    await until_steps("0");
+}
+
 async function use() {
     await size(1400, 900);
     await browser.call("Page.navigate", { url: address });
@@ -234,6 +322,8 @@ async function use() {
     await look_closely();
     await measure();
     await see_the_stages();
+    await recover_from_a_blow_up();
+    await lose_the_connection();
 
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);

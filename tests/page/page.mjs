@@ -198,7 +198,7 @@ async function steer() {
     await click("restart");
     await until_steps("0");
     await click("run");
-    await browser.until(`document.getElementById("notice").textContent.includes("finite")`);
+    await browser.until(`document.getElementById("failure").textContent.includes("finite")`);
 
     // Colours, in a domain of another shape and size.
     await type_script(readFileSync("colours.cascade", "utf8"));

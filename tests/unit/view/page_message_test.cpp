@@ -53,6 +53,12 @@ TEST(PageMessage, Commands) {
     EXPECT_TRUE(std::holds_alternative<PageQuestion>(log->request));
 }
 
+TEST(PageMessage, NamesOfPages) {
+    const auto message = parse_page_message(R"({"do": "page", "name": "a1"})");
+    ASSERT_TRUE(message.has_value());
+    EXPECT_EQ(std::get<NamePage>(message->request).name, "a1");
+}
+
 TEST(PageMessage, Questions) {
     const auto names = parse_page_message(R"({"do": "names", "text": "u' = la"})");
     ASSERT_TRUE(names.has_value());
