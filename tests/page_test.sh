@@ -71,6 +71,6 @@ SCRIPT
 for slice in z=0.5 y=0.53 x=0.025; do
     "$CASCADE" run volume.cascade --palette leopard --slice $slice -o "${slice%=*}.png" --quiet || fail "the slice was not drawn"
 done
-rm -rf profile profile_of_instruments
+rm -rf profile profile_of_instruments saved
 node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"
 node "$SOURCE/tests/page/instruments.mjs" "$browser" "$CASCADE" || fail "see above"

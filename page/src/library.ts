@@ -32,6 +32,8 @@ export class Library {
 
     get is_filled() { return this.list.childElementCount > 0; }
 
+    get is_open() { return this.dialog.open; }
+
     open() {
         this.search.value = "";
         this.find();

@@ -12,8 +12,8 @@ export class Mark {
     }
 
     /// Again whenever what is seen changes.
-    show() {
-        const box = this.cell === undefined ? undefined : this.pattern.box_of_cell(this.cell);
+    show(is_wanted = true) {
+        const box = this.cell === undefined || !is_wanted ? undefined : this.pattern.box_of_cell(this.cell);
         this.ring.hidden = !box;
         if (!box) return;
         const frame = this.pattern.canvas.parentElement!.getBoundingClientRect();

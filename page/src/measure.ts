@@ -30,7 +30,10 @@ export class Measure {
 
     constructor(private readonly pattern: Pattern, private readonly ask: Ask) {
         this.probe = new Mark(pattern, "probe");
-        this.panel.addEventListener("toggle", () => this.refresh());
+        this.panel.addEventListener("toggle", () => {
+            this.show_mark();
+            this.refresh();
+        });
         for (const choice of [this.x, this.y]) choice.addEventListener("change", () => this.refresh());
     }
 
@@ -76,7 +79,7 @@ export class Measure {
         }
     }
 
-    show_mark() { this.probe.show(); }
+    show_mark() { this.probe.show(this.panel.open); }
 
     private refresh() {
         this.measured_at = 0;

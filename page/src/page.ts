@@ -1,13 +1,17 @@
 // The page: text, sliders, pattern and stages of one session.
 import { Answer, Connection, Control, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
+import { download } from "./download";
 import { Editor } from "./editor";
 import { Failure } from "./failure";
+import { Help } from "./help";
+import { obey_keys } from "./keys";
 import { Library } from "./library";
 import { LookControls } from "./look";
 import { Measure } from "./measure";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
+import { Recording } from "./recording";
 import { Slices } from "./slices";
 import { Stages } from "./stages";
 import { is_row, rows_of_time } from "./time_rows";
@@ -60,6 +64,7 @@ const connection = new Connection({
             else is_to_start = true;
         }
         was_opened = true;
+        if (!library.is_open) help.greet();
         if (is_to_start && is_start) {
             is_to_start = false;
             actions.run();
@@ -70,6 +75,7 @@ const connection = new Connection({
         requestAnimationFrame(() => {
             is_drawing = false;
             pattern.draw();
+            recording.take();
             keep_pace(pattern.snapshot!);
             slices.show(pattern.snapshot!);
             void measure.look_at(pattern.snapshot!);
@@ -89,6 +95,12 @@ function show_marks() {
 
 const failure = new Failure(pattern, (what, fields) => void ask(what, fields));
 const strip = new Stages((stage) => void ask("go_to_stage", { stage }));
+const help = new Help();
+const recording = new Recording(pattern.canvas, () => name_of_file(), (is_movie, are_frames) => {
+    button("movie").ariaPressed = String(is_movie);
+    button("frames").ariaPressed = String(are_frames);
+    element("save").toggleAttribute("data-recording", is_movie || are_frames);
+});
 const slices = new Slices((fields) => ask("slice", fields));
 
 const library = new Library(async (text) => {
@@ -253,6 +265,9 @@ function go_back(what: "undo" | "redo") {
     void ask(what);
 }
 
+const name_of_file = () => element("name").textContent!.replace(/\.cascade$/, "") || "pattern";
+const save = (ending: string, text: string) => download(`${name_of_file()}.${ending}`, new Blob([text], { type: "text/plain" }));
+
 const actions: Record<string, () => void> = {
     run: () => {
         const { snapshot } = pattern;
@@ -277,27 +292,19 @@ const actions: Record<string, () => void> = {
     farther: () => view.scale(1 / 1.5),
     slice_before: () => slices.move(-1),
     slice_after: () => slices.move(1),
+    help: () => help.open(),
     log: async () => {
         const { text } = await connection.ask<{ text?: string }>("log");
-        if (text === undefined) return;
-        const href = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
-        const download = `${element("name").textContent!.replace(/\.cascade$/, "")}.session`;
-        Object.assign(document.createElement("a"), { href, download }).click();
-        setTimeout(() => URL.revokeObjectURL(href), 10000);
+        if (text !== undefined) save("session", text);
     },
+    script: () => save("cascade", editor.text),
+    movie: () => recording.toggle_movie(),
+    frames: () => void recording.toggle_frames(),
 };
 for (const [id, act] of Object.entries(actions)) document.querySelector(`button#${id}`)?.addEventListener("click", act);
 
-document.addEventListener("keydown", (event) => {
-    const at = event.target as HTMLElement;
-    if (at.closest("dialog")) return;
-    if (at.id === "editor" || at.matches("select, input:not([type=range])")) return;
-    const key = (event.ctrlKey || event.metaKey ? "Ctrl+" : "") + event.key;
-    const act = { " ": "run", ".": "step", "n": "next", "h": "hold", "m": "measure", "p": "pick", "+": "nearer", "=": "nearer", "-": "farther", "0": "fit", "PageUp": "slice_before", "PageDown": "slice_after", "Home": "restart", "Ctrl+z": "undo", "Ctrl+Z": "redo", "Ctrl+y": "redo" }[key];
-    if (!act || (key === " " && at.matches("button")) || (key === "Home" && at.matches("input"))) return;
-    event.preventDefault();
-    actions[act]();
-});
+element("help_button").addEventListener("click", actions.help);
+obey_keys(actions);
 
 palette_choice.addEventListener("change", () => {
     localStorage.setItem("palette", palette_choice.value);

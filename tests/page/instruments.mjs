@@ -1,6 +1,6 @@
 // The instruments of the page of `cascade view spots.cascade`: what helps to write, to look closely and to measure.
 // Arguments: the browser and the program. Screenshots are left in the current folder.
-import { readFileSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Browser, serve } from "./browser.mjs";
 
@@ -314,16 +314,97 @@ async function lose_the_connection() {
     await until_steps("0");
 }
 
+async function first_visit() {
+    // Four steps, which come once.
+    const card = `document.getElementById("tour")`;
+    await browser.until(`!${card}.hidden && ${card}.textContent.includes("1 of 4")`);
+    for (const [k, id] of ["text", "controls", "frame", "stages"].entries()) {
+        expect(await browser.evaluate(`document.querySelector("[data-taught]").id`) === id, `step ${k + 1} is not about ${id}`);
+        if (k === 2) writeFileSync("first_visit.png", await browser.screenshot());
+        await click("tour_next");
+    }
+    expect(await browser.evaluate(`${card}.hidden && document.querySelector("[data-taught]") === null`), "the steps do not end");
+    await browser.call("Page.reload");
+    await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.getElementById("place").textContent !== ""`);
+    expect(await browser.evaluate(`${card}.hidden`), "the steps come again");
+    await browser.press("?");
+    await browser.until(`document.getElementById("help").open`);
+    const listed = await browser.evaluate(`document.querySelectorAll("#help dt").length`);
+    expect(listed > 12, `only ${listed} keys are listed`);
+    writeFileSync("help.png", await browser.screenshot());
+    await browser.press("Escape");
+    await browser.until(`!document.getElementById("help").open`);
+
+    // With Tab alone every control is reached, in the order in which they are seen, and none twice.
+    const reached = [];
+    await browser.evaluate(`document.activeElement.blur(), window.getSelection().removeAllRanges()`);
+    for (let k = 0; k < 60; ++k) {
+        await browser.press("Tab");
+        const id = await browser.evaluate(`document.activeElement.id || document.activeElement.parentElement.id || document.activeElement.parentElement.textContent`);
+        if (id === "editor") await browser.press("Escape");
+        if (reached.includes(id) && !id.includes("feed") && id !== "editor" && id !== "stages") break;
+        reached.push(id);
+    }
+    const order = ["help_button", "editor", "pattern", "palette", "low", "high", "hold", "look", "restart", "save", "brush", "show", "measure"];
+    const places = order.map((id) => reached.indexOf(id));
+    expect(places.every((place, k) => place >= 0 && (k === 0 || place > places[k - 1])), `Tab reaches ${reached}`);
+}
+
+async function save_files() {
+    const folder = join(process.cwd(), "saved");
+    rmSync(folder, { recursive: true, force: true });
+    await browser.call("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+    const file = async (name, id) => {
+        await click(id);
+        for (let k = 0; k < 200 && !existsSync(join(folder, name)); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+        return readFileSync(join(folder, name));
+    };
+    await type_script(text);
+    await until_text_is_read();
+    await click("restart");
+    await until_steps("0");
+    expect(String(await file("spots.cascade", "script")) === text, "the script is another one");
+
+    // The movie is made of what is drawn; its cells are squares of 20 pixels.
+    await click("movie");
+    await browser.until(`document.getElementById("movie").ariaPressed === "true"`);
+    for (let k = 1; k < 8; ++k) {
+        await click("step");
+        await until_steps(k);
+        await new Promise((resolve) => setTimeout(resolve, 60));
+    }
+    await click("run");
+    await browser.until(`document.getElementById("run").disabled`);
+    const movie = await file("spots.webm", "movie");
+    expect(movie.readUInt32BE() === 0x1a45dfa3 && movie.length > 2000, `a movie of ${movie.length} bytes is no WebM`);
+    const track = movie.indexOf(Buffer.from([0xb0, 0x82])), [width, height] = [movie.readUInt16BE(track + 2), movie.indexOf(Buffer.from([0xba, 0x82, 640 >> 8, 640 & 255]))];
+    expect(width === 960 && height > 0, `the movie is ${width} pixels wide`);
+    expect(await browser.evaluate(`document.getElementById("movie").ariaPressed`) === "false", "the movie does not end");
+
+    await click("restart");
+    await until_steps("0");
+    await click("frames");
+    for (const step of ["1", "2"]) {
+        await click("step");
+        await until_steps(step);
+    }
+    const frames = await file("spots_frames.zip", "frames"), end = frames.length - 22;
+    expect(frames.readUInt32LE(end) === 0x06054b50 && frames.readUInt16LE(end + 10) >= 3, `${frames.readUInt16LE(end + 10)} frames are too few`);
+    expect(frames.toString("latin1", 30, 39) === "00000.png" && frames.toString("latin1", 40, 43) === "PNG", "the first frame is no PNG");
+}
+
 async function use() {
     await size(1400, 900);
     await browser.call("Page.navigate", { url: address });
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+    await first_visit();
     await help_with_the_text();
     await look_closely();
     await measure();
     await see_the_stages();
     await recover_from_a_blow_up();
     await lose_the_connection();
+    await save_files();
 
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);

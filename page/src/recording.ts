@@ -1,0 +1,65 @@
+// What is seen as a movie, or as a picture for each moment that was drawn.
+import { download } from "./download";
+import { type ZippedFile, zip } from "./zip";
+
+const side_of_movie = 960;  ///< About the longest side, in pixels: cells are enlarged by whole numbers.
+const most_frames = 3000;
+
+/// Pictures of a canvas whose cells are squares of several pixels.
+function enlarged(from: HTMLCanvasElement, into: HTMLCanvasElement) {
+    const context = into.getContext("2d")!;
+    context.imageSmoothingEnabled = false;
+    context.clearRect(0, 0, into.width, into.height);
+    context.drawImage(from, 0, 0, into.width, into.height);
+}
+
+export class Recording {
+    private movie?: { canvas: HTMLCanvasElement; recorder: MediaRecorder };
+    private frames?: Promise<ZippedFile | undefined>[];
+
+    /// `changed` is told whether a movie and whether frames are being recorded.
+    constructor(private readonly canvas: HTMLCanvasElement, private readonly name: () => string, private readonly changed: (is_movie: boolean, are_frames: boolean) => void) {}
+
+    toggle_movie() {
+        if (this.movie) this.movie.recorder.stop();
+        else this.start_movie();
+        this.tell();
+    }
+
+    private start_movie() {
+        const scale = Math.max(1, Math.floor(side_of_movie / Math.max(this.canvas.width, this.canvas.height)));
+        const canvas = Object.assign(document.createElement("canvas"), { width: scale * this.canvas.width, height: scale * this.canvas.height });
+        enlarged(this.canvas, canvas);
+        const mimeType = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"].find((type) => MediaRecorder.isTypeSupported(type));
+        const recorder = new MediaRecorder(canvas.captureStream(60), { mimeType, videoBitsPerSecond: 12e6 }), parts: Blob[] = [];
+        recorder.ondataavailable = ({ data }) => parts.push(data);
+        recorder.onstop = () => {
+            this.movie = undefined;
+            this.tell();
+            download(`${this.name()}.${mimeType === "video/mp4" ? "mp4" : "webm"}`, new Blob(parts, { type: mimeType }));
+        };
+        recorder.start();
+        this.movie = { canvas, recorder };
+    }
+
+    async toggle_frames() {
+        const { frames } = this;
+        this.frames = frames ? undefined : [];
+        this.tell();
+        if (!frames) return this.take();
+        const files = (await Promise.all(frames)).filter((file) => file !== undefined);
+        download(`${this.name()}_frames.zip`, zip(files));
+    }
+
+    private tell() { this.changed(this.movie !== undefined, this.frames !== undefined); }
+
+    /// After each drawing.
+    take() {
+        if (this.movie) enlarged(this.canvas, this.movie.canvas);
+        if (!this.frames) return;
+        const name = `${String(this.frames.length).padStart(5, "0")}.png`;
+        this.frames.push(new Promise((resolve) => this.canvas.toBlob(async (blob) =>
+            resolve(blob ? { name, bytes: new Uint8Array(await blob.arrayBuffer()) } : undefined))));
+        if (this.frames.length >= most_frames) void this.toggle_frames();
+    }
+}
