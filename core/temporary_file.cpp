@@ -45,15 +45,27 @@ void remove_if_dead(const Descriptor& folder, const char* name) {
     ::unlinkat(folder.number(), name, 0);
 }
 
+using Words = std::array<std::uint32_t, 4>;
+
+std::string digits_of(const Words& words) {
+    return fmt::format("{:08x}{:08x}{:08x}{:08x}", words[0], words[1], words[2], words[3]);
+}
+
 }  // namespace
 
+std::optional<std::string> secret_digits() {
+    Words words{};
+    const ssize_t size = sizeof words;
+    if (::getrandom(words.data(), sizeof words, 0) != size) return std::nullopt;
+    return digits_of(words);
+}
+
 std::string random_digits() {
-    std::array<std::uint32_t, 4> words{};
-    if (::getrandom(words.data(), sizeof words, 0) != static_cast<ssize_t>(sizeof words)) {
-        std::random_device device;
-        std::generate(words.begin(), words.end(), [&] { return device(); });
-    }
-    return fmt::format("{:08x}{:08x}{:08x}{:08x}", words[0], words[1], words[2], words[3]);
+    if (auto secret = secret_digits()) return *std::move(secret);
+    Words words{};
+    std::random_device device;
+    std::generate(words.begin(), words.end(), [&] { return device(); });
+    return digits_of(words);
 }
 
 int open_folder(const std::filesystem::path& folder) {

@@ -8,13 +8,17 @@
 #include "core/descriptor.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <sys/types.h>
 
 namespace cascade {
 
-/// 32 random hexadecimal digits that cannot be guessed.
+/// 128 random bits of the system as 32 hexadecimal digits; none if it gives none.
+std::optional<std::string> secret_digits();
+
+/// The same for names, which only have to be unique: without the system's from another source.
 std::string random_digits();
 
 /// A descriptor that only serves to name files in a folder; negative, with errno set, on failure.

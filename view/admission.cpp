@@ -1,23 +1,9 @@
-// The rules of admission, in the order in which they are tried, and the token.
+// The rules of admission, in the order in which they are tried.
 #include "view/admission.h"
 
-#include <sys/random.h>
-
-#include <array>
 #include <fmt/format.h>
 
 namespace cascade {
-
-Result<std::string> make_token() {
-    std::array<unsigned char, 16> bytes;
-    if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-        return failure(
-            "the system gives no random numbers, without which the page cannot be protected");
-    }
-    std::string token;
-    for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
-    return token;
-}
 
 bool same_secret(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;

@@ -1,17 +1,12 @@
 // Which requests the local server answers: those of its own page, and of no other site or user.
 #pragma once
 
-#include "core/result.h"
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace cascade {
-
-/// 128 random bits of the system as 32 hexadecimal digits.
-Result<std::string> make_token();
 
 /// Whether two secrets are equal. The time depends on their lengths alone, so that guesses cannot
 /// be improved digit by digit.

@@ -4,12 +4,14 @@
 // threads only put messages into outboxes and ask that thread to look at them.
 #include "view/local_server.h"
 
+#include "core/temporary_file.h"
 #include "view/admission.h"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -99,7 +101,8 @@ private:
 /// One connection: HTTP requests, one after another, until one of them makes it a page's WebSocket.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
-    Connection(Server& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {
+    Connection(Server& server, tcp::socket socket)
+        : server_(server), stream_(std::move(socket)), patience_(stream_.get_executor()) {
         server_.connections.insert(this);
     }
     ~Connection() { server_.connections.erase(this); }
@@ -110,7 +113,10 @@ public:
     /// Sends what waits for the page, if nothing is being sent.
     void send_waiting();
     void say_goodbye();
-    void close() { stream_.next_layer().close(); }
+    void close() {
+        patience_.cancel();
+        stream_.next_layer().close();
+    }
 
 private:
     void answer_request();
@@ -119,9 +125,11 @@ private:
     void wait_for_end();
     void open_page();
     void read_text();
+    void expect_end();
 
     Server& server_;
     websocket::stream<beast::tcp_stream> stream_;
+    asio::steady_timer patience_;  ///< With a page that has said goodbye.
     beast::flat_buffer buffer_;
     std::optional<http::request_parser<http::empty_body>> parser_;
     http::response<http::span_body<const char>> response_;
@@ -222,6 +230,9 @@ void Connection::open_page() {
                                                        server_.limits.idle_time, true});
     stream_.read_message_max(server_.limits.message_bytes);
     stream_.auto_fragment(false);
+    stream_.control_callback([this](websocket::frame_type kind, beast::string_view) {
+        if (kind == websocket::frame_type::close) expect_end();
+    });
     const auto then = [self = shared_from_this()](error_code error) {
         if (error) return;
         self->outbox_ = std::make_shared<Outbox>(self->server_.limits.waiting_text);
@@ -247,6 +258,14 @@ void Connection::read_text() {
     stream_.async_read(buffer_, then);
 }
 
+/// Its goodbye is answered at once, but a page may keep its end of the connection open.
+void Connection::expect_end() {
+    patience_.expires_after(farewell_time);
+    patience_.async_wait([self = shared_from_this()](error_code error) {
+        if (!error) self->close();
+    });
+}
+
 void Connection::send_waiting() {
     if (sending_) return;
     sending_ = outbox_->next();
@@ -269,9 +288,12 @@ void Connection::say_goodbye() {
 Server::~Server() { stop(); }
 
 Result<void> Server::start() {
-    auto new_token = make_token();
-    if (!new_token) return tl::unexpected(new_token.error());
-    token = std::move(*new_token);
+    auto digits = secret_digits();
+    if (!digits) {
+        return failure(
+            "the system gives no random numbers, without which the page cannot be protected");
+    }
+    token = *std::move(digits);
     try {
         if (auto opened = open_doors(); !opened) return opened;
         admission.emplace(port, token);

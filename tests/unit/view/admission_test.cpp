@@ -1,6 +1,8 @@
 // The rules of admission, one by one.
 #include "view/admission.h"
 
+#include "core/temporary_file.h"
+
 #include <gmock/gmock.h>
 
 #include <set>
@@ -115,7 +117,7 @@ TEST(Admission, RefusesSocketsWithoutTheToken) {
 TEST(Admission, TokensAreRandomAndComparedWhole) {
     std::set<std::string> tokens;
     for (int k = 0; k < 100; ++k) {
-        const auto made = make_token();
+        const auto made = secret_digits();
         ASSERT_TRUE(made.has_value());
         EXPECT_THAT(*made, testing::MatchesRegex("[0-9a-f]+"));
         EXPECT_EQ(made->size(), 32U);

@@ -213,6 +213,17 @@ TEST_F(LocalServerTest, TalksWithPages) {
     server_->send_text(17, "nobody was it");
 }
 
+TEST_F(LocalServerTest, APageThatHasSaidGoodbyeIsGoneWhenItKeepsItsConnection) {
+    start();
+    RawClient page(server_->port());
+    open_page(page);
+    events_.wait_for(1);
+    ASSERT_TRUE(page.send_frame(RawClient::goodbye, ""));
+    EXPECT_EQ(page.read_frame().opcode, RawClient::goodbye);
+    // Much sooner than a page that is silent.
+    EXPECT_THAT(events_.wait_for(2), ElementsAre("opened 1", "closed 1"));
+}
+
 TEST_F(LocalServerTest, ClosesPagesThatBreakTheRules) {
     ServerLimits limits;
     limits.message_bytes = 1000;
