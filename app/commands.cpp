@@ -9,6 +9,7 @@
 #include "lang/library/library.h"
 #include "lang/syntax/parse.h"
 #include "run/commands/dump.h"
+#include "run/session/session_log.h"
 #include "run/stage/memory.h"
 
 #include <fmt/format.h>
@@ -41,7 +42,13 @@ Result<std::string> read_standard_input() {
 namespace {
 
 Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides) {
-    if (path != "-") return load_script_file(path, overrides);
+    if (path != "-") {
+        if (is_session_log(first_bytes(path, longest_log_beginning))) {
+            return failure(fmt::format("{} is a session and not a script", path),
+                           "'cascade repl FILE' plays it again");
+        }
+        return load_script_file(path, overrides);
+    }
     auto text = read_standard_input();
     if (!text) return tl::unexpected(text.error());
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};

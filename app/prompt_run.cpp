@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "run/commands/run.h"
 #include "run/pictures/painter.h"
+#include "run/session/session_picture.h"
 
 #include <fmt/format.h>
 
@@ -201,18 +202,16 @@ void PromptSession::remark(const std::string& words) {
 /// Of the run, which begins if there is none. Nothing if that or the expression is wrong.
 std::optional<Painter> PromptSession::painter_of(const std::string& expression) {
     if (!begin_run()) return std::nullopt;
-    PictureRequest request;
-    request.show = expression;
-    auto painter = Painter::create(run_->script(), request);
+    auto painter = make_painter(*run_, picture_of(expression));
     if (painter) return std::move(*painter);
-    print_errors(run_->script());
-    run_->script().diagnostics = {};
+    print_refusal(painter.error());
     return std::nullopt;
 }
 
 void PromptSession::show(const std::string& expression) {
     auto painter = painter_of(expression);
     if (!painter) return;
+    shown_ = expression;
     const Canvas canvas = painter->canvas(run_->simulation());
     const Image image = painter->image(canvas);
     console_.draw(in_characters(image, console_.out()));
@@ -251,9 +250,18 @@ void PromptSession::save(const std::string& path) {
         return console_.note(fmt::format("wrote {}", path));
     }
     if (std::filesystem::path(path).extension() == ".cascade") return save_text(path);
+    if (std::filesystem::path(path).extension() == ".png") return save_picture(path);
     const auto written = save_run(path, run_->script(), run_->simulation());
     if (!written) return fail(written.error());
     console_.note(fmt::format("wrote {} files in {}", written->size(), path));
+}
+
+/// The picture that was shown last, as it is now.
+void PromptSession::save_picture(const std::string& path) {
+    const auto file = session_picture(*run_, picture_of(shown_));
+    if (!file) return print_refusal(file.error());
+    if (auto done = write_file(path, *file); !done) return fail(done.error());
+    console_.note(fmt::format("wrote {}", path));
 }
 
 /// Fails where the text would grow another pattern than the run.

@@ -8,6 +8,7 @@
 #include "lang/syntax/parse.h"
 #include "lang/syntax/replace_blocks.h"
 #include "run/commands/run.h"
+#include "run/session/session_picture.h"
 
 #include <fmt/format.h>
 
@@ -39,8 +40,8 @@ std::span<const PromptSession::Command> PromptSession::commands() {
         {":stages", "", "the stages, and how far they are", &PromptSession::list_stages},
         {":text", "", "the script so far", &PromptSession::print_text},
         {":save", "PATH",
-         "NAME.cascade: the script; NAME.session: all that was done;\n"
-         "                       FOLDER: every field",
+         "NAME.png: the picture; NAME.session: all that was done;\n"
+         "                       NAME.cascade: the script; FOLDER: every field",
          &PromptSession::save},
         {":load", "FILE", "a script, a picture, a session, or a folder that was saved",
          &PromptSession::load},
@@ -181,13 +182,15 @@ void PromptSession::load(const std::string& path) {
         load_saved(path);
         return;
     }
-    constexpr std::size_t beginning = 64;  // More than the first line of a session.
-    if (is_session_log(first_bytes(path, beginning))) return load_session(path);
+    if (is_session_log(first_bytes(path, longest_log_beginning))) return load_session(path);
     auto file = load_script_file(path);
     if (!file) {
         fail(file.error());
         return;
     }
+    const auto session = session_of(*file);
+    if (!session) return fail(session.error());
+    if (*session) return play(**session, file->script.folder);
     if (!file->script.text.ends_with('\n') && file->script.program) {
         const Script& read = file->script;
         file->script = load_script(read.name, read.text + "\n", read.folder, read.overrides);
@@ -224,9 +227,12 @@ void PromptSession::load_session(const std::string& path) {
         fail({fmt::format("{}: {}", path, log.error().message), log.error().hint});
         return;
     }
-    const auto folder = std::filesystem::path(path).parent_path();
+    play(*log, std::filesystem::path(path).parent_path());
+}
+
+void PromptSession::play(const SessionLog& log, const std::filesystem::path& folder) {
     begin_with([&](RunControl& control) {
-        return LiveRun::play(*log, folder.empty() ? "." : folder, options_, control);
+        return LiveRun::play(log, folder.empty() ? "." : folder, options_, control);
     });
 }
 
@@ -256,6 +262,7 @@ void PromptSession::forget(const std::string&) {
     run_.reset();
     script_.reset();
     last_warnings_.clear();
+    shown_.clear();
 }
 
 void PromptSession::help(const std::string&) {

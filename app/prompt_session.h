@@ -52,6 +52,7 @@ private:
     bool change(Script script);
     void load_saved(const std::string& folder);
     void load_session(const std::string& path);
+    void play(const SessionLog& log, const std::filesystem::path& folder);
     void set(const std::string& assignment);
     void print_text(const std::string&);
     void forget(const std::string&);
@@ -77,6 +78,7 @@ private:
     void list_stages(const std::string&);
     void save(const std::string& path);
     void save_text(const std::string& path);
+    void save_picture(const std::string& path);
     void tell_place();
     void tell_over();
     void remark(const std::string& words);
@@ -94,6 +96,7 @@ private:
     bool show_after_run_;
     std::string pending_;  ///< The first lines of an unfinished block.
     std::string last_warnings_;
+    std::string shown_;  ///< The expression of the picture that was drawn last.
     bool has_failed_ = false;
     std::unique_ptr<Script> script_;  ///< Without errors; before there is a run.
     std::unique_ptr<LiveRun> run_;    ///< Null until something is run.

@@ -8,7 +8,10 @@
 #include "app/progress_display.h"
 #include "app/time_table.h"
 #include "core/counted.h"
+#include "core/with_commas.h"
+#include "run/script/embedded_script.h"
 #include "run/script/script_folder.h"
+#include "run/session/session_picture.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +53,35 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
                         edited->string(), options.run.resume.string()));
     }
     return LoadedFile{std::move(*saved), ""};
+}
+
+/// The session of a picture, if options do not ask for another run than it had.
+Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overrides changes,
+                                                  const Console& console, bool quiet) {
+    auto log = session_of(file);
+    if (!log || !*log) return log;
+    // Where files are found does not matter.
+    const auto name_of_model = [](const Overrides& overrides) {
+        return std::filesystem::path(overrides.model.value_or("")).filename();
+    };
+    const Overrides merged = merge((*log)->overrides, changes);
+    if (name_of_model(changes) == name_of_model((*log)->overrides)) {
+        changes.model.reset();
+        changes.model_is_asked_for = false;
+    }
+    changes.reads = {};
+    const bool is_same = changes == Overrides();
+    if (!quiet) {
+        console.note(is_same ? fmt::format("{}: playing its session, up to step {} of stage {}",
+                                           file.script.file.string(),
+                                           with_commas((*log)->end.steps), (*log)->end.stage + 1)
+                             : fmt::format("{}: its session is not played, because options change "
+                                           "the script; this runs the script alone",
+                                           file.script.file.string()));
+    }
+    if (!is_same) return std::nullopt;
+    (*log)->overrides = merged;
+    return log;
 }
 
 /// Prints what was written; the pictures of --frames as one line.
@@ -144,6 +176,12 @@ int run_command(const Options& options, Console& console) {
         request.picture = std::move(*stored);
     }
     request.picture = apply(options.picture, std::move(request.picture));
+    auto session = session_to_play(*file, options.overrides, console, options.quiet);
+    if (!session) {
+        console.fail(session.error());
+        return exit_status::wrong_script;
+    }
+    request.session = std::move(*session);
     if (options.timing) request.simulation.account = &times;
 
     RunControl control;

@@ -94,6 +94,27 @@ printf 'cascade session 1\nname x\n' >broken.session
 feed_wrong ':load broken.session'
 says err 'broken.session: line 3 of the session'
 
+# A picture carries the session: it is drawn again, played again, and gone on with.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' \
+    'stage t: turing_spots { a: a; b: b; beta: beta; iterations: 50 }' ':run 60' ':paint b = b + disc(0.5, 0.5, 0.2)' \
+    ':run 10' ':set s.ka=1/60' ':next' ':run 7' ':show a' ':save live.png' ':save live' ':run 5' ':save later'
+"$CASCADE" run live.png -o again.png --save again >out 2>err || fail "the picture of a session is not drawn again"
+cmp live.png again.png || fail "the picture of a session is another one"
+cmp live/t.a.npy again/t.a.npy || fail "the session of a picture gives other values"
+says err 'live.png: playing its session, up to step 7 of stage 2'
+feed ':load again.png' ':run 5' ':save gone_on'
+says out "stage 't', step 7 of 50"
+cmp later/t.a.npy gone_on/t.a.npy || fail "a picture's session does not go on"
+"$CASCADE" run live.png -q --scale 2 -o twice.png || fail "a session is not drawn larger"
+"$CASCADE" run live.png --set t.ka=1/50 -o other.png >out 2>err || fail "the script of a picture does not run"
+says err 'its session is not played, because options change the script'
+"$CASCADE" run live.png --frames film >out 2>err && fail "frames of a session"
+says err 'a session is played to its end before anything is written'
+# What began with a saved run is not grown by its log.
+feed ':load live' ':run 3' ':save resumed.png'
+"$CASCADE" run resumed.png -o own.png >out 2>err || fail "the script of a picture does not run"
+grep -q 'playing' err && fail "a session without its beginning is played"
+
 # The script itself can be saved, unless it is not all that the run is made of.
 feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 10 }' ':save mine.cascade'
 grep -q '^stage s: turing_spots { iterations: 10 }$' mine.cascade || fail "the script is not saved"

@@ -98,7 +98,8 @@ public:
     bool redo();
     /// The log of all that was done, as text: play() grows the same pattern from it, bit for bit.
     std::string session() const;
-    /// Plays a session again, up to its end. Its script's paths are relative to `options.folder`.
+    /// Plays a session again, up to its end: the text of session(), or the bytes of a picture.
+    /// Its script's paths are relative to `options.folder`.
     static Pattern play(const std::string& session, const PatternOptions& options = {});
 
     /// The values of an expression over the present state, row by row, slice after slice: a species
@@ -107,6 +108,11 @@ public:
     /// all cells. Empty if the expression is wrong; error() says why, and the pattern stays ok.
     /// Empty, too, if a value of the state is not finite, as step() says.
     std::vector<float> values(const std::string& expression);
+
+    /// The present step as a PNG file in memory: what `cascade run` would draw, or `expression`. It
+    /// carries the session, so that `cascade run FILE` draws it again. Empty if there is no
+    /// picture; error() says why, and the pattern stays ok.
+    std::string picture(const std::string& expression = "");
 
     /// Makes a step() that is going on return after the present step. The next step() goes on.
     void cancel();

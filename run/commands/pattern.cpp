@@ -2,10 +2,10 @@
 
 #include "cascade/cascade.h"
 
+#include "core/failure_line.h"
 #include "core/version.h"
-#include "run/session/live_run.h"
-
-#include <fmt/format.h>
+#include "run/script/embedded_script.h"
+#include "run/session/session_picture.h"
 
 #include <algorithm>
 #include <map>
@@ -33,8 +33,7 @@ struct Pattern::Implementation {
 
     void fail(const Failure& failure) {
         failed = true;
-        error = failure.hint.empty() ? failure.message
-                                     : fmt::format("{} ({})", failure.message, failure.hint);
+        error = line_of(failure);
     }
 
     /// Takes over a run, or why there is none.
@@ -87,6 +86,15 @@ SimulationOptions simulation_options(const PatternOptions& options) {
     return simulation;
 }
 
+/// The log in the text of a session, or in the bytes of a picture.
+Result<SessionLog> log_of(const std::string& session) {
+    if (is_session_log(session)) return parse_session_log(session);
+    const auto embedded = parse_embedded_script(session, "<picture>");
+    if (!embedded) return parse_session_log(session);
+    if (embedded->session.empty()) return failure("this picture carries no session");
+    return parse_session_log(embedded->session);
+}
+
 }  // namespace
 
 Pattern::Pattern() : self_(std::make_unique<Implementation>()) {}
@@ -99,7 +107,7 @@ Pattern::Pattern(const std::string& text, const PatternOptions& options) : Patte
 
 Pattern Pattern::play(const std::string& session, const PatternOptions& options) {
     Pattern pattern;
-    const auto log = parse_session_log(session);
+    const auto log = log_of(session);
     if (!log) {
         pattern.self_->fail(log.error());
         return pattern;
@@ -202,6 +210,13 @@ bool Pattern::undo() { return self_->running() && self_->note(self_->run->undo(s
 bool Pattern::redo() { return self_->running() && self_->note(self_->run->redo(self_->control)); }
 std::string Pattern::session() const {
     return self_->run ? print_session_log(self_->run->log()) : "";
+}
+
+std::string Pattern::picture(const std::string& expression) {
+    if (!self_->running() || !self_->check()) return "";
+    auto file = session_picture(*self_->run, picture_of(expression));
+    self_->error = file ? "" : file.error().messages(false);
+    return file ? std::move(*file) : "";
 }
 
 const Formula* Pattern::Implementation::formula(const std::string& text) {

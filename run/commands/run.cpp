@@ -10,6 +10,7 @@
 #include "run/pictures/frames.h"
 #include "run/pictures/measured.h"
 #include "run/pictures/picture_remarks.h"
+#include "run/session/live_run.h"
 #include "run/stage/stage_time.h"
 
 #include <fmt/format.h>
@@ -41,6 +42,8 @@ private:
     Result<void> prepare();
     Result<void> check_places(Folders folders);
     Result<void> make_simulation();
+    Result<std::unique_ptr<LiveRun>> play_session();
+    bool has_cancelled(std::string what);
     Result<void> run_stages();
     Result<StageEnd> run_stage(std::uint32_t stage);
     void remark(std::string words);
@@ -85,7 +88,7 @@ Result<void> Runner::prepare() {
         log_ = std::move(*log);
     }
     // Making the cells of a model takes a while, so what is written is checked before it, too.
-    if (script_.program->domain.model) {
+    if (script_.program->domain.model || request_.session) {
         if (auto good = check_places(Folders::tried); !good) return good;
     }
     if (auto made = make_simulation(); !made || !simulation_) return made;
@@ -134,19 +137,54 @@ void Runner::keep_while_running() {
         });
 }
 
+/// Notes where the user has cancelled the run before its first step, if so.
+bool Runner::has_cancelled(std::string what) {
+    if (!control_.cancel) return false;
+    report_.status = RunStatus::cancelled;
+    report_.where = std::move(what);
+    return true;
+}
+
+/// The run at the end of the session, which must be a run of the script.
+Result<std::unique_ptr<LiveRun>> Runner::play_session() {
+    auto played = LiveRun::play(*request_.session, script_.folder, request_.simulation, control_);
+    if (!played) {
+        Failure why = played.error().in_brief();
+        why.message = "the session cannot be played: " + why.message;
+        return tl::unexpected(std::move(why));
+    }
+    const Script& end = (*played)->script();
+    if (end.text != script_.text || end.overrides != script_.overrides) {
+        return failure("the session of the picture does not end with the script of the picture",
+                       "the picture has been changed since it was written");
+    }
+    return std::move(*played);
+}
+
 /// There is no simulation if the user has cancelled it.
 Result<void> Runner::make_simulation() {
     SimulationOptions options = request_.simulation;
     options.control = &control_;
     if (request_.model_files.bake > 0) options.check_model = check_bakeable;
+    std::unique_ptr<LiveRun> played;
+    if (request_.session) {
+        auto run = play_session();
+        if (!run && has_cancelled("a session that is played")) return {};
+        if (!run) return tl::unexpected(run.error());
+        played = std::move(*run);
+        options.known_model = played->simulation().model();
+    }
     auto made = Simulation::create(script_, options);
-    if (!made && control_.cancel && !script_.diagnostics.has_errors()) {
-        report_.status = RunStatus::cancelled;
-        report_.where = "the making of the model's cells";
+    if (!made && !script_.diagnostics.has_errors() &&
+        has_cancelled("the making of the model's cells")) {
         return {};
     }
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
+    if (played) {
+        const auto restored = go_on(*simulation_, played->values(), Continuation::same);
+        if (!restored) return tl::unexpected(restored.error());
+    }
     return check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
                               request_.simulation.memory_limit);
 }
@@ -277,7 +315,9 @@ Result<RunReport> Runner::run() {
     if (auto ready = prepare(); !ready) return tl::unexpected(ready.error());
     if (!simulation_) return std::move(report_);
     report_.has_begun = true;
-    if (auto done = run_stages(); !done) {
+    if (request_.session) {
+        report_.where = place();
+    } else if (auto done = run_stages(); !done) {
         // The log shows what led to the divergence.
         if (log_) (void)results().write_log();
         return tl::unexpected(done.error());

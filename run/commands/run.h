@@ -8,6 +8,7 @@
 #include "run/pictures/model_files.h"
 #include "run/script/picture_request.h"
 #include "run/script/script.h"
+#include "run/session/session_log.h"
 #include "run/simulation/simulation.h"
 
 #include <filesystem>
@@ -38,6 +39,8 @@ struct RunRequest {
     std::filesystem::path volume;   ///< `--volume FILE.vti`; empty for none.
     std::filesystem::path resume;   ///< `--resume DIR`; empty to start anew.
     std::optional<StopAt> stop_at;
+    /// Played instead of the stages; its script at the end is the one that is run.
+    std::optional<SessionLog> session;
     LogRequest log;
     bool features = false;  ///< Measure the values that the picture shows.
 };

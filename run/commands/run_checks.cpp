@@ -249,6 +249,17 @@ void check_on_plane(OptionRefuser& options, const RunRequest& request) {
                       message, hint);
 }
 
+/// What is written while a run takes its steps.
+void check_with_session(OptionRefuser& options, const RunRequest& request) {
+    const std::string message = "a session is played to its end before anything is written";
+    const std::string hint = "'cascade repl' plays it, and goes on from there";
+    options.refuse_if(!request.frames.empty(), "--frames", message, hint);
+    options.refuse_if(request.picture.space_time, "--space-time", message, hint);
+    options.refuse_if(!request.log.expressions.empty(), "--log", message, hint);
+    options.refuse_if(request.stop_at.has_value(), "--stop-at", message, hint);
+    options.refuse_if(request.checkpoint_seconds > 0, "--checkpoint", message, hint);
+}
+
 }  // namespace
 
 Result<void> check_request(Script& script, const RunRequest& request) {
@@ -275,6 +286,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         check_without_model(options, request);
         if (!domain.surface) check_on_plane(options, request);
     }
+    if (request.session) check_with_session(options, request);
     if (request.stop_at) check_stop_at(script, *request.stop_at);
     if (script.diagnostics.has_errors()) return failure("the request does not fit the script");
     return {};

@@ -8,6 +8,7 @@
 #include "run/pictures/model_files.h"
 #include "run/pictures/model_picture.h"
 #include "run/script/embedded_script.h"
+#include "run/session/session_picture.h"
 
 #include <fmt/format.h>
 
@@ -17,9 +18,13 @@
 
 namespace cascade {
 
+PngTexts RunResults::texts(const PictureRequest& picture) const {
+    return request.session ? embed_session(script, picture, *request.session)
+                           : embed_script(script, picture);
+}
+
 Result<void> RunResults::write_picture(const std::filesystem::path& path, const Image& image) {
-    auto done = write_png(path, image, request.picture.png_depth(),
-                          embed_script(script, painter.request()));
+    auto done = write_png(path, image, request.picture.png_depth(), texts(painter.request()));
     if (done) report.written.push_back(path);
     return done;
 }
@@ -81,7 +86,7 @@ std::vector<Channel> RunResults::channels(const Canvas& canvas) const {
 Result<void> RunResults::write_model_files(const Canvas& canvas) {
     const ModelLook look = painter.look(canvas);
     ModelFileWriter writer(*simulation.model(), look, channels(canvas), request.model_files,
-                           embed_script(script, request.picture));
+                           texts(request.picture));
     std::optional<Failure> first;
     for (const auto& output : outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
@@ -117,7 +122,7 @@ Result<void> RunResults::write_frames() {
     const int threads = options.memory_limit > 0 ? 1
                         : options.threads > 0    ? options.threads
                                                  : hardware_threads();
-    auto written = frames->write(painter, embed_script(script, request.picture), threads);
+    auto written = frames->write(painter, texts(request.picture), threads);
     if (!written) return tl::unexpected(written.error());
     report.written.insert(report.written.end(), written->begin(), written->end());
     if (const std::size_t stale = remove_stale_frames(earlier_frames, *written);

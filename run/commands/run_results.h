@@ -38,6 +38,7 @@ private:
     Result<void> write_saved_run();
     Result<void> write_volume();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);
+    PngTexts texts(const PictureRequest& picture) const;
 };
 
 }  // namespace cascade

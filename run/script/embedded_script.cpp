@@ -153,6 +153,7 @@ Result<EmbeddedScript> parse_embedded_script(std::string_view bytes, const std::
     embedded.overrides = std::move(*overrides);
     if (texts->contains(key_picture)) embedded.picture_options = texts->at(key_picture);
     if (texts->contains(key_sweep)) embedded.varied = texts_of(texts->at(key_sweep));
+    if (texts->contains(key_session)) embedded.session = texts->at(key_session);
     if (!embedded.picture_options.empty()) {
         const auto picture = picture_request_from_json(embedded.picture_options);
         if (!picture) {

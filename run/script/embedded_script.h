@@ -22,7 +22,11 @@ struct EmbeddedScript {
     Overrides overrides;
     std::string picture_options;      ///< JSON of a PictureRequest.
     std::vector<std::string> varied;  ///< Of a sweep's sheet: texts for parse_variation().
+    std::string session;              ///< The log of a session; empty for other pictures.
 };
+
+/// The chunk of a picture that holds the log of a session.
+inline constexpr const char* key_session = "Cascade session";
 
 /// The chunks Software, Cascade name, Cascade script, Cascade overrides, Cascade seed, Cascade
 /// picture.

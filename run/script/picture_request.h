@@ -31,6 +31,13 @@ struct PictureRequest {
     PngDepth png_depth() const { return depth == 16 ? PngDepth::sixteen : PngDepth::eight; }
 };
 
+/// The default picture of an expression, or, if that is empty, of the script.
+inline PictureRequest picture_of(std::string expression) {
+    PictureRequest request;
+    request.show = std::move(expression);
+    return request;
+}
+
 std::string to_json(const PictureRequest& request);
 Result<PictureRequest> picture_request_from_json(const std::string& json);
 

@@ -167,10 +167,6 @@ Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides
                                    path.string(), *size, largest_script),
                        "is it really a Cascade script?");
     }
-    if (bytes->starts_with("cascade session ")) {
-        return failure(fmt::format("{} is a session and not a script", path.string()),
-                       "'cascade repl FILE' plays it again");
-    }
     if (!bytes->starts_with(signature)) {
         return LoadedFile{load_script(path.string(), std::move(*bytes), path.parent_path(),
                                       std::move(overrides)),
@@ -181,7 +177,8 @@ Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides
     Overrides merged = merge(embedded->overrides, overrides);
     LoadedFile file{load_script(embedded->name, std::move(embedded->text), path.parent_path(),
                                 std::move(merged)),
-                    std::move(embedded->picture_options), std::move(embedded->varied)};
+                    std::move(embedded->picture_options), std::move(embedded->varied),
+                    std::move(embedded->session)};
     file.script.file = path;
     return file;
 }

@@ -84,6 +84,7 @@ struct LoadedFile {
     Script script;
     std::string picture_options;  ///< JSON of the PictureRequest in a PNG; empty for a script.
     std::vector<std::string> varied = {};  ///< Of a sweep's sheet: its --vary, in order.
+    std::string session = {};              ///< Of a picture of a session: its log, not yet parsed.
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 

@@ -90,6 +90,14 @@ std::string Refusal::messages(bool colour) const {
     return text;
 }
 
+Failure Refusal::in_brief() const {
+    if (failure) return *failure;
+    for (const Diagnostic& diagnostic : diagnostics.sorted()) {
+        if (diagnostic.severity == Severity::error) return {diagnostic.message, diagnostic.hint};
+    }
+    return {};
+}
+
 Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunControl& control) const {
     SimulationOptions options = options_;
     options.control = &control;
@@ -158,6 +166,7 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::resume(
     auto run = begin(std::move(script), options, control);
     if (!run) return run;
     LiveRun& live = **run;
+    live.is_resumed_ = true;
     if (auto restored = restore(*live.script_, *live.simulation_); !restored) {
         return refuse(restored.error());
     }
@@ -175,6 +184,7 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::play(const SessionLog& log,
     if (!run) return run;
     Accepted<void> done;
     for (const auto& logged : log.changes) {
+        if (control.cancel) return refuse("stopped");
         done = (*run)->run_to(logged->at, control);
         const bool needs_values = is_of_script(logged->change);
         if (done) {

@@ -28,6 +28,8 @@ struct Refusal {
 
     /// All of it as text, as the command line draws it.
     std::string messages(bool colour) const;
+    /// The failure, or else the first error without its place.
+    Failure in_brief() const;
 };
 
 template <typename T>
@@ -70,6 +72,10 @@ public:
     RunPlace place() const { return {stage_, state().steps}; }
     /// Has every stage ended?
     bool is_over() const;
+    /// Did it begin with the values of a saved run? Then its log alone does not grow it again.
+    bool is_resumed() const { return is_resumed_; }
+    /// All values, from which go_on() continues.
+    KeptState values() const { return keep(*simulation_, painted_); }
 
     /// Takes up to `count` steps, from stage to stage. `stopped`: all of them were taken;
     /// `finished`: the last stage has ended. If values are not finite it fails, and the run is back
@@ -134,7 +140,6 @@ private:
     Accepted<void> return_to(Moment& moment, RunControl& control);
     Accepted<void> step_through(std::vector<Moment>& from, std::vector<Moment>& to,
                                 RunControl& control);
-    KeptState values() const { return keep(*simulation_, painted_); }
     Moment present() const;
     void remember(Moment moment);
     void forget_old_values();
@@ -144,6 +149,7 @@ private:
     std::unique_ptr<Script> script_;
     std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
     std::uint32_t stage_ = 0;
+    bool is_resumed_ = false;
     std::vector<PaintedNames> painted_;  ///< By stage.
     SessionLog log_;                     ///< Its end is not kept up to date.
     std::vector<Moment> past_, future_;

@@ -87,7 +87,7 @@ public:
 
     auto wrong(std::string_view why) const {
         return failure(fmt::format("line {} of the session: {}", number_, why),
-                       "a session is written by ':log' and by pages, not by hand");
+                       "sessions are written by ':save NAME.session', not by hand");
     }
 
 private:
@@ -180,6 +180,8 @@ Result<SessionLog> parse_session_log(std::string_view text) {
         }
         auto change = read_change(word, rest, reader);
         if (!change) return reader.wrong("it is no change of a session");
+        if (log.changes.size() == most_logged_changes)
+            return reader.wrong("there are too many changes");
         log.changes.push_back(
             std::make_shared<const LoggedChange>(LoggedChange{at, std::move(*change)}));
     }

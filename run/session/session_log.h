@@ -24,10 +24,14 @@ struct SessionLog {
 /// The log as lines of text, which parse_session_log() reads.
 std::string print_session_log(const SessionLog& log);
 
+/// The most changes of a log that is read, so that a small file cannot fill the memory.
+inline constexpr std::size_t most_logged_changes = 250'000;
+
 /// Fails, naming the line, on a text that print_session_log() does not write.
 Result<SessionLog> parse_session_log(std::string_view text);
 
-/// Does a text begin like a log?
+/// Does a text begin like a log? Its first `longest_log_beginning` bytes are enough.
 bool is_session_log(std::string_view text);
+inline constexpr std::size_t longest_log_beginning = 64;
 
 }  // namespace cascade

@@ -1,6 +1,8 @@
 // What a session does in a turn, and how long a turn is.
 #include "run/session/turns.h"
 
+#include "core/failure_line.h"
+#include "run/session/session_picture.h"
 #include "run/stage/stage_time.h"
 
 #include <algorithm>
@@ -61,7 +63,7 @@ Accepted<void> Turns::carry_out(const SessionCommand& command) {
         return run_->redo(control_);
     }
     if (const auto* show = std::get_if<Show>(&command)) {
-        auto made = make_painter(show->expression);
+        auto made = make_painter(*run_, picture_of(show->expression));
         if (!made) return tl::unexpected(std::move(made.error()));
         shown_ = show->expression;
         painter_ = std::move(*made);
@@ -105,10 +107,7 @@ void Turns::take() {
                             ? rate
                             : 0.7 * steps_per_second_ + 0.3 * rate;
     has_changed_ = true;
-    if (!end) {
-        failure_ = end.error().message;
-        if (!end.error().hint.empty()) failure_ += " (" + end.error().hint + ")";
-    }
+    if (!end) failure_ = line_of(end.error());
     is_going_on_ = end && *end == StageEnd::stopped && steps_left_ != 0;
 }
 
@@ -122,27 +121,11 @@ bool Turns::is_snapshot_due() const {
     return !is_going_on_ || seconds_since(shown_at_) >= patience;
 }
 
-Accepted<Painter> Turns::make_painter(const std::string& expression) {
-    Script& script = run_->script();
-    PictureRequest request;
-    request.show = expression;
-    // The warnings of the script stay as they are.
-    Diagnostics warnings = std::exchange(script.diagnostics, {});
-    auto made = Painter::create(script, request);
-    Diagnostics errors = std::exchange(script.diagnostics, std::move(warnings));
-    if (made) return std::move(*made);
-    Refusal refused;
-    if (!errors.has_errors()) refused.failure = made.error();
-    refused.diagnostics = std::move(errors);
-    refused.sources = script.sources;
-    return tl::unexpected(std::move(refused));
-}
-
 Canvas Turns::canvas() {
     if (painted_script_ != &run_->script()) {
-        auto made = make_painter(shown_);
+        auto made = make_painter(*run_, picture_of(shown_));
         // The expression may have lost its meaning with the old script.
-        painter_ = made ? std::move(*made) : std::move(*make_painter(""));
+        painter_ = made ? std::move(*made) : std::move(*make_painter(*run_, {}));
         painted_script_ = &run_->script();
     }
     painter_->set_slice(slice_);

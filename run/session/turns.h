@@ -94,7 +94,6 @@ private:
     Accepted<void> carry_out(const SessionCommand& command);
     std::int64_t steps_of_turn() const;
     void remark(const std::string& words);
-    Accepted<Painter> make_painter(const std::string& expression);
     Canvas canvas();
 
     std::unique_ptr<LiveRun> run_;

@@ -219,6 +219,24 @@ TEST(Pattern, ValuesAreOnlyReadWhereAllAreFinite) {
     EXPECT_EQ(one_by_one.error(), at_once.error());
 }
 
+TEST(Pattern, APictureCarriesTheSession) {
+    Pattern pattern(spots);
+    pattern.step(10);
+    pattern.paint("b", "b + disc(0.3, 0.3, 0.2)");
+    pattern.step(5);
+    const std::string picture = pattern.picture();
+    Pattern again = Pattern::play(picture);
+    ASSERT_TRUE(again.ok()) << again.error();
+    EXPECT_EQ(again.steps(), 15);
+    EXPECT_EQ(again.values("b"), pattern.values("b"));
+    EXPECT_EQ(again.picture(), picture);
+    EXPECT_NE(again.picture("a"), picture);
+    EXPECT_EQ(again.picture("nobody"), "");
+    EXPECT_NE(again.error().find("nobody"), std::string::npos);
+    EXPECT_TRUE(again.ok());
+    EXPECT_FALSE(Pattern::play(picture.substr(0, 100)).ok());
+}
+
 TEST(Pattern, IsTheSameInterpretedAndCompiled) {
     PatternOptions interpreted;
     interpreted.native_code = false;

@@ -1,0 +1,60 @@
+// The session is one more text chunk beside those of a script.
+#include "run/session/session_picture.h"
+
+#include "run/script/embedded_script.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace cascade {
+namespace {
+
+template <typename T>
+Accepted<T> refused(Failure failure) {
+    Refusal refusal;
+    refusal.failure = std::move(failure);
+    return tl::unexpected(std::move(refusal));
+}
+
+}  // namespace
+
+Accepted<Painter> make_painter(LiveRun& run, const PictureRequest& request) {
+    Script& script = run.script();
+    Diagnostics warnings = std::exchange(script.diagnostics, {});
+    auto made = Painter::create(script, request);
+    Diagnostics errors = std::exchange(script.diagnostics, std::move(warnings));
+    if (made) return std::move(*made);
+    if (!errors.has_errors()) return refused<Painter>(made.error());
+    Refusal refusal;
+    refusal.diagnostics = std::move(errors);
+    refusal.sources = script.sources;
+    return tl::unexpected(std::move(refusal));
+}
+
+PngTexts embed_session(const Script& script, const PictureRequest& request, const SessionLog& log) {
+    PngTexts texts = embed_script(script, request);
+    texts[key_session] = print_session_log(log);
+    return texts;
+}
+
+Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& request) {
+    auto painter = make_painter(run, request);
+    if (!painter) return tl::unexpected(std::move(painter.error()));
+    const Canvas canvas = painter->canvas(run.simulation());
+    const PngTexts texts = run.is_resumed() ? embed_script(run.script(), request)
+                                            : embed_session(run.script(), request, run.log());
+    auto file = encode_png(painter->image(canvas), request.png_depth(), texts);
+    if (!file) return refused<std::string>(file.error());
+    return std::move(*file);
+}
+
+Result<std::optional<SessionLog>> session_of(const LoadedFile& file) {
+    if (file.session.empty()) return std::nullopt;
+    auto log = parse_session_log(file.session);
+    if (log) return std::move(*log);
+    return failure(fmt::format("{}: {}", file.script.file.string(), log.error().message),
+                   "the picture has been changed since it was written");
+}
+
+}  // namespace cascade
