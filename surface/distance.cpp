@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace cascade {
 
@@ -58,29 +59,6 @@ Reach over_edge(Vector2d a, const Reach& to_a, Vector2d b, const Reach& to_b, Ve
     return is_shorter(straight, best) ? straight : best;
 }
 
-/// The triangles around each point.
-class Fans {
-public:
-    explicit Fans(const SurfaceMesh& mesh) : ends_(mesh.points.size() + 1) {
-        for (const auto& corners : mesh.triangles) {
-            for (const std::uint32_t point : corners) ++ends_[point + 1];
-        }
-        for (std::size_t k = 1; k < ends_.size(); ++k) ends_[k] += ends_[k - 1];
-        triangles_.resize(ends_.back());
-        std::vector<std::uint32_t> next(ends_.begin(), ends_.end() - 1);
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            for (const std::uint32_t point : mesh.triangles[t]) triangles_[next[point]++] = t;
-        }
-    }
-    std::span<const std::uint32_t> around(std::uint32_t point) const {
-        return {triangles_.data() + ends_[point], ends_[point + 1] - ends_[point]};
-    }
-
-private:
-    std::vector<std::uint32_t> ends_;  ///< One more than points: each ends where the next begins.
-    std::vector<std::uint32_t> triangles_;
-};
-
 struct Visit {
     double distance = 0;
     std::uint32_t point = 0;
@@ -91,24 +69,49 @@ struct Visit {
 
 }  // namespace
 
-SurfaceDistance::SurfaceDistance(const SurfaceMesh& mesh, std::span<const SurfacePlace> sources,
-                                 const std::atomic<bool>& cancel, const DistanceOptions& options)
-    : refinement_(mesh, edge_for(mesh.total_area(), options.triangles), 2 * options.triangles,
-                  cancel) {
+DistanceMesh::DistanceMesh(const SurfaceMesh& mesh, const std::atomic<bool>& cancel,
+                           const DistanceOptions& options)
+    : original_(mesh),
+      refinement_(mesh, edge_for(mesh.total_area(), options.triangles), 2 * options.triangles,
+                  cancel),
+      ends_(refinement_.mesh().points.size() + 1) {
+    const SurfaceMesh& fine = refinement_.mesh();
+    for (std::uint32_t t = 0; t < fine.triangles.size(); ++t) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            ++ends_[fine.triangles[t][k] + 1];
+            longest_edge_ =
+                std::max(longest_edge_, length(fine.corner(t, (k + 1) % 3) - fine.corner(t, k)));
+        }
+    }
+    for (std::size_t k = 1; k < ends_.size(); ++k) ends_[k] += ends_[k - 1];
+    around_.resize(ends_.back());
+    std::vector<std::uint32_t> next(ends_.begin(), ends_.end() - 1);
+    for (std::uint32_t t = 0; t < fine.triangles.size(); ++t) {
+        for (const std::uint32_t point : fine.triangles[t]) around_[next[point]++] = t;
+    }
+}
+
+SurfaceDistance::SurfaceDistance(std::shared_ptr<const DistanceMesh> mesh,
+                                 std::span<const SurfacePlace> sources,
+                                 const std::atomic<bool>& cancel, double reach)
+    : mesh_(std::move(mesh)) {
     for (std::uint32_t k = 0; k < sources.size(); ++k) {
-        const std::uint32_t triangle = refinement_.refined(sources[k]).triangle;
-        sources_.push_back({triangle, k, position_of(mesh, sources[k])});
+        const std::uint32_t triangle = mesh_->refinement().refined(sources[k]).triangle;
+        sources_.push_back({triangle, k, position_of(mesh_->original(), sources[k])});
     }
     std::sort(sources_.begin(), sources_.end(), [](const LocalSource& a, const LocalSource& b) {
         return std::tie(a.triangle, a.number) < std::tie(b.triangle, b.number);
     });
-    reached_.assign(refinement_.mesh().points.size(), unreached);
-    spread(cancel);
+    reached_.assign(mesh_->mesh().points.size(), unreached);
+    spread(reach, cancel);
 }
 
-void SurfaceDistance::spread(const std::atomic<bool>& cancel) {
-    const SurfaceMesh& mesh = refinement_.mesh();
-    const Fans fans(mesh);
+void SurfaceDistance::spread(double reach_asked_for, const std::atomic<bool>& cancel) {
+    const SurfaceMesh& mesh = mesh_->mesh();
+    // A path is found from the distances of two points, either of which may be beyond its end, and
+    // may become shorter when a later point is visited.
+    constexpr double edges_beyond = 4;
+    const double farthest = reach_asked_for + edges_beyond * mesh_->longest_edge();
     std::vector<Visit> visits;
     const auto reach = [&](std::uint32_t point, const Reach& found) {
         Reach& known = reached_[point];
@@ -129,8 +132,9 @@ void SurfaceDistance::spread(const std::atomic<bool>& cancel) {
         std::pop_heap(visits.begin(), visits.end());
         const Visit visit = visits.back();
         visits.pop_back();
+        if (visit.distance > farthest) return;
         if (visit.distance > reached_[visit.point].distance) continue;
-        for (const std::uint32_t t : fans.around(visit.point)) {
+        for (const std::uint32_t t : mesh_->triangles_around(visit.point)) {
             const auto& corners = mesh.triangles[t];
             const FlatTriangle flat = own_frame(mesh, t);
             for (std::uint32_t k = 0; k < 3; ++k) {
@@ -152,8 +156,8 @@ std::span<const SurfaceDistance::LocalSource> SurfaceDistance::sources_in(
 }
 
 Reach SurfaceDistance::at(const SurfacePlace& place) const {
-    const SurfacePlace fine = refinement_.refined(place);
-    const SurfaceMesh& mesh = refinement_.mesh();
+    const SurfacePlace fine = mesh_->refinement().refined(place);
+    const SurfaceMesh& mesh = mesh_->mesh();
     const auto& corners = mesh.triangles[fine.triangle];
     const FlatTriangle flat = own_frame(mesh, fine.triangle);
     const Vector2d p = position_of(flat, fine.weights);

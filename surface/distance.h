@@ -6,6 +6,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,30 @@ namespace cascade {
 struct DistanceOptions {
     /// The mesh is refined to about this many triangles of equal area if it is coarser.
     std::size_t triangles = 30'000;
+};
+
+/// A mesh prepared for distances, from one set of places after the other: refined, and with the
+/// triangles around each point. The mesh must outlive it. Undefined if `cancel` became true.
+class DistanceMesh {
+public:
+    DistanceMesh(const SurfaceMesh& mesh, const std::atomic<bool>& cancel,
+                 const DistanceOptions& options = {});
+
+    const SurfaceMesh& original() const { return original_; }
+    const Refinement& refinement() const { return refinement_; }
+    /// Of the refined mesh.
+    const SurfaceMesh& mesh() const { return refinement_.mesh(); }
+    double longest_edge() const { return longest_edge_; }
+    std::span<const std::uint32_t> triangles_around(std::uint32_t point) const {
+        return {around_.data() + ends_[point], ends_[point + 1] - ends_[point]};
+    }
+
+private:
+    const SurfaceMesh& original_;
+    Refinement refinement_;
+    double longest_edge_ = 0;
+    std::vector<std::uint32_t> ends_;  ///< One more than points: each ends where the next begins.
+    std::vector<std::uint32_t> around_;
 };
 
 /// The shortest distance along the surface from the nearest of some places, the sources.
@@ -41,7 +67,14 @@ public:
     };
 
     SurfaceDistance(const SurfaceMesh& mesh, std::span<const SurfacePlace> sources,
-                    const std::atomic<bool>& cancel, const DistanceOptions& options = {});
+                    const std::atomic<bool>& cancel, const DistanceOptions& options = {})
+        : SurfaceDistance(std::make_shared<const DistanceMesh>(mesh, cancel, options), sources,
+                          cancel) {}
+
+    /// Distances of up to `reach`, in units of the model; longer ones may be infinite or too long.
+    SurfaceDistance(std::shared_ptr<const DistanceMesh> mesh, std::span<const SurfacePlace> sources,
+                    const std::atomic<bool>& cancel,
+                    double reach = std::numeric_limits<double>::infinity());
 
     /// The distance of a point of the mesh.
     Reach at_point(std::uint32_t point) const { return reached_[point]; }
@@ -54,10 +87,10 @@ private:
         std::uint32_t number = 0;
         Vector3d position;
     };
-    void spread(const std::atomic<bool>& cancel);
+    void spread(double reach, const std::atomic<bool>& cancel);
     std::span<const LocalSource> sources_in(std::uint32_t triangle) const;
 
-    Refinement refinement_;
+    std::shared_ptr<const DistanceMesh> mesh_;
     std::vector<LocalSource> sources_;  ///< By triangle of the refined mesh.
     std::vector<Reach> reached_;        ///< Of the points of the refined mesh.
 };

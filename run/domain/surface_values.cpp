@@ -13,29 +13,40 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace cascade {
 
 namespace {
 
 const std::atomic<bool> never = false;
+/// Of values that the script reads.
+constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
 
-std::vector<double> distances(const ModelCells& model, std::span<const double> numbers,
-                              const std::atomic<bool>& cancel) {
-    const NearestPlace nearest(model.mesh);
-    const ModelBox box(model.mesh);
-    std::vector<SurfacePlace> sources;
-    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
-        const auto place = nearest.find(box.in_model({numbers[k], numbers[k + 1], numbers[k + 2]}));
-        if (place) sources.push_back(*place);
+/// The farthest that a formula needs to know of a distance: the largest number with which it is
+/// compared, or infinity if something else is made of it.
+double reach_needed(const Formula& formula, SurfaceValueId id) {
+    constexpr std::array comparisons = {Function::less, Function::less_equal, Function::greater,
+                                        Function::greater_equal};
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    if (formula.nodes.back().is(id)) return infinite;
+    double reach = 0;
+    for (const Node& node : formula.nodes) {
+        const auto is_it = [&](NodeId operand) { return formula.nodes[operand].is(id); };
+        if (std::none_of(node.reads().begin(), node.reads().end(), is_it)) continue;
+        const bool compares = std::any_of(comparisons.begin(), comparisons.end(),
+                                          [&](Function each) { return node.calls(each); });
+        if (!compares) return infinite;
+        for (const NodeId operand : node.reads()) {
+            const double* const number = formula.nodes[operand].as<double>();
+            if (!number && !is_it(operand)) return infinite;
+            if (number) reach = std::max(reach, *number);
+        }
     }
-    std::vector<double> found =
-        distances_of_cells(SurfaceDistance(model.mesh, sources, cancel), model.cells);
-    for (double& distance : found) {
-        distance = std::min(distance / box.longest, unreachable_distance);
-    }
-    return found;
+    return reach;
 }
 
 std::vector<double> key_values(const ModelCells& model, std::span<const double> numbers, Team& team,
@@ -82,38 +93,114 @@ double lightness_at(const GreyPicture& picture, const std::array<double, 2>& pla
 
 }  // namespace
 
+/// What the distances from all places have in common.
+struct SurfaceValues::Paths {
+    NearestPlace nearest;
+    std::shared_ptr<const DistanceMesh> mesh;
+    std::vector<Vector3d> cells;  ///< Their positions.
+
+    Paths(const ModelCells& model, const std::atomic<bool>& cancel)
+        : nearest(model.mesh), mesh(std::make_shared<const DistanceMesh>(model.mesh, cancel)) {
+        for (const SurfacePlace& place : model.cells.places) {
+            cells.push_back(position_of(model.mesh, place));
+        }
+    }
+};
+
+SurfaceValues::SurfaceValues(const Program& program, const ModelCells& model, Team& team)
+    : program_(program), model_(model), team_(team) {}
+
+SurfaceValues::~SurfaceValues() = default;
+
+std::vector<double> SurfaceValues::distances(std::span<const double> places, double reach,
+                                             const std::atomic<bool>& cancel) {
+    if (!paths_) paths_ = std::make_unique<Paths>(model_, cancel);
+    const ModelBox box(model_.mesh);
+    std::vector<SurfacePlace> sources;
+    std::vector<Vector3d> positions;
+    for (std::size_t k = 0; k + 2 < places.size(); k += 3) {
+        const auto place =
+            paths_->nearest.find(box.in_model({places[k], places[k + 1], places[k + 2]}));
+        if (!place) continue;
+        sources.push_back(*place);
+        positions.push_back(position_of(model_.mesh, *place));
+    }
+    reach *= box.longest;
+    const SurfaceDistance distance(paths_->mesh, sources, cancel, reach);
+    std::vector<double> found(model_.count(), unreachable_distance);
+    for (std::size_t cell = 0; cell < found.size(); ++cell) {
+        // No path is shorter than the straight line.
+        const bool is_far =
+            std::none_of(positions.begin(), positions.end(), [&](const Vector3d& from) {
+                return !(length(paths_->cells[cell] - from) > reach);
+            });
+        const double path = is_far ? std::numeric_limits<double>::infinity()
+                                   : distance.at(model_.cells.places[cell]).distance;
+        if (path <= reach) found[cell] = std::min(path / box.longest, unreachable_distance);
+    }
+    return found;
+}
+
+const SurfaceValues::Kept& SurfaceValues::made(SurfaceValueId id, double reach,
+                                               const std::atomic<bool>& cancel) {
+    const auto known = values_.find(id);
+    if (known != values_.end() && known->second.reach >= reach) return known->second;
+    const SurfaceValue& value = program_.literals->surface_value(id);
+    if (value.function != Function::distance) reach = std::numeric_limits<double>::infinity();
+    const std::vector<double> found = value.function == Function::distance
+                                          ? distances(value.numbers, reach, cancel)
+                                          : key_values(model_, value.numbers, team_, cancel);
+    Kept& kept = values_[id];
+    kept.field = field_of_cells(found, model_, program_.domain.precision);
+    kept.reach = reach;
+    return kept;
+}
+
 void SurfaceValues::make(std::span<const Formula* const> formulas,
                          const std::atomic<bool>& cancel) {
     for (const Formula* formula : formulas) {
         for (const Node& node : formula->nodes) {
             if (cancel) return;
-            const auto* id = node.as<SurfaceValueId>();
-            if (id != nullptr && !values_.contains(*id)) {
-                values_[*id] = make_value(program_.literals->surface_value(*id), cancel);
+            if (const auto* id = node.as<SurfaceValueId>()) {
+                (void)made(*id, std::numeric_limits<double>::infinity(), cancel);
+                values_[*id].last_read = always;
             }
             if (!node.is<Builtin>()) continue;
             const auto read = model_plane_of(*node.as<Builtin>());
             if (read && is_made_when_read(*read)) (void)plane(*read);
         }
     }
+    paths_.reset();
+}
+
+void SurfaceValues::prepare(std::span<const Formula* const> formulas) {
+    ++evaluation_;
+    std::erase_if(values_, [&](const auto& each) {
+        return each.second.last_read < evaluation_ - evaluations_kept;
+    });
+    for (const Formula* formula : formulas) {
+        for (const Node& node : formula->nodes) {
+            const auto* id = node.as<SurfaceValueId>();
+            if (id != nullptr) {
+                (void)made(*id, reach_needed(*formula, *id), never);
+                (void)value(*id);
+            }
+        }
+    }
 }
 
 const Field& SurfaceValues::value(SurfaceValueId id) {
-    const auto known = values_.find(id);
-    if (known != values_.end()) return known->second;
-    return values_[id] = make_value(program_.literals->surface_value(id), never);
+    if (!values_.contains(id)) {
+        (void)made(id, std::numeric_limits<double>::infinity(), never);
+    }
+    Kept& kept = values_[id];
+    kept.last_read = std::max(kept.last_read, evaluation_);
+    return kept.field;
 }
 
 const Field& SurfaceValues::plane(ModelPlane plane) {
     if (planes_.empty()) make_curvatures();
     return planes_.at(plane);
-}
-
-Field SurfaceValues::make_value(const SurfaceValue& value, const std::atomic<bool>& cancel) const {
-    const std::vector<double> found = value.function == Function::distance
-                                          ? distances(model_, value.numbers, cancel)
-                                          : key_values(model_, value.numbers, team_, cancel);
-    return field_of_cells(found, model_, program_.domain.precision);
 }
 
 Field SurfaceValues::in_cells(const std::vector<double>& of_points, double factor) const {

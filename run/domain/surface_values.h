@@ -10,7 +10,11 @@
 #include "run/domain/model_cells.h"
 
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,25 +32,45 @@ inline constexpr double usual_smoothing = 0.1;
 /// this; values may be added to the program. Only one thread at a time.
 class SurfaceValues {
 public:
-    SurfaceValues(const Program& program, const ModelCells& model, Team& team)
-        : program_(program), model_(model), team_(team) {}
+    SurfaceValues(const Program& program, const ModelCells& model, Team& team);
+    ~SurfaceValues();
 
     /// Computes the values that formulas read. They are meaningless if `cancel` became true.
     void make(std::span<const Formula* const> formulas, const std::atomic<bool>& cancel);
 
     const Field& value(SurfaceValueId id);
+    /// Prepares for one evaluation of formulas of a picture or a stroke. These may name new places
+    /// without end, so values that make() did not make are released when none of the last
+    /// `evaluations_kept` evaluations has read them. And they are many a second, so of a distance
+    /// that formulas only compare with numbers, no more is found than these comparisons need.
+    void prepare(std::span<const Formula* const> formulas);
+    /// The number of values that are in memory.
+    std::size_t count() const { return values_.size(); }
+    static constexpr std::int64_t evaluations_kept = 16;
+
     /// One of the planes of a model that are made on demand.
     const Field& plane(ModelPlane plane);
 
 private:
-    Field make_value(const SurfaceValue& value, const std::atomic<bool>& cancel) const;
+    struct Kept {
+        Field field;
+        std::int64_t last_read = 0;
+        double reach = std::numeric_limits<double>::infinity();  ///< Beyond, it is unreachable.
+    };
+
+    struct Paths;
+    const Kept& made(SurfaceValueId id, double reach, const std::atomic<bool>& cancel);
+    std::vector<double> distances(std::span<const double> places, double reach,
+                                  const std::atomic<bool>& cancel);
     void make_curvatures();
     Field in_cells(const std::vector<double>& of_points, double factor) const;
 
     const Program& program_;
     const ModelCells& model_;
     Team& team_;
-    std::map<SurfaceValueId, Field> values_;
+    std::map<SurfaceValueId, Kept> values_;
+    std::int64_t evaluation_ = 0;
+    std::unique_ptr<Paths> paths_;  ///< Made for the first distance.
     std::map<ModelPlane, Field> planes_;
 };
 

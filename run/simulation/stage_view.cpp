@@ -22,10 +22,13 @@ std::vector<Field> StageView::evaluate(const StepPlan& plan) const {
 }
 
 std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas) const {
+    if (environment_->surface_values) environment_->surface_values->prepare(formulas);
     return evaluate(plan_view(program(), formulas, number_));
 }
 
 std::vector<Field> StageView::evaluate(const Formula& formula) const {
+    const Formula* const formulas[] = {&formula};
+    if (environment_->surface_values) environment_->surface_values->prepare(formulas);
     return evaluate(plan_view(program(), formula, number_));
 }
 

@@ -37,6 +37,23 @@ TEST(Refinement, KeepsTheSurfaceAndItsPlaces) {
     }
 }
 
+TEST(Distance, WithinReachIsThatOfTheWholeSurface) {
+    for (const SurfaceMesh& mesh : {box(), torus(9, 6, 2, 0.7), sphere(3)}) {
+        const auto prepared = std::make_shared<const DistanceMesh>(mesh, never);
+        for (const SurfacePlace& source : scatter(mesh, 5, 8)) {
+            const SurfaceDistance whole(mesh, std::span(&source, 1), never);
+            for (const double reach : {0.05, 0.3, 0.9}) {
+                const SurfaceDistance part(prepared, std::span(&source, 1), never, reach);
+                for (const SurfacePlace& place : scatter(mesh, 500, 4)) {
+                    const double far = whole.at(place).distance, found = part.at(place).distance;
+                    if (far <= reach) EXPECT_EQ(found, far);
+                    else EXPECT_GT(found, reach);
+                }
+            }
+        }
+    }
+}
+
 TEST(Refinement, StopsAfterSoManyCuts) {
     const Refinement refinement(square(), 1e-9, 100, never);
     EXPECT_EQ(refinement.mesh().points.size(), 104u);
