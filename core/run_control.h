@@ -30,9 +30,9 @@ struct Progress {
 /// thread; the run then ends at the next complete step.
 struct RunControl {
     std::atomic<bool> cancel{false};
-    /// The steps of a stage are taken by many calls. So one may leave without looking for values
-    /// that are not finite, which a later call finds, at most 64 steps after they appeared; and
-    /// what makes steps faster is tried as if one call took them all.
+    /// The steps of a stage are taken by many calls: one may leave without looking for values that
+    /// are not finite, which a later call finds, at most 64 steps after they appeared; doubts wait
+    /// for the stage's end; what makes steps faster is tried as if one call took them all.
     bool checks_later = false;
     std::function<void(const Progress&)> report;
     /// Warnings that do not stop the run, such as an interpreted kernel.

@@ -367,6 +367,13 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
     // Parts of a stroke come many times a second, and need no copy of all values.
     if (is_remembered || is_of_script(change)) before = present();
     const RunPlace at = place();
+    if (std::holds_alternative<NextStage>(change) && control.checks_later && !is_over()) {
+        // What would be looked for at the end of the stage.
+        control.checks_later = false;
+        const auto good = check(control);
+        control.checks_later = true;
+        if (!good) return refuse(good.error());
+    }
     if (auto made = make(change, before ? *before->values : KeptState(), control); !made) {
         return made;
     }

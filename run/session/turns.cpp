@@ -33,15 +33,14 @@ double seconds_since(std::chrono::steady_clock::time_point moment) {
 
 }  // namespace
 
-Turns::Turns(std::unique_ptr<LiveRun> run) : run_(std::move(run)) { control_.checks_later = true; }
+Turns::Turns(std::unique_ptr<LiveRun> run) : run_(std::move(run)) {
+    control_.checks_later = true;
+    control_.warn = [this](const std::string& words) { remark(words); };
+}
 
 Accepted<void> Turns::obey(const SessionCommand& command) {
     const Script* const script = &run_->script();
-    // Not while steps are taken: a stage that looks for what to warn of keeps nothing between
-    // turns.
-    control_.warn = [this](const std::string& words) { remark(words); };
     Accepted<void> result = carry_out(command);
-    control_.warn = {};
     if (&run_->script() != script) ++script_number_;
     if (result) failure_.clear();
     has_changed_ = true;

@@ -152,7 +152,8 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::functio
     account_for(state_.steps - steps_before, outcome);
     const bool is_good = !outcome.not_finite && !outcome.too_short && !outcome.cancelled;
     const bool is_done = is_good && (outcome.ended || state_.steps >= view_.stage().iterations);
-    can_go_on_ = is_good && !is_done && state_.steps > 0 && !control_->warn;
+    const bool looks_for_doubts = control_->warn && (is_done || !control_->checks_later);
+    can_go_on_ = is_good && !is_done && state_.steps > 0 && !looks_for_doubts;
     // The checks from here on allocate memory of their own.
     if (!can_go_on_) loop_.reset();
     if (outcome.not_finite || outcome.too_short)
@@ -161,7 +162,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::functio
         view_.environment().kernels->stepper()->abandon();
         return StageEnd::cancelled;
     }
-    if (control_->warn) look_for_doubts();
+    if (looks_for_doubts) look_for_doubts();
     state_.done = is_done;
     if (state_.done && !state_.course.empty()) look();
     return state_.done ? StageEnd::finished : StageEnd::stopped;

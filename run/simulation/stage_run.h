@@ -41,7 +41,7 @@ public:
     Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
                              const std::function<void()>& observe, std::int64_t every);
     /// May it be called again? Not after the end of the stage, a failure or a cancellation, nor if
-    /// warnings are wanted: their checks reuse the stage's memory.
+    /// doubts were looked for: their checks reuse the stage's memory.
     bool can_go_on() const { return can_go_on_; }
 
 private:

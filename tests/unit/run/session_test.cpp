@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -99,6 +100,42 @@ TEST(SessionTest, TakesAsManyStepsAsAskedFor) {
     snapshot_when(*session, [](const Snapshot& s) { return s.place == RunPlace{0, 37}; });
     done(*session, TakeSteps{400});
     snapshot_when(*session, [](const Snapshot& s) { return s.place == RunPlace{1, 37}; });
+}
+
+/// Its first stage ends in a chequerboard, whose steps are too long.
+constexpr const char* too_long_steps =
+    "domain { grid: 32, 32 }\n"
+    "stage warm: turing_spots { iterations: 3000; diff_a: .25; diff_b: .0625; ka: 0.02 }\n"
+    "stage two: turing_spots { a: a; b: b; iterations: 10 }\n";
+
+bool has_doubt(const Snapshot& snapshot) {
+    const auto is_doubt = [](const std::string& words) {
+        return words.find("chequerboard") != std::string::npos;
+    };
+    return std::any_of(snapshot.remarks.begin(), snapshot.remarks.end(), is_doubt);
+}
+
+TEST(SessionTest, TellsTheDoubtsOfAStageThatEnds) {
+    const auto session = begun(too_long_steps);
+    done(*session, TakeSteps{2990});
+    const auto on_the_way = snapshot_when(*session, [](const Snapshot& s) {
+        return s.place == RunPlace{0, 2990};
+    });
+    EXPECT_FALSE(has_doubt(*on_the_way));
+    done(*session, TakeSteps{10});
+    const auto ended = snapshot_when(*session, [](const Snapshot& s) {
+        return s.stages[0].has_ended && !s.is_going_on;
+    });
+    EXPECT_TRUE(has_doubt(*ended));
+    EXPECT_EQ(ended->remarks.size(), 1u) << "a stage in doubt gets no other remark";
+}
+
+TEST(SessionTest, TellsTheDoubtsOfAStageThatIsLeft) {
+    const auto session = begun(too_long_steps);
+    done(*session, TakeSteps{2990});
+    snapshot_when(*session, [](const Snapshot& s) { return s.place == RunPlace{0, 2990}; });
+    EXPECT_EQ(done(*session, MakeChange{NextStage{}}), "");
+    snapshot_when(*session, has_doubt);
 }
 
 TEST(SessionTest, AnswersWhatIsWrongAndGoesOn) {
