@@ -17,7 +17,7 @@ namespace {
 
 int bench_one(const std::string& path, const Options& options, RunControl& control,
               Console& console) {
-    auto file = load(path, options.overrides, console);
+    auto file = load(path, options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
     console.say(script.messages(console.error().colour));

@@ -9,6 +9,7 @@
 #include "lang/library/library.h"
 #include "lang/syntax/parse.h"
 #include "run/commands/dump.h"
+#include "run/script/embedded_script.h"
 #include "run/session/session_log.h"
 #include "run/stage/memory.h"
 
@@ -41,13 +42,19 @@ Result<std::string> read_standard_input() {
 
 namespace {
 
-Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides) {
+Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides,
+                             const TypedScript* typed) {
     if (path != "-") {
         if (is_session_log(first_bytes(path, longest_log_beginning))) {
             return failure(fmt::format("{} is a session and not a script", path),
                            "'cascade repl FILE' plays it again");
         }
         return load_script_file(path, overrides);
+    }
+    if (typed) {
+        return LoadedFile{load_script(typed->name, typed->text, typed->folder,
+                                      merge(typed->overrides, overrides)),
+                          ""};
     }
     auto text = read_standard_input();
     if (!text) return tl::unexpected(text.error());
@@ -100,7 +107,7 @@ std::string summary(const Script& script) {
 }
 
 int check_one(const std::string& path, const Options& options, Console& console) {
-    const auto file = load(path, options.overrides, console);
+    const auto file = load(path, options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     if (!options.dump.empty()) return dump_command(file->script, options.dump, console);
     console.say(file->script.messages(console.error().colour));
@@ -121,8 +128,8 @@ Result<void> write_compiled(const CompiledStep& compiled, const std::filesystem:
 }  // namespace
 
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
-                               const Console& console) {
-    auto file = load_file(path, overrides);
+                               const Console& console, const TypedScript* typed) {
+    auto file = load_file(path, overrides, typed);
     if (file) return std::move(*file);
     Failure failure = file.error();
     if (failure.hint.empty()) failure.hint = advice_on_missing(path);
@@ -151,7 +158,7 @@ int check_command(const Options& options, Console& console) {
 }
 
 int compile_command(const Options& options, Console& console) {
-    auto file = load(options.scripts[0], options.overrides, console);
+    auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     Script& script = file->script;
     console.say(script.messages(console.error().colour));

@@ -5,6 +5,11 @@
 #include "app/options.h"
 #include "app/progress_display.h"
 
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
 namespace cascade {
 
 int run_command(const Options& options, Console& console);
@@ -17,13 +22,31 @@ int new_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
 int mesh_command(const Options& options, Console& console);
 int view_command(const Options& options, Console& console);
+int repl_command(const Options& options, Console& console);
+
+/// What a command is at the prompt: there ':check' is 'cascade check' of the script so far.
+enum class AtPrompt { absent, plain, of_script };
+
+struct CommandEntry {
+    Command command;
+    std::string_view name;
+    int (*action)(const Options& options, Console& console);
+    AtPrompt at_prompt;
+};
+
+/// All commands of the program.
+std::span<const CommandEntry> command_table();
+
+/// Prints the measures; one that does not exist (a uniform field has no wavelength) is a dash.
+void print_features(const measure::Features& features, Console& console);
 
 /// A bar in a terminal, lines in a pipe, nothing if `quiet`.
 ProgressDisplay make_progress_display(const Console& console, bool quiet);
 
-/// Loads a script or a picture; "-" is standard input. Prints an error if it cannot be read.
+/// Loads a script or a picture; "-" is the script that was typed at the prompt, else standard
+/// input. Prints an error if it cannot be read.
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
-                               const Console& console);
+                               const Console& console, const TypedScript* typed = nullptr);
 
 /// All of standard input, as the text of a script. Fails beyond `largest_script` bytes.
 Result<std::string> read_standard_input();

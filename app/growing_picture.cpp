@@ -1,8 +1,6 @@
 // It is erased by moving up and clearing what is below, which every terminal understands.
 #include "app/growing_picture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -13,20 +11,13 @@ namespace {
 constexpr std::chrono::milliseconds first_after(500), apart(200);
 /// Drawing takes at most a tenth of the time.
 constexpr int rest_for_drawing = 9;
+/// Its own among the pictures of a terminal.
+constexpr std::uint32_t number = 0xca5cade;
 
 }  // namespace
 
-std::string in_characters(const Image& image, const Stream& out) {
-    if (!out.colour) return plain_characters(image, out.columns());
-    constexpr int lines_around = 3;  // The prompt, and what is said of the picture.
-    const std::int64_t pixels = 2 * std::max(out.rows() - lines_around, 1);
-    const std::int64_t fitting = image.width * pixels / std::max<std::int64_t>(image.height, 1);
-    return half_blocks(image,
-                       static_cast<int>(std::clamp<std::int64_t>(fitting, 1, out.columns())));
-}
-
-GrowingPicture::GrowingPicture(Console& console, LiveRun& run)
-    : console_(console), run_(run), next_(Clock::now() + first_after) {
+GrowingPicture::GrowingPicture(Console& console, const TerminalPictures& pictures, LiveRun& run)
+    : console_(console), pictures_(pictures), run_(run), next_(Clock::now() + first_after) {
     auto made = Painter::create(run.script(), {});
     if (made) painter_ = std::move(*made);
 }
@@ -36,7 +27,7 @@ bool GrowingPicture::is_due() const { return painter_ && Clock::now() >= next_; 
 void GrowingPicture::draw() {
     const Clock::time_point begun = Clock::now();
     const Canvas canvas = painter_->canvas(run_.simulation());
-    const std::string text = in_characters(painter_->image(canvas), console_.out());
+    const std::string text = pictures_.draw(painter_->image(canvas), console_.out(), number);
     erase();
     console_.draw(text);
     lines_ = std::count(text.begin(), text.end(), '\n');
@@ -45,7 +36,7 @@ void GrowingPicture::draw() {
 }
 
 void GrowingPicture::erase() {
-    if (lines_ > 0) console_.draw(fmt::format("\x1b[{}A\x1b[J", std::exchange(lines_, 0)));
+    if (lines_ > 0) console_.draw(pictures_.erase(std::exchange(lines_, 0), number));
 }
 
 }  // namespace cascade

@@ -1,27 +1,22 @@
-// Pictures at the prompt, and one that grows while steps are taken.
+// The picture at the prompt that grows while steps are taken.
 #pragma once
 
 #include "app/console.h"
-#include "picture/image.h"
+#include "app/terminal_pictures.h"
 #include "run/pictures/painter.h"
 #include "run/session/live_run.h"
 
 #include <chrono>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 namespace cascade {
-
-/// A picture as text: coloured in a terminal with colours, where it is never higher than the
-/// window, else plain characters.
-std::string in_characters(const Image& image, const Stream& out);
 
 /// The picture of a run, drawn again and again in one place of a terminal with colours.
 class GrowingPicture {
 public:
-    /// Both must outlive it, and the script of the run must not change.
-    GrowingPicture(Console& console, LiveRun& run);
+    /// All must outlive it, and the script of the run must not change.
+    GrowingPicture(Console& console, const TerminalPictures& pictures, LiveRun& run);
 
     /// Has enough time passed since it was drawn?
     bool is_due() const;
@@ -34,6 +29,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     Console& console_;
+    const TerminalPictures& pictures_;
     LiveRun& run_;
     std::optional<Painter> painter_;
     std::int64_t lines_ = 0;  ///< Of the picture that is there now.

@@ -5,7 +5,6 @@
 #include "app/interrupt.h"
 #include "app/limits.h"
 #include "app/options.h"
-#include "app/repl.h"
 
 #include <algorithm>
 #include <clocale>
@@ -16,18 +15,8 @@
 namespace {
 
 int run_chosen(const cascade::Options& options, cascade::Console& console) {
-    switch (options.command) {
-        case cascade::Command::run: return run_command(options, console);
-        case cascade::Command::sweep: return sweep_command(options, console);
-        case cascade::Command::check: return check_command(options, console);
-        case cascade::Command::bench: return bench_command(options, console);
-        case cascade::Command::compile: return compile_command(options, console);
-        case cascade::Command::systems: return systems_command(options, console);
-        case cascade::Command::new_script: return new_command(options, console);
-        case cascade::Command::format: return format_command(options, console);
-        case cascade::Command::mesh: return mesh_command(options, console);
-        case cascade::Command::repl: return repl_command(options, console);
-        case cascade::Command::view: return view_command(options, console);
+    for (const cascade::CommandEntry& entry : cascade::command_table()) {
+        if (entry.command == options.command) return entry.action(options, console);
     }
     return cascade::exit_status::bug;
 }

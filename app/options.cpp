@@ -1,6 +1,7 @@
 // One CLI11 application with a subcommand for each command; its errors are reworded.
 #include "app/options.h"
 
+#include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/help.h"
 #include "app/option_groups.h"
@@ -325,16 +326,9 @@ std::variant<Options, Leave> parse_options(const std::string& program,
     if (!sub) return Leave{exit_status::wrong_use, parser.help()};
 
     Options& options = parser.options;
-    if (sub == parser.sweep) options.command = Command::sweep;
-    if (sub == parser.check) options.command = Command::check;
-    if (sub == parser.bench) options.command = Command::bench;
-    if (sub == parser.compile) options.command = Command::compile;
-    if (sub == parser.systems) options.command = Command::systems;
-    if (sub == parser.new_script) options.command = Command::new_script;
-    if (sub == parser.format) options.command = Command::format;
-    if (sub == parser.mesh) options.command = Command::mesh;
-    if (sub == parser.repl) options.command = Command::repl;
-    if (sub == parser.view) options.command = Command::view;
+    for (const CommandEntry& entry : command_table()) {
+        if (entry.name == sub->get_name()) options.command = entry.command;
+    }
     if (const std::string missing = missing_argument(options); !missing.empty()) {
         return parser.leave(program, fmt::format("{}: {}", parser.called(program), missing));
     }

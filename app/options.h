@@ -50,10 +50,18 @@ struct PictureChanges {
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request);
 
+/// A script that is in no file.
+struct TypedScript {
+    std::string name, text;
+    std::filesystem::path folder;
+    Overrides overrides;
+};
+
 struct Options {
     Command command = Command::run;
     std::vector<std::string>
         scripts;  ///< One, except for `check`, `bench` and `fmt`; none with --resume alone.
+    std::optional<TypedScript> typed;  ///< Stands for the script "-".
     Overrides overrides;
     PictureChanges picture;
     RunRequest run;                          ///< Its `picture` keeps the defaults.
@@ -75,6 +83,10 @@ struct Options {
     std::filesystem::path object;  ///< `compile -o`
     std::filesystem::path header;  ///< `compile --header`
 };
+
+inline const TypedScript* typed_of(const Options& options) {
+    return options.typed ? &*options.typed : nullptr;
+}
 
 /// Print `text` and leave: --help, --version, wrong use.
 struct Leave {

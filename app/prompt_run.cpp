@@ -9,6 +9,7 @@
 #include "app/prompt_text.h"
 #include "core/file.h"
 #include "run/commands/run.h"
+#include "run/pictures/measured.h"
 #include "run/pictures/painter.h"
 #include "run/session/session_picture.h"
 
@@ -169,7 +170,7 @@ void PromptSession::run(const std::string& count) {
 /// Takes `steps` steps, from stage to stage. False if a run failed.
 bool PromptSession::advance(std::int64_t steps) {
     WatchedRun watched(console_);
-    GrowingPicture picture(console_, *run_);
+    GrowingPicture picture(console_, pictures_, *run_);
     Watching watching;
     watching.stage_ended = [&](std::uint32_t stage) {
         watched.display.clear();
@@ -214,7 +215,7 @@ void PromptSession::show(const std::string& expression) {
     shown_ = expression;
     const Canvas canvas = painter->canvas(run_->simulation());
     const Image image = painter->image(canvas);
-    console_.draw(in_characters(image, console_.out()));
+    console_.draw(pictures_.draw(image, console_.out()));
     if (!canvas.is_colour()) console_.print(in_words(canvas.fields[0]));
     if (painter->fell_back()) {
         console_.warn("it names a stage that has not run; this is the default picture");
@@ -227,6 +228,15 @@ void PromptSession::print_value(const std::string& expression) {
     if (!painter) return;
     const Canvas values = painter->values(run_->simulation());
     for (const Field& field : values.fields) console_.print(in_words(field));
+}
+
+void PromptSession::print_features_shown(const std::string&) {
+    auto painter = painter_of(shown_);
+    if (!painter) return;
+    if (run_->simulation().model()) {
+        return fail({"the cells of a model have no rows and columns", ""});
+    }
+    print_features(measure_shown(*painter, run_->simulation()), console_);
 }
 
 void PromptSession::list_stages(const std::string&) {

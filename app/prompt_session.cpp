@@ -1,6 +1,7 @@
 // The table of commands, and those that change the script; app/prompt_run.cpp has those of the run.
 #include "app/prompt_session.h"
 
+#include "app/exit_status.h"
 #include "app/prompt_names.h"
 #include "app/prompt_text.h"
 #include "core/file.h"
@@ -26,7 +27,7 @@ struct PromptSession::Command {
 };
 
 std::span<const PromptSession::Command> PromptSession::commands() {
-    static constexpr std::array<Command, 16> all = {{
+    static constexpr std::array<Command, 17> all = {{
         {":run", "[N]", "take N steps, or all that are left", &PromptSession::run},
         {":next", "", "end the stage here and begin the next one", &PromptSession::next},
         {":show", "[EXPR]", "draw a species or any expression: ':show b'", &PromptSession::show},
@@ -37,6 +38,8 @@ std::span<const PromptSession::Command> PromptSession::commands() {
         {":redo", "", "forward again", &PromptSession::redo},
         {":goto", "STAGE", "to the start of a stage", &PromptSession::go_to},
         {":init", "", "back to the starting values", &PromptSession::init},
+        {":features", "", "measure what is shown: wavelength, spots, direction",
+         &PromptSession::print_features_shown},
         {":stages", "", "the stages, and how far they are", &PromptSession::list_stages},
         {":text", "", "the script so far", &PromptSession::print_text},
         {":save", "PATH",
@@ -46,15 +49,30 @@ std::span<const PromptSession::Command> PromptSession::commands() {
         {":load", "FILE", "a script, a picture, a session, or a folder that was saved",
          &PromptSession::load},
         {":new", "", "forget the script", &PromptSession::forget},
-        {":help", "", "this list", &PromptSession::help},
+        {":help", "[COMMAND]", "this list, or what a command does", &PromptSession::help},
         {":quit", "", "leave (Ctrl-D does too)", nullptr},
     }};
     return all;
 }
 
+namespace {
+
+/// The commands of the shell that the prompt has, too.
+std::vector<const CommandEntry*> shell_commands() {
+    std::vector<const CommandEntry*> found;
+    for (const CommandEntry& entry : command_table()) {
+        if (entry.at_prompt != AtPrompt::absent) found.push_back(&entry);
+    }
+    return found;
+}
+
+std::string called(const CommandEntry& entry) { return fmt::format(":{}", entry.name); }
+
+}  // namespace
+
 PromptSession::PromptSession(const SimulationOptions& options, Console& console,
-                             bool show_after_run)
-    : options_(options), console_(console), show_after_run_(show_after_run) {}
+                             bool show_after_run, const TerminalPictures& pictures)
+    : options_(options), console_(console), show_after_run_(show_after_run), pictures_(pictures) {}
 
 PromptSession::~PromptSession() = default;
 
@@ -70,6 +88,7 @@ std::vector<std::string> PromptSession::names(const std::string& line) const {
     std::vector<std::string> names;
     if (line.starts_with(":") && line.find(' ') == std::string::npos) {
         for (const Command& command : commands()) names.emplace_back(command.name);
+        for (const CommandEntry* entry : shell_commands()) names.push_back(called(*entry));
         return names;
     }
     return names_at_end(line, script() ? *script()->program : Program());
@@ -122,6 +141,12 @@ bool PromptSession::obey(std::string_view line) {
         } else {
             (this->*command.action)(argument);
         }
+        return true;
+    }
+    for (const CommandEntry* entry : shell_commands()) {
+        known.push_back(called(*entry));
+        if (known.back() != name) continue;
+        obey_shell(*entry, words_of(argument));
         return true;
     }
     const std::string near = nearest_name(name, known);
@@ -265,11 +290,50 @@ void PromptSession::forget(const std::string&) {
     shown_.clear();
 }
 
-void PromptSession::help(const std::string&) {
+/// Does what `cascade COMMAND` would; a script that it takes is the one that was typed.
+void PromptSession::obey_shell(const CommandEntry& command, std::vector<std::string> words) {
+    words.insert(words.begin(), std::string(command.name));
+    const bool asks_for_help = std::find(words.begin(), words.end(), "--help") != words.end();
+    if (command.at_prompt == AtPrompt::of_script && !asks_for_help) {
+        if (!script()) return fail({"there is no script yet", ""});
+        words.emplace_back("-");
+    }
+    auto parsed = parse_options("cascade", words);
+    if (const auto* leave = std::get_if<Leave>(&parsed)) {
+        const bool is_good = leave->status == exit_status::success;
+        has_failed_ = has_failed_ || !is_good;
+        return is_good ? console_.print(leave->text) : console_.say(leave->text);
+    }
+    auto& options = std::get<Options>(parsed);
+    if (script()) {
+        options.typed = {script()->name, script()->text, script()->folder, script()->overrides};
+    }
+    if (command.action(options, console_) != exit_status::success) has_failed_ = true;
+}
+
+void PromptSession::help_on(const std::string& topic) {
+    const std::string name = topic.starts_with(':') ? topic : ":" + topic;
+    for (const Command& command : commands()) {
+        if (command.name != name) continue;
+        return console_.print(
+            fmt::format("{} {}\n  {}\n", command.name, command.argument, command.about));
+    }
+    for (const CommandEntry* entry : shell_commands()) {
+        if (called(*entry) == name) return obey_shell(*entry, {"--help"});
+    }
+    fail({fmt::format("there is no command '{}'", name), "':help' lists them"});
+}
+
+void PromptSession::help(const std::string& topic) {
+    if (!topic.empty()) return help_on(topic);
     for (const Command& command : commands()) {
         console_.print(fmt::format(
             "  {:<20} {}\n", fmt::format("{} {}", command.name, command.argument), command.about));
     }
+    std::vector<std::string> names;
+    for (const CommandEntry* entry : shell_commands()) names.push_back(called(*entry));
+    console_.print(
+        fmt::format("  {:<20} as in the shell, of this script\n", fmt::join(names, " ")));
     console_.print(
         "Anything else is the language: 'stage s: turing_spots { ka: 1/80 }'. A line that is\n"
         "right is kept; one that is wrong changes nothing. A block of the same name replaces the\n"

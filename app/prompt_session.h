@@ -1,7 +1,9 @@
 // A session at the prompt: a script that grows line by line, and its run.
 #pragma once
 
+#include "app/commands.h"
 #include "app/console.h"
+#include "app/terminal_pictures.h"
 #include "run/pictures/painter.h"
 #include "run/script/script.h"
 #include "run/session/live_run.h"
@@ -23,7 +25,8 @@ namespace cascade {
 class PromptSession {
 public:
     /// `show_after_run`: a picture after each :run, for terminals.
-    PromptSession(const SimulationOptions& options, Console& console, bool show_after_run);
+    PromptSession(const SimulationOptions& options, Console& console, bool show_after_run,
+                  const TerminalPictures& pictures);
     ~PromptSession();
 
     /// Handles one line. False when the user leaves.
@@ -56,7 +59,9 @@ private:
     void set(const std::string& assignment);
     void print_text(const std::string&);
     void forget(const std::string&);
-    void help(const std::string&);
+    void help(const std::string& topic);
+    void help_on(const std::string& topic);
+    void obey_shell(const CommandEntry& command, std::vector<std::string> words);
 
     // Its run (prompt_run.cpp).
     bool has_something_to_run();
@@ -75,6 +80,7 @@ private:
     std::optional<Painter> painter_of(const std::string& expression);
     void show(const std::string& expression);
     void print_value(const std::string& expression);
+    void print_features_shown(const std::string&);
     void list_stages(const std::string&);
     void save(const std::string& path);
     void save_text(const std::string& path);
@@ -94,6 +100,7 @@ private:
     SimulationOptions options_;
     Console& console_;
     bool show_after_run_;
+    TerminalPictures pictures_;
     std::string pending_;  ///< The first lines of an unfinished block.
     std::string last_warnings_;
     std::string shown_;  ///< The expression of the picture that was drawn last.

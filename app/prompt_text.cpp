@@ -100,4 +100,22 @@ Completion complete_word(std::string_view line, std::vector<std::string> names) 
     return completion;
 }
 
+std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> words;
+    char quote = 0;
+    bool is_open = false;
+    for (const char c : text) {
+        if (quote == 0 && (c == ' ' || c == '\t')) {
+            is_open = false;
+            continue;
+        }
+        if (!is_open) words.emplace_back();
+        is_open = true;
+        if (quote == 0 && (c == '"' || c == '\'')) quote = c;
+        else if (c == quote) quote = 0;
+        else words.back() += c;
+    }
+    return words;
+}
+
 }  // namespace cascade

@@ -28,4 +28,7 @@ Completion complete_word(std::string_view line, std::vector<std::string> names);
 /// `text` without white space at both ends.
 std::string_view trim(std::string_view text);
 
+/// The words of a command as a shell sees them: divided at blanks, except between quotes.
+std::vector<std::string> words_of(std::string_view text);
+
 }  // namespace cascade

@@ -1,6 +1,5 @@
 // The loop of `cascade repl`: a line editor at a terminal, plain lines from a pipe.
-#include "app/repl.h"
-
+#include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
 #include "app/line_reader.h"
@@ -12,7 +11,8 @@ namespace cascade {
 
 int repl_command(const Options& options, Console& console) {
     const bool at_terminal = isatty(STDIN_FILENO) == 1 && console.out().is_terminal;
-    PromptSession session(options.run.simulation, console, at_terminal);
+    PromptSession session(options.run.simulation, console, at_terminal,
+                          at_terminal ? ask_terminal(console.out()) : TerminalPictures());
     const auto reader =
         at_terminal ? make_edit_reader(history_path(),
                                        [&](const std::string& line) { return session.names(line); })

@@ -101,16 +101,6 @@ void tell_written(const RunReport& report, const RunRequest& request, Console& c
     }
 }
 
-/// Prints the measures; one that does not exist (a uniform field has no wavelength) is a dash.
-void print_features(const measure::Features& features, Console& console) {
-    const auto values = measure::to_array(features);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        console.print(
-            fmt::format("{:<11} {}\n", measure::feature_names()[k],
-                        std::isfinite(values[k]) ? fmt::format("{:.6g}", values[k]) : "-"));
-    }
-}
-
 int tell(const RunReport& report, const Options& options, int signal, bool limit_reached,
          Console& console) {
     if (report.features) {
@@ -142,6 +132,15 @@ int tell(const RunReport& report, const Options& options, int signal, bool limit
 }
 
 }  // namespace
+
+void print_features(const measure::Features& features, Console& console) {
+    const auto values = measure::to_array(features);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        console.print(
+            fmt::format("{:<11} {}\n", measure::feature_names()[k],
+                        std::isfinite(values[k]) ? fmt::format("{:.6g}", values[k]) : "-"));
+    }
+}
 
 ProgressDisplay make_progress_display(const Console& console, bool quiet) {
     using Kind = ProgressDisplay::Kind;

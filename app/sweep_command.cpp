@@ -69,7 +69,7 @@ Result<std::vector<Variation>> variations(const Options& options, const LoadedFi
 }  // namespace
 
 int sweep_command(const Options& options, Console& console) {
-    auto file = load(options.scripts[0], options.overrides, console);
+    auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
     const Script& script = file->script;
     console.say(script.messages(console.error().colour));

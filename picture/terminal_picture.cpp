@@ -3,6 +3,7 @@
 // as wide, pixels are square.
 #include "core/check.h"
 #include "picture/image.h"
+#include "picture/terminal_graphics.h"
 
 #include <fmt/format.h>
 
@@ -56,7 +57,8 @@ Colour average(const Image& image, const Stretch& across, const Stretch& down) {
     return colour;
 }
 
-/// The picture averaged down in proportion to `width` columns.
+}  // namespace
+
 Image reduce(const Image& image, std::int64_t width) {
     const double factor = static_cast<double>(width) / static_cast<double>(image.width);
     const double height = std::round(static_cast<double>(image.height) * factor);
@@ -69,6 +71,8 @@ Image reduce(const Image& image, std::int64_t width) {
     }
     return small;
 }
+
+namespace {
 
 using Bytes = std::array<int, 3>;
 

@@ -135,6 +135,21 @@ says err "stage 's' ended even (u = 1, v = 0): all cells are the same"
 says out '0 in all cells'
 [ "$(grep -c "':init' begins again" err)" = 2 ] || fail "not told that all is over"
 
+# Commands of the shell, of the script so far, and help on each.
+feed 'domain { grid: 16, 8 }' 'stage s: turing_spots { iterations: 100 }' ':run' ':features' ':check' ':check --dump equations' \
+    ':sweep --vary s.ka=1/60,1/80 -o swept -q' ':systems brusselator' ':help run' ':help check' ':help :systems'
+says out 'wavelength'
+says out 'prompt: no errors'
+says out '∂a/∂t'
+[ -e swept/sheet.png ] || fail "no sheet of the script so far"
+says out 'brusselator'
+says out 'take N steps'
+says out 'Usage: cascade check'
+says out 'Usage: cascade systems'
+feed_wrong ':check' ':bench --nonsense' ':help nothing'
+says err 'there is no script yet'
+says err "there is no command ':nothing'"
+
 # Words of other prompts.
 feed 'help' && says out ':load FILE'
 feed '?' && says out ':load FILE'
@@ -218,5 +233,58 @@ type_in(b"\x1b[A")                              # Up: the line that was typed la
 expect(b"grid: 11, 8")
 type_in(b"\x03\x04")
 os.waitpid(pid, 0)
+
+# Pictures in pixels, where the terminal answers that it shows them.
+import base64, fcntl, re, struct, termios
+
+def picture(answers, **environment):
+    global pid, terminal
+    pid, terminal = pty.fork()
+    if pid == 0:
+        for name in ("TMUX", "STY", "CASCADE_PICTURES", "TERM_PROGRAM"):
+            os.environ.pop(name, None)
+        os.environ.update({"TERM": "xterm", **environment})
+        fcntl.ioctl(0, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+        os.execv(sys.argv[1], ["cascade", "repl"])
+    asked = b""
+    if answers is not None:
+        asked = expect(b"\x1b[c")
+        type_in(answers)
+    expect(b"1> ")
+    type_in(b"domain { grid: 16, 8 }\r")
+    expect(b"2> ")
+    type_in(b"stage s: turing_spots { iterations: 10 }\r")
+    expect(b"3> ")
+    type_in(b":show b\r")
+    shown = expect(b"3> ")
+    type_in(b":quit\r")
+    os.waitpid(pid, 0)
+    if b"\x1b[?62" in shown or b"^[" in shown:
+        sys.exit(f"answers are echoed: {shown!r}")
+    return asked, shown
+
+def check(holds, about, shown):
+    if not holds:
+        sys.exit(f"{about}: {shown!r}")
+
+kitty = b"\x1b_Gi=31;OK\x1b\\\x1b[6;16;8t\x1b[?62;4c"
+asked, shown = picture(kitty)
+check(b"a=q" in asked, "kitty's protocol is not asked for", asked)
+png = base64.b64decode(b"".join(re.findall(rb"\x1b_G[^;]*;([^\x1b]*)\x1b", shown)))
+check(png[:4] == b"\x89PNG" and struct.unpack(">II", png[16:24]) == (128, 64), "no PNG of kitty", shown)
+check("▀".encode() not in shown, "half blocks, too", shown)
+asked, shown = picture(b"\x1b[?62;4;22c")
+check(b"\x1bP0;1;0q\"1;1;160;80#" in shown, "no sixels", shown)
+asked, shown = picture(b"\x1b[?62;4c", TERM="tmux-256color", TMUX="/tmp/tmux,1,0")
+check(b"\x1b_G" not in asked, "tmux is asked for kitty's protocol", asked)
+check(b"\x1bP" in shown, "no sixels in tmux", shown)
+asked, shown = picture(b"\x1b[?62;22c")
+check("▀".encode() in shown and b"\x1bP" not in shown, "pixels in a terminal without", shown)
+asked, shown = picture(None)                    # It answers nothing.
+check("▀".encode() in shown, "no picture in a silent terminal", shown)
+asked, shown = picture(None, CASCADE_PICTURES="characters")
+check(b"\x1b[c" not in shown and "▀".encode() in shown, "characters are not forced", shown)
+asked, shown = picture(b"\x1b[?62;22c", CASCADE_PICTURES="sixel")
+check(b"\x1b_G" not in asked and b"\x1bP" in shown, "sixels are not forced", shown)
 END
 echo "repl: right"

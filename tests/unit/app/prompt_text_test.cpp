@@ -27,6 +27,13 @@ TEST(PromptText, an_operator_or_a_comma_asks_for_more) {
     for (const char* line : {"a: band", "a: 1", "a: color"}) EXPECT_TRUE(is_complete(line)) << line;
 }
 
+TEST(PromptText, words_are_those_of_a_shell) {
+    EXPECT_THAT(words_of("--log 'mean(v over domain)'  -q"),
+                ElementsAre("--log", "mean(v over domain)", "-q"));
+    EXPECT_THAT(words_of("a\"b 'c\"d '' e"), ElementsAre("ab 'cd", "", "e"));
+    EXPECT_THAT(words_of("  "), ElementsAre());
+}
+
 TEST(PromptText, brackets_in_comments_and_quotes_do_not_count) {
     EXPECT_TRUE(is_complete("a: 1 # {\n"));
     EXPECT_TRUE(is_complete("a: field(\"x{#.npy\")\n"));
