@@ -37,7 +37,9 @@ export class Help {
         this.card.hidden = step >= steps.length;
         if (this.card.hidden) return localStorage.setItem("was_taught", "yes");
         const [id, words] = steps[step];
-        document.getElementById(id)!.setAttribute("data-taught", "");
+        const taught = document.getElementById(id)!;
+        taught.setAttribute("data-taught", "");
+        taught.scrollIntoView({ block: "nearest" });
         this.card.querySelector("p")!.textContent = words;
         this.card.querySelector("small")!.textContent = `${step + 1} of ${steps.length}`;
         this.card.querySelector("#tour_next")!.textContent = step + 1 === steps.length ? "done" : "next";

@@ -11,6 +11,7 @@ import { Measure } from "./measure";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
+import { close_popups } from "./popups";
 import { Recording } from "./recording";
 import { Slices } from "./slices";
 import { Stages } from "./stages";
@@ -305,6 +306,7 @@ for (const [id, act] of Object.entries(actions)) document.querySelector(`button#
 
 element("help_button").addEventListener("click", actions.help);
 obey_keys(actions);
+close_popups(["look", "save"]);
 
 palette_choice.addEventListener("change", () => {
     localStorage.setItem("palette", palette_choice.value);
