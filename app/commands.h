@@ -4,6 +4,7 @@
 #include "app/console.h"
 #include "app/options.h"
 #include "app/progress_display.h"
+#include "run/session/session_log.h"
 
 #include <optional>
 #include <span>
@@ -47,6 +48,11 @@ ProgressDisplay make_progress_display(const Console& console, bool quiet);
 /// input. Prints an error if it cannot be read.
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
                                const Console& console, const TypedScript* typed = nullptr);
+
+/// The session of a picture, if `changes` do not ask for another run than it had; tells which it
+/// is, unless `quiet`.
+Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overrides changes,
+                                                  const Console& console, bool quiet);
 
 /// All of standard input, as the text of a script. Fails beyond `largest_script` bytes.
 Result<std::string> read_standard_input();

@@ -55,35 +55,6 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
     return LoadedFile{std::move(*saved), ""};
 }
 
-/// The session of a picture, if options do not ask for another run than it had.
-Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overrides changes,
-                                                  const Console& console, bool quiet) {
-    auto log = session_of(file);
-    if (!log || !*log) return log;
-    // Where files are found does not matter.
-    const auto name_of_model = [](const Overrides& overrides) {
-        return std::filesystem::path(overrides.model.value_or("")).filename();
-    };
-    const Overrides merged = merge((*log)->overrides, changes);
-    if (name_of_model(changes) == name_of_model((*log)->overrides)) {
-        changes.model.reset();
-        changes.model_is_asked_for = false;
-    }
-    changes.reads = {};
-    const bool is_same = changes == Overrides();
-    if (!quiet) {
-        console.note(is_same ? fmt::format("{}: playing its session, up to step {} of stage {}",
-                                           file.script.file.string(),
-                                           with_commas((*log)->end.steps), (*log)->end.stage + 1)
-                             : fmt::format("{}: its session is not played, because options change "
-                                           "the script; this runs the script alone",
-                                           file.script.file.string()));
-    }
-    if (!is_same) return std::nullopt;
-    (*log)->overrides = merged;
-    return log;
-}
-
 /// Prints what was written; the pictures of --frames as one line.
 void tell_written(const RunReport& report, const RunRequest& request, Console& console) {
     std::size_t frames = 0;
@@ -132,6 +103,34 @@ int tell(const RunReport& report, const Options& options, int signal, bool limit
 }
 
 }  // namespace
+
+Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overrides changes,
+                                                  const Console& console, bool quiet) {
+    auto log = session_of(file);
+    if (!log || !*log) return log;
+    // Where files are found does not matter.
+    const auto name_of_model = [](const Overrides& overrides) {
+        return std::filesystem::path(overrides.model.value_or("")).filename();
+    };
+    const Overrides merged = merge((*log)->overrides, changes);
+    if (name_of_model(changes) == name_of_model((*log)->overrides)) {
+        changes.model.reset();
+        changes.model_is_asked_for = false;
+    }
+    changes.reads = {};
+    const bool is_same = changes == Overrides();
+    if (!quiet) {
+        console.note(is_same ? fmt::format("{}: playing its session, up to step {} of stage {}",
+                                           file.script.file.string(),
+                                           with_commas((*log)->end.steps), (*log)->end.stage + 1)
+                             : fmt::format("{}: its session is not played, because options change "
+                                           "the script; this runs the script alone",
+                                           file.script.file.string()));
+    }
+    if (!is_same) return std::nullopt;
+    (*log)->overrides = merged;
+    return log;
+}
 
 void print_features(const measure::Features& features, Console& console) {
     const auto values = measure::to_array(features);

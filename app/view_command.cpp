@@ -91,10 +91,20 @@ int view_command(const Options& options, Console& console) {
 
     RunControl control;
     const InterruptGuard interrupt(control.cancel);
-    auto server = PageServer::start(std::move(script), options.run.simulation, control,
-                                    page_files(), chooses);
+    const auto session = session_to_play(*file, options.overrides, console, false);
+    if (!session) {
+        console.fail(session.error());
+        return exit_status::wrong_script;
+    }
+    auto run = *session ? LiveRun::play(**session, script.folder, options.run.simulation, control)
+                        : LiveRun::begin(std::move(script), options.run.simulation, control);
+    if (!run) {
+        console.say(run.error().messages(console.error().colour));
+        return exit_status::failed_run;
+    }
+    auto server = PageServer::start(std::move(*run), page_files(), chooses);
     if (!server) {
-        console.say(server.error().messages(console.error().colour));
+        console.fail(server.error());
         return exit_status::failed_run;
     }
     console.print((*server)->address() + "\n");

@@ -286,5 +286,27 @@ asked, shown = picture(None, CASCADE_PICTURES="characters")
 check(b"\x1b[c" not in shown and "▀".encode() in shown, "characters are not forced", shown)
 asked, shown = picture(b"\x1b[?62;22c", CASCADE_PICTURES="sixel")
 check(b"\x1b_G" not in asked and b"\x1bP" in shown, "sixels are not forced", shown)
+
+# A page of a picture begins where its session ended.
+import signal, socket, subprocess
+
+server = subprocess.Popen([sys.argv[1], "view", "live.png", "--no-browser"], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL)
+port, token = re.search(rb":(\d+)/#token=(\w+)", server.stdout.readline()).groups()
+page = socket.create_connection(("127.0.0.1", int(port)), timeout=60)
+page.sendall(b"GET /session?token=%s HTTP/1.1\r\nHost: 127.0.0.1:%s\r\nOrigin: http://127.0.0.1:%s\r\n"
+             b"Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+             b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n" % (token, port, port))
+told = b""
+while not told.endswith(b"\r\n\r\n"):
+    told += page.recv(1)
+ask = b'{"do": "next_snapshot"}'
+page.sendall(bytes([0x81, 0x80 | len(ask)]) + bytes(4) + ask)
+while not re.search(rb'"steps":7\b', told):
+    more = page.recv(65536)
+    check(more, "the page's session is not the picture's", told)
+    told += more
+server.send_signal(signal.SIGINT)
+server.wait()
 END
 echo "repl: right"

@@ -170,19 +170,13 @@ void PageServer::State::send_snapshots() {
 PageServer::PageServer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 PageServer::~PageServer() = default;
 
-Accepted<std::unique_ptr<PageServer>> PageServer::start(Script script,
-                                                        const SimulationOptions& options,
-                                                        RunControl& control, PageFiles files,
-                                                        bool offers_library) {
-    auto session = Session::begin(std::move(script), options, control);
-    if (!session) return tl::unexpected(std::move(session.error()));
+Result<std::unique_ptr<PageServer>> PageServer::start(std::unique_ptr<LiveRun> run, PageFiles files,
+                                                      bool offers_library) {
     auto state = std::make_unique<State>();
-    state->session = std::move(*session);
+    state->session = std::make_unique<Session>(std::move(run));
     state->offers_library = offers_library;
     if (auto started = state->start(std::move(files)); !started) {
-        Refusal refused;
-        refused.failure = started.error();
-        return tl::unexpected(std::move(refused));
+        return tl::unexpected(started.error());
     }
     return std::unique_ptr<PageServer>(new PageServer(std::move(state)));
 }

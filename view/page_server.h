@@ -12,12 +12,10 @@ namespace cascade {
 /// Serves one session to the pages that are open, which all see and steer the same one.
 class PageServer {
 public:
-    /// Begins a session of a checked script, as Session::begin(), and opens its page. With
-    /// `offers_library`, pages receive the systems of the library, so that a user can pick one.
-    static Accepted<std::unique_ptr<PageServer>> start(Script script,
-                                                       const SimulationOptions& options,
-                                                       RunControl& control, PageFiles files,
-                                                       bool offers_library = false);
+    /// Begins a session of a run and opens its page. With `offers_library`, pages receive the
+    /// systems of the library, so that a user can pick one.
+    static Result<std::unique_ptr<PageServer>> start(std::unique_ptr<LiveRun> run, PageFiles files,
+                                                     bool offers_library = false);
     /// Closes all pages and ends the session.
     ~PageServer();
 

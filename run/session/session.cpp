@@ -97,7 +97,7 @@ Accepted<std::unique_ptr<Session>> Session::begin(Script script, const Simulatio
                                                   RunControl& control) {
     auto run = LiveRun::begin(std::move(script), options, control);
     if (!run) return tl::unexpected(std::move(run.error()));
-    return std::unique_ptr<Session>(new Session(std::move(*run)));
+    return std::make_unique<Session>(std::move(*run));
 }
 
 Session::~Session() {

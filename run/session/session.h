@@ -16,6 +16,8 @@ public:
     /// Starts paused. `options.control` is not used; `control` is for making the cells of a model.
     static Accepted<std::unique_ptr<Session>> begin(Script script, const SimulationOptions& options,
                                                     RunControl& control);
+    /// Of a run that has begun; paused.
+    explicit Session(std::unique_ptr<LiveRun> run);
     /// Stops at the next complete step.
     ~Session();
     Session(const Session&) = delete;
@@ -40,7 +42,6 @@ public:
 
 private:
     struct Implementation;
-    explicit Session(std::unique_ptr<LiveRun> run);
     std::unique_ptr<Implementation> self_;
 };
 

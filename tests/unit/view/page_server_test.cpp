@@ -21,12 +21,14 @@ protected:
         options.backend = BackendKind::interpreter;
         options.threads = 1;
         RunControl control;
-        auto started = PageServer::start(
+        auto run = LiveRun::begin(
             load_script("spots.cascade",
                         "domain { grid: 8, 8 }\nstage one: turing_spots { iterations: 1000000 }\n",
                         "."),
-            options, control, {}, true);
-        ASSERT_TRUE(started.has_value()) << started.error().messages(false);
+            options, control);
+        ASSERT_TRUE(run.has_value()) << run.error().messages(false);
+        auto started = PageServer::start(std::move(*run), {}, true);
+        ASSERT_TRUE(started.has_value()) << started.error().message;
         server_ = std::move(*started);
     }
 
