@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace cascade {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;  ///< Exact in the numbers of a page.
+constexpr std::int64_t largest_scale = 64;
 constexpr std::int64_t most_stages = 1'000'000;
 
 /// Reads the fields of a message. fault() describes the first wrong one.
@@ -50,6 +53,20 @@ public:
             if (0 <= number && number <= 1) return number;
         }
         complain(name, "a number from 0 to 1");
+        return 0;
+    }
+
+    bool has(const char* name) const { return find(name) != nullptr; }
+
+    float number(const char* name) {
+        const Json* const field = find(name);
+        if (field != nullptr && field->is_number()) {
+            const auto number = field->get<double>();
+            if (std::abs(number) <= std::numeric_limits<float>::max()) {
+                return static_cast<float>(number);
+            }
+        }
+        complain(name, "a number");
         return 0;
     }
 
@@ -91,7 +108,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 20> verbs{{
+constexpr std::array<Verb, 21> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -141,6 +158,16 @@ constexpr std::array<Verb, 20> verbs{{
     {"values",
      [](FieldReader& fields) -> PageRequest {
          return PageQuestion(AskForValues{fields.whole("cell", -1, most_steps)});
+     }},
+    {"picture",
+     [](FieldReader& fields) -> PageRequest {
+         PictureRequest request;
+         request.show = fields.text("show");
+         request.palette = fields.text("palette");
+         request.scale = static_cast<int>(fields.whole("scale", 1, largest_scale));
+         if (fields.has("low")) request.range = {fields.number("low"), fields.number("high")};
+         if (fields.has("axis")) request.slice = {fields.axis("axis"), fields.part("place")};
+         return PageQuestion(AskForPicture{std::move(request)});
      }},
     {"measure",
      [](FieldReader& fields) -> PageRequest {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/result.h"
+#include "run/script/picture_request.h"
 #include "run/session/session.h"
 
 #include <cstdint>
@@ -28,10 +29,12 @@ struct AskAboutName { std::string text; };  ///< About its last word.
 struct AskForValues { std::int64_t cell = -1; };
 /// Distribution and spectrum of a species, and how it and another one occur together.
 struct AskForMeasures { std::string x, y; };
+/// A PNG that carries the session.
+struct AskForPicture { PictureRequest request; };
 // clang-format on
 
 using PageQuestion =
-    std::variant<AskForLog, AskForNames, AskAboutName, AskForValues, AskForMeasures>;
+    std::variant<AskForLog, AskForNames, AskAboutName, AskForValues, AskForMeasures, AskForPicture>;
 using PageRequest = std::variant<SessionCommand, NextSnapshot, NamePage, PageQuestion>;
 
 struct PageMessage {

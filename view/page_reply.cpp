@@ -1,12 +1,15 @@
 // One function for each kind of question.
 #include "view/page_reply.h"
 
+#include "core/base64.h"
 #include "lang/check/known_names.h"
 #include "lang/equations/equations.h"
 #include "measure/spectrum.h"
 #include "picture/image.h"
 #include "run/pictures/measured.h"
 #include "run/session/kept_state.h"
+#include "run/session/session_picture.h"
+#include "view/page_answer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -174,6 +177,12 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     const bool is_small = simulation.grid().cell_count() <= most_cells_of_spectrum;
     if (is_small && !simulation.model()) add_spectrum(reply, samples[0]);
     return reply;
+}
+
+Json reply_to(const AskForPicture& question, LiveRun& run) {
+    auto png = session_picture(run, question.request);
+    if (png) return {{"kind", "picture"}, {"png", base64(*png)}};
+    return Json::parse(print_answer(0, tl::unexpected(std::move(png.error())), ""));
 }
 
 }  // namespace

@@ -150,8 +150,8 @@ function show_messages(messages: Message[]) {
 }
 
 /// Asks, and shows why not where it is refused.
-async function ask(what: string, fields: Record<string, unknown> = {}): Promise<Answer> {
-    const answer = await connection.ask(what, fields);
+async function ask<Reply = object>(what: string, fields: Record<string, unknown> = {}): Promise<Answer & Reply> {
+    const answer = await connection.ask<Reply>(what, fields);
     if (!answer.is_done && answer.messages.length > 0) notice(answer.messages[0].message, true, 5);
     return answer;
 }
@@ -297,6 +297,15 @@ const actions: Record<string, () => void> = {
     log: async () => {
         const { text } = await connection.ask<{ text?: string }>("log");
         if (text !== undefined) save("session", text);
+    },
+    picture: async () => {
+        const { snapshot } = pattern, { low, high } = snapshot ? pattern.range_of(snapshot) : { low: 0, high: 1 };
+        const is_held = look.look.low !== undefined || look.look.high !== undefined, { slice } = snapshot ?? {};
+        const { png } = await ask<{ png?: string }>("picture", {
+            show: shown.value, palette: palette_choice.value, scale: Math.min(64, Math.max(1, Math.floor(960 / Math.max(pattern.columns, pattern.rows)))),
+            ...(is_held && { low, high }), ...(slice && { axis: slice.axis, place: (slice.number + 0.5) / slice.sides["xyz".indexOf(slice.axis)] }),
+        });
+        if (png) download(`${name_of_file()}.png`, new Blob([Uint8Array.from(atob(png), (sign) => sign.charCodeAt(0))], { type: "image/png" }));
     },
     script: () => save("cascade", editor.text),
     movie: () => recording.toggle_movie(),

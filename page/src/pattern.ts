@@ -157,7 +157,7 @@ export class Pattern {
         if (!snapshot || !palette) return;
         const values = is_row(snapshot) ? this.time.with(snapshot) : snapshot, { columns, rows } = values;
         this.drawn(values);
-        const shown = { ...values, low: look.low ?? values.low, high: look.high ?? values.high };
+        const shown = { ...values, ...this.range_of(values) };
         const is_smooth = look.relief > 0 || look.every !== undefined || look.at !== undefined;
         const scale = is_smooth && this.drawer.has_lines ? Math.max(1, Math.min(16, Math.floor(2048 / Math.max(columns, rows)))) : 1;
         if (canvas.width !== columns * scale || canvas.height !== rows * scale) {
@@ -172,6 +172,9 @@ export class Pattern {
         this.rows = rows;
         this.drawer.draw(shown, palette, look, scale);
     }
+
+    /// The values of the palette's ends: held, or those of a snapshot.
+    range_of({ low, high }: Snapshot) { return { low: this.look.low ?? low, high: this.look.high ?? high }; }
 
     /// The number of cells along the longest side of the grid.
     get longest() {

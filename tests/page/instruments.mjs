@@ -1,5 +1,6 @@
 // The instruments of the page of `cascade view spots.cascade`: what helps to write, to look closely and to measure.
 // Arguments: the browser and the program. Screenshots are left in the current folder.
+import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Browser, serve } from "./browser.mjs";
@@ -377,6 +378,19 @@ async function save_files() {
     await click("restart");
     await until_steps("0");
     expect(String(await file("spots.cascade", "script")) === text, "the script is another one");
+
+    // A picture grows again from the session that it carries, byte for byte.
+    await choose("palette", "leopard");
+    await click("step");
+    await until_steps("1");
+    await browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "0.03"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
+    await browser.until(`document.querySelector("#controls output").value === "0.03" && !document.getElementById("undo").disabled`);
+    const picture = await file("spots.png", "picture");
+    expect(picture.readUInt32BE(16) === 960 && picture.readUInt32BE(20) === 640, `the picture has ${picture.readUInt32BE(16)} pixels`);
+    const { status, stderr } = spawnSync(program, ["run", join(folder, "spots.png"), "-o", join(folder, "again.png"), "--quiet"], { encoding: "utf8" });
+    expect(status === 0 && picture.equals(readFileSync(join(folder, "again.png"))), `the picture does not grow again: ${stderr}`);
+    await click("restart");
+    await until_steps("0");
 
     // The movie is made of what is drawn; its cells are squares of 20 pixels.
     await click("movie");

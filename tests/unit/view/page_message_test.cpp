@@ -72,6 +72,18 @@ TEST(PageMessage, Questions) {
     const auto measures = parse_page_message(R"({"do": "measure", "x": "u", "y": "v"})");
     ASSERT_TRUE(measures.has_value());
     EXPECT_EQ(std::get<AskForMeasures>(std::get<PageQuestion>(measures->request)).y, "v");
+    const auto picture = parse_page_message(
+        R"({"do": "picture", "show": "u", "palette": "grey", "scale": 4, "low": -1, "high": 2.5,)"
+        R"( "axis": "y", "place": 0.25})");
+    ASSERT_TRUE(picture.has_value());
+    const auto& wanted = std::get<AskForPicture>(std::get<PageQuestion>(picture->request)).request;
+    EXPECT_EQ(wanted.scale, 4);
+    EXPECT_EQ(wanted.range->high, 2.5F);
+    EXPECT_EQ(wanted.slice, (Slice{Axis::y, 0.25}));
+    EXPECT_FALSE(parse_page_message(
+        R"({"do": "picture", "show": "", "palette": "grey", "scale": 1, "low": 1})"));
+    EXPECT_FALSE(
+        parse_page_message(R"({"do": "picture", "show": "", "palette": "grey", "scale": 65})"));
 }
 
 TEST(PageMessage, SaysWhatIsWrong) {

@@ -99,6 +99,24 @@ TEST_F(PageReply, Measures) {
     EXPECT_FALSE(this->reply(AskForMeasures{"u", "k"}).contains("histogram"));
 }
 
+TEST_F(PageReply, Picture) {
+    PictureRequest request;
+    request.palette = "leopard";
+    const Json reply = this->reply(AskForPicture{request});
+    EXPECT_EQ(reply["kind"], "picture");
+    EXPECT_EQ(reply["id"], 3);
+    EXPECT_THAT(reply["png"].get<std::string>(), testing::StartsWith("iVBORw0KGgo"));
+    request.show = "nobody";
+    const Json refused = this->reply(AskForPicture{request});
+    EXPECT_EQ(refused["kind"], "answer");
+    EXPECT_EQ(refused["id"], 3);
+    EXPECT_EQ(refused["is_done"], false);
+    EXPECT_THAT(refused["messages"][0]["message"].get<std::string>(), testing::HasSubstr("nobody"));
+    request.show = "";
+    request.palette = "no palette";
+    EXPECT_EQ(this->reply(AskForPicture{request})["is_done"], false);
+}
+
 TEST_F(PageReply, SpectrumWithItsWavelength) {
     const std::string script =
         "domain { grid: 32, 32 }\n"
