@@ -287,6 +287,24 @@ check(b"\x1b[c" not in shown and "▀".encode() in shown, "characters are not fo
 asked, shown = picture(b"\x1b[?62;22c", CASCADE_PICTURES="sixel")
 check(b"\x1b_G" not in asked and b"\x1bP" in shown, "sixels are not forced", shown)
 
+# While it grows, kitty's pictures replace each other by their number, and are removed at the end.
+pid, terminal = pty.fork()
+if pid == 0:
+    os.environ.update({"TERM": "xterm", "TMUX": "", "STY": ""})
+    os.execv(sys.argv[1], ["cascade", "repl"])
+expect(b"\x1b[c")
+type_in(kitty)
+expect(b"1> ")
+type_in(b"stage s: turing_spots { iterations: 100000000 }\r")
+expect(b"2> ")
+type_in(b":run\r")
+number = re.search(rb"q=2,(i=\d+),", expect(b"m=0;"))[1]
+expect(b"\x1b_Ga=d,d=I," + number)
+type_in(b"\x03")
+expect(b"2> ")
+type_in(b":quit\r")
+os.waitpid(pid, 0)
+
 # A page of a picture begins where its session ended.
 import signal, socket, subprocess
 
