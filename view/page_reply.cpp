@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -188,8 +189,11 @@ Json reply_to(const AskForPicture& question, LiveRun& run) {
 }  // namespace
 
 std::string print_reply(std::uint64_t id, const PageQuestion& question, LiveRun& run) {
+    const auto begun = std::chrono::steady_clock::now();
     Json reply = std::visit([&run](const auto& asked) { return reply_to(asked, run); }, question);
     reply["id"] = id;
+    reply["seconds"] =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     // Texts of users may hold bytes that are no UTF-8.
     return reply.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -6,8 +6,9 @@ import { Mark } from "./mark";
 import type { Pattern, Place } from "./pattern";
 import { Plot, colour_of_curve, draw_density } from "./plots";
 
-interface Values { t: number | null; stage: number; steps: number; species?: { name: string; mean: number; smallest: number; largest: number; value?: number | null }[] }
-interface Measures { histogram?: number[]; density?: number[]; x?: [number, number]; y?: [number, number]; spectrum?: number[]; ring_width?: number; wavelength?: number | null }
+interface Cost { seconds: number }  ///< That the engine spent.
+interface Values extends Cost { t: number | null; stage: number; steps: number; species?: { name: string; mean: number; smallest: number; largest: number; value?: number | null }[] }
+interface Measures extends Cost { histogram?: number[]; density?: number[]; x?: [number, number]; y?: [number, number]; spectrum?: number[]; ring_width?: number; wavelength?: number | null }
 type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Answer & Reply>;
 
 /// A moment of the curves.
@@ -25,7 +26,8 @@ export class Measure {
     private readonly probe: Mark;
     private moments: Moment[] = [];
     private is_asking = false;
-    private measured_at = 0;
+    private next_values = 0;
+    private next_measures = 0;
     private is_picking = false;  ///< The press that chooses a cell is still held.
 
     constructor(private readonly pattern: Pattern, private readonly ask: Ask) {
@@ -82,7 +84,7 @@ export class Measure {
     show_mark() { this.probe.show(this.panel.open); }
 
     private refresh() {
-        this.measured_at = 0;
+        this.next_values = this.next_measures = 0;
         if (this.pattern.snapshot) void this.look_at(this.pattern.snapshot);
     }
 
@@ -90,12 +92,18 @@ export class Measure {
     async look_at(snapshot: Snapshot) {
         if (!this.panel.open || this.is_asking || !this.x.value) return;
         this.is_asking = true;
-        const values = await this.ask<Values>("values", { cell: this.probe.cell ?? -1 });
-        if (values.species) this.add(values);
-        if (performance.now() - this.measured_at > milliseconds_between_measures || !snapshot.is_going_on) {
+        // Measuring takes the run at most a tenth of its time.
+        const after = ({ seconds }: Cost) => performance.now() + 9000 * seconds;
+        const is_due = (moment: number) => !snapshot.is_going_on || performance.now() >= moment;
+        if (is_due(this.next_values)) {
+            const values = await this.ask<Values>("values", { cell: this.probe.cell ?? -1 });
+            if (values.species) this.add(values);
+            this.next_values = after(values);
+        }
+        if (is_due(this.next_measures)) {
             const measures = await this.ask<Measures>("measure", { x: this.x.value, y: this.y.value });
             if (measures.histogram) this.show(measures);
-            this.measured_at = performance.now();
+            this.next_measures = Math.max(after(measures), performance.now() + milliseconds_between_measures);
         }
         this.is_asking = false;
         // What was seen last counts when all is still.

@@ -1,5 +1,5 @@
 // The page: text, sliders, pattern and stages of one session.
-import { Answer, Connection, Control, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
+import { Answer, Connection, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
 import { download } from "./download";
 import { Editor } from "./editor";
 import { Failure } from "./failure";
@@ -14,13 +14,13 @@ import { Pointed } from "./pointed";
 import { close_popups } from "./popups";
 import { Recording } from "./recording";
 import { Slices } from "./slices";
+import { show_sliders } from "./sliders";
 import { Stages } from "./stages";
 import { is_row, rows_of_time } from "./time_rows";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
 const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 2 });
-const number = (value: number) => String(Number(value.toPrecision(4)));
 
 const pattern = new Pattern(element<HTMLCanvasElement>("pattern"), !location.search.includes("2d"));
 const pointed = new Pointed(pattern);
@@ -164,7 +164,7 @@ function show_script(script: Script) {
         element("text").ariaBusy = "false";
         show_messages(script.messages);
     }
-    show_controls(script.controls);
+    show_sliders(script.controls, ask);
     measure.species = script.species;
     if ([...brush_choice.options].map((o) => o.value).join() !== script.species.join()) {
         brush_choice.replaceChildren(...script.species.map((name) => new Option(name)));
@@ -176,59 +176,6 @@ function choose_palette() {
     pattern.palette = palettes.find(({ name }) => name === palette_choice.value) ?? palettes[0];
     if (pattern.palette) look.show_palette(pattern.palette);
     pattern.draw();
-}
-
-/// Sliders stay the same elements while the parameters do, so that one that is held is not lost.
-function show_controls(controls: Control[]) {
-    const box = element("controls"), shape = JSON.stringify(controls.map(({ value, ...rest }) => rest));
-    if (box.dataset.shape !== shape) {
-        box.dataset.shape = shape;
-        box.replaceChildren(...controls.flatMap((control, k) => {
-            const slider = make_slider(control);
-            if (controls[k - 1]?.stage === control.stage) return [slider];
-            const title = document.createElement("h2");
-            title.textContent = control.name.slice(0, -control.label.length - 1);
-            return [title, slider];
-        }));
-    }
-    box.querySelectorAll("input").forEach((input, k) => {
-        // What comes now is older than what its user wants.
-        if (input.matches(":active") || "isBusy" in input.dataset) return;
-        input.value = String(controls[k].value);
-        input.parentElement!.querySelector("output")!.value = number(controls[k].value);
-    });
-}
-
-function make_slider(control: Control): HTMLElement {
-    const label = document.createElement("label"), name = document.createElement("span"), value = document.createElement("output");
-    const input = Object.assign(document.createElement("input"), {
-        type: "range", min: String(control.low), max: String(control.high),
-        step: String(control.step ?? (control.high - control.low) / 1000),
-    });
-    name.textContent = control.label;
-    label.title = control.doc;
-    label.append(name, value, input);
-    if (control.doc) label.append(Object.assign(document.createElement("small"), { textContent: control.doc }));
-    let is_moving = false, is_sending = false, wanted = "";
-    const send = async () => {
-        if (is_sending) return;
-        is_sending = true;
-        input.dataset.isBusy = "";
-        for (let sent = ""; sent !== wanted;) {
-            sent = wanted;
-            const answer = await ask("set", { name: control.name, expression: sent, joins_last: is_moving });
-            is_moving ||= answer.is_done;
-        }
-        is_sending = false;
-        delete input.dataset.isBusy;
-    };
-    input.addEventListener("input", () => {
-        wanted = number(input.valueAsNumber);
-        value.value = wanted;
-        void send();
-    });
-    input.addEventListener("change", () => (is_moving = false));
-    return label;
 }
 
 function show_state(snapshot: Snapshot) {

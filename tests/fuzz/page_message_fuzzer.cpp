@@ -14,6 +14,10 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
          {"set", '{', R"("id": 2, "do": "set", "name": "ka", "expression": "1/80"})"},
          {"paint", '{', R"("do": "paint", "item": "b", "expression": "8", "joins_last": true})"},
          {"stage", '{', R"("do": "go_to_stage", "stage": 2})"},
+         {"names", '{', R"("id": 3, "do": "names", "text": "stage one: "})"},
+         {"measure", '{', R"("do": "measure", "x": "a", "y": "b"})"},
+         {"picture", '{',
+          R"("do": "picture", "show": "", "palette": "grey", "scale": 2, "low": 0})"},
          {"step", '{', R"("do": "step", "count": 100})"}});
     return 0;
 }

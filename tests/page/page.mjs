@@ -117,6 +117,18 @@ async function steer() {
     const sliders = await browser.evaluate(`document.querySelectorAll("#controls input").length`);
     expect(sliders === 2, `${sliders} sliders instead of 2`);
 
+    // Moves are undone one by one, however quickly they follow each other.
+    await browser.until(`!("isBusy" in document.querySelector("#controls input").dataset)`);
+    await browser.evaluate(`{
+        const input = document.querySelector("#controls input"), send = (kind) => input.dispatchEvent(new Event(kind));
+        for (const value of ["0.05", "0.06"]) input.value = value, send("input"), send("input"), send("change");
+    }`);
+    await browser.until(`!("isBusy" in document.querySelector("#controls input").dataset)`);
+    for (const before of ["0.06", "0.05", "0.04"]) {
+        await browser.until(`${value} === "${before}"`);
+        if (before !== "0.04") await click("undo");
+    }
+
     // A wrong text: its place and message; the run stays as it is.
     const text = readFileSync("spots.cascade", "utf8");
     await type_script(text.replace("- u * v^2 +", "- u * w^2 +"));

@@ -113,6 +113,11 @@ TEST(Equations, OfTheLibraryAreWellFormedMathML) {
     }
 }
 
+TEST(Equations, TextsAreNoTagsInMathML) {
+    EXPECT_EQ(mathml("field(\"</mtext><img src=x>\\}{&\")").find("<img"), std::string::npos);
+    EXPECT_TRUE(is_well_formed(mathml("field(\"</mtext><img src=x>\\}{&\")")));
+}
+
 TEST(Equations, DeepBracketsInMathMLNeedNoStack) {
     const std::string deep = std::string(5000, '-') + "u";
     EXPECT_TRUE(is_well_formed(mathml(deep)));

@@ -93,6 +93,7 @@ TEST_F(PageReply, Measures) {
     EXPECT_EQ(cells, 12) << "half of the grid is outside";
     EXPECT_EQ(pairs, 12);
     EXPECT_EQ(reply["histogram"][0], 4);
+    EXPECT_GT(reply["seconds"], 0);
     EXPECT_EQ(reply["density"][0], 4);
     EXPECT_EQ(reply["density"].back(), 4);
     EXPECT_FLOAT_EQ(reply["x"][0].get<float>(), 1 + 0.5F / 6);

@@ -1,0 +1,59 @@
+// A slider for each parameter with a range.
+import type { Answer, Control } from "./connection";
+import { digits } from "./look";
+
+type Ask = (what: string, fields: Record<string, unknown>) => Promise<Answer>;
+
+/// They stay the same elements while the parameters do, so that one that is held is not lost.
+export function show_sliders(controls: Control[], ask: Ask) {
+    const box = document.getElementById("controls")!, shape = JSON.stringify(controls.map(({ value, ...rest }) => rest));
+    if (box.dataset.shape !== shape) {
+        box.dataset.shape = shape;
+        box.replaceChildren(...controls.flatMap((control, k) => {
+            const slider = make_slider(control, ask);
+            if (controls[k - 1]?.stage === control.stage) return [slider];
+            const title = document.createElement("h2");
+            title.textContent = control.name.slice(0, -control.label.length - 1);
+            return [title, slider];
+        }));
+    }
+    box.querySelectorAll("input").forEach((input, k) => {
+        // What comes now is older than what its user wants.
+        if (input.matches(":active") || "isBusy" in input.dataset) return;
+        input.value = String(controls[k].value);
+        input.parentElement!.querySelector("output")!.value = digits(controls[k].value);
+    });
+}
+
+function make_slider(control: Control, ask: Ask): HTMLElement {
+    const label = document.createElement("label"), name = document.createElement("span"), value = document.createElement("output");
+    const input = Object.assign(document.createElement("input"), {
+        type: "range", min: String(control.low), max: String(control.high),
+        step: String(control.step ?? (control.high - control.low) / 1000),
+    });
+    name.textContent = control.label;
+    label.title = control.doc;
+    label.append(name, value, input);
+    if (control.doc) label.append(Object.assign(document.createElement("small"), { textContent: control.doc }));
+    // All values of one move are undone together. A move may have ended when its values are still being sent.
+    let move = 0, taken = -1, is_sending = false, wanted = { text: "", move };
+    const send = async () => {
+        if (is_sending) return;
+        is_sending = true;
+        input.dataset.isBusy = "";
+        for (let sent = { text: "", move: -1 }; sent !== wanted;) {
+            sent = wanted;
+            const answer = await ask("set", { name: control.name, expression: sent.text, joins_last: taken === sent.move });
+            if (answer.is_done) taken = sent.move;
+        }
+        is_sending = false;
+        delete input.dataset.isBusy;
+    };
+    input.addEventListener("input", () => {
+        wanted = { text: digits(input.valueAsNumber), move };
+        value.value = wanted.text;
+        void send();
+    });
+    input.addEventListener("change", () => ++move);
+    return label;
+}
