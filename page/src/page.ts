@@ -289,4 +289,7 @@ async function paint(event: PointerEvent, is_first: boolean) {
     await ask("paint", { item, expression: `if(disc(${at}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });
 }
 const view = new PlaneView(pattern.canvas, () => pattern.columns, (event, is_first) => (stroke = stroke.then(() => paint(event, is_first))));
-view.moved = show_marks;
+view.moved = () => {
+    pattern.redraw();
+    show_marks();
+};

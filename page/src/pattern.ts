@@ -42,7 +42,7 @@ vec3 lit(vec3 seen, vec2 place) {
   return pow(pow(seen, vec3(2.2)) * light + gleam, vec3(1.0 / 2.2));
 }
 /// How much of a pixel a contour line covers that is so many values away.
-float line(float away, float change) { return change > 0.0 ? clamp(1.2 - away / change, 0.0, 1.0) : 0.0; }
+float line(float away, float change) { return change > 0.0 ? clamp(1.0 - away / change, 0.0, 1.0) : 0.0; }
 void main() {
   vec2 place = vec2(gl_FragCoord.x, rows * scale - gl_FragCoord.y) / scale;
   ivec2 cell = ivec2(place);
@@ -158,8 +158,8 @@ export class Pattern {
         const values = is_row(snapshot) ? this.time.with(snapshot) : snapshot, { columns, rows } = values;
         this.drawn(values);
         const shown = { ...values, ...this.range_of(values) };
-        const is_smooth = look.relief > 0 || look.every !== undefined || look.at !== undefined;
-        const scale = is_smooth && this.drawer.has_lines ? Math.max(1, Math.min(16, Math.floor(2048 / Math.max(columns, rows)))) : 1;
+        const scale = this.pixels_of_cell(columns, rows);
+        canvas.style.imageRendering = scale > 1 ? "auto" : "";
         if (canvas.width !== columns * scale || canvas.height !== rows * scale) {
             canvas.width = columns * scale;
             canvas.height = rows * scale;
@@ -172,6 +172,17 @@ export class Pattern {
         this.rows = rows;
         this.drawer.draw(shown, palette, look, scale);
     }
+
+    /// Along a side of a cell: 1, or for lines and relief about as many as the screen has.
+    private pixels_of_cell(columns: number, rows: number) {
+        const { relief, every, at } = this.look, is_smooth = relief > 0 || every !== undefined || at !== undefined;
+        if (!is_smooth || !this.drawer.has_lines) return 1;
+        const seen = this.canvas.getBoundingClientRect().width * devicePixelRatio / columns;
+        return Math.max(1, Math.min(Math.ceil(seen), 16, Math.floor(4096 / Math.max(columns, rows))));
+    }
+
+    /// Again if what is seen has more pixels now.
+    redraw() { if (this.pixels_of_cell(this.columns, this.rows) !== this.canvas.width / this.columns) this.draw(); }
 
     /// The values of the palette's ends: held, or those of a snapshot.
     range_of({ low, high }: Snapshot) { return { low: this.look.low ?? low, high: this.look.high ?? high }; }

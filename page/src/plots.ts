@@ -28,6 +28,7 @@ export class Plot {
 
     constructor(private readonly figure: HTMLElement, private readonly is_histogram = false) {
         new ResizeObserver(() => this.plot?.setSize(this.size)).observe(figure);
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.plot?.redraw());
     }
 
     private get size() { return { width: Math.max(this.figure.clientWidth, 60), height: plot_height }; }
