@@ -280,7 +280,7 @@ async function lose_the_connection() {
             }
         };` });
     await browser.call("Page.reload");
-    await browser.until(`window.sockets?.at(-1)?.readyState === 1 && document.querySelectorAll("#stages li").length === 2`);
+    await browser.until(`window.sockets?.at(-1)?.readyState === 1 && document.querySelectorAll("#stages li").length === 2 && document.querySelector("#controls input")`);
     await click("restart");
     await until_steps("0");
     const box = await browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);

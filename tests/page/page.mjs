@@ -299,6 +299,7 @@ async function steer() {
     await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     await choose_leopard();
+    await browser.until(`document.querySelector("#controls input") !== null`);
     await browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "0.037"; input.dispatchEvent(new Event("input")); }`);
     await browser.until(`${value} === "0.037"`);
     await click("restart");
