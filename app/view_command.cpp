@@ -84,10 +84,6 @@ int view_command(const Options& options, Console& console) {
     Script& script = file->script;
     console.say(script.messages(console.error().colour));
     if (!script.program) return exit_status::wrong_script;
-    if (script.program->domain.model) {
-        console.fail({"'cascade view' cannot show models yet", "'cascade run' draws them"});
-        return exit_status::wrong_script;
-    }
 
     RunControl control;
     const InterruptGuard interrupt(control.cancel);

@@ -71,6 +71,27 @@ SCRIPT
 for slice in z=0.5 y=0.53 x=0.025; do
     "$CASCADE" run volume.cascade --palette leopard --slice $slice -o "${slice%=*}.png" --quiet || fail "the slice was not drawn"
 done
-rm -rf profile profile_of_instruments saved
+cat >still.cascade <<'SCRIPT'
+system still { u: sin(20 * x) * sin(20 * y + 3 * z); u' = 0 }
+stage one: still { iterations: 1 }
+SCRIPT
+{ echo 'domain { surface: creature; cells: 6000 }'; cat still.cascade; } >model.cascade
+{ echo 'domain { surface: box(1, 0.8, 1.2); cells: 3000 }'; cat still.cascade; } >box.cascade
+cat - still.cascade >hole.cascade <<'SCRIPT'
+domain {
+  grid: 128, 48
+  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), sin(2*pi*sy)
+  mask: not disc(0.9, 0.05, 0.06)
+}
+SCRIPT
+# Turned by the page: 8 degrees for a key, 0.4 for a pixel.
+for view in model:30,25 turned:70,33 dragged:-10,17 box:30,25 hole:30,25; do
+    name=${view%:*} script=$name
+    [ -f $name.cascade ] || script=model
+    "$CASCADE" run $script.cascade --palette zebra --view="${view#*:}" -o $name.png --quiet || fail "the picture of $name was not drawn"
+done
+"$CASCADE" run hole.cascade --palette zebra --flat -o flat.png --quiet || fail "the plane was not drawn"
+rm -rf profile profile_of_instruments profile_of_solids saved
 node "$SOURCE/tests/page/page.mjs" "$browser" "$CASCADE" || fail "see above"
 node "$SOURCE/tests/page/instruments.mjs" "$browser" "$CASCADE" || fail "see above"
+node "$SOURCE/tests/page/solids.mjs" "$browser" "$CASCADE" || fail "see above"

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace cascade {
 namespace {
@@ -118,7 +119,10 @@ Json print_header(const Snapshot& snapshot) {
     const PlaneLayout& layout = snapshot.fields[0].layout();
     const ValueRange range =
         snapshot.fields.size() == 1 ? automatic_range(spread_of(snapshot.fields[0])) : ValueRange();
-    Json header = {{"number", snapshot.number},
+    Json header = {{"kind", "snapshot"},
+                   {"number", snapshot.number},
+                   {"surface", snapshot.surface_number},
+                   {"is_model", snapshot.model != nullptr},
                    {"script", snapshot.script},
                    {"is_going_on", snapshot.is_going_on},
                    {"stage", snapshot.place.stage + 1},
@@ -140,6 +144,24 @@ Json print_header(const Snapshot& snapshot) {
                            {"sides", {grid.width, grid.height, grid.depth}}};
     }
     return header;
+}
+
+/// A frame that begins with its header, and has room for more bytes.
+std::string begin_frame(const Json& json, std::size_t more) {
+    std::string header = print(json);
+    header.resize((header.size() + 3) / 4 * 4, ' ');
+    const auto size = static_cast<std::uint32_t>(header.size());
+    std::string bytes;
+    bytes.reserve(sizeof size + header.size() + more);
+    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+    bytes += header;
+    return bytes;
+}
+
+template <typename Element>
+void append(const std::vector<Element>& elements, std::string& bytes) {
+    static_assert(sizeof(Element) % 4 == 0 && std::is_trivially_copyable_v<Element>);
+    bytes.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element));
 }
 
 }  // namespace
@@ -197,21 +219,38 @@ std::string print_failure(std::uint64_t id, const Failure& failure) {
 }
 
 std::string print_snapshot(const Snapshot& snapshot) {
-    std::string header = print(print_header(snapshot));
-    header.resize((header.size() + 3) / 4 * 4, ' ');
-    const auto size = static_cast<std::uint32_t>(header.size());
     const PlaneLayout& layout = snapshot.fields[0].layout();
     const auto row_bytes = static_cast<std::size_t>(layout.width) * sizeof(float);
     const auto rows = static_cast<std::size_t>(layout.row_count());
-    std::string bytes;
-    bytes.reserve(sizeof size + header.size() + snapshot.fields.size() * rows * row_bytes);
-    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
-    bytes += header;
+    std::string bytes =
+        begin_frame(print_header(snapshot), snapshot.fields.size() * rows * row_bytes);
     for (const Field& field : snapshot.fields) {
         for (std::int64_t row = 0; row < layout.row_count(); ++row) {
             bytes.append(reinterpret_cast<const char*>(field.row(row)), row_bytes);
         }
     }
+    return bytes;
+}
+
+std::string print_surface(const ShownSurface& surface, std::uint64_t number) {
+    static_assert(sizeof(Vector3) == 3 * sizeof(float) && sizeof(CellShare) == 8);
+    const std::size_t vertices = surface.positions.size();
+    const Json header = {{"kind", "surface"},
+                         {"number", number},
+                         {"up", name_of(surface.up)},
+                         {"spacing", surface.spacing},
+                         {"vertices", vertices},
+                         {"places", surface.places.size()},
+                         {"triangles", surface.triangles.size()},
+                         {"shares", surface.shares.size()}};
+    std::string bytes = begin_frame(header, 36 * vertices + 12 * surface.triangles.size() +
+                                                8 * surface.shares.size());
+    append(surface.positions, bytes);
+    append(surface.normals, bytes);
+    append(surface.places, bytes);
+    append(surface.triangles, bytes);
+    append(surface.ends, bytes);
+    append(surface.shares, bytes);
     return bytes;
 }
 

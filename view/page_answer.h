@@ -2,6 +2,7 @@
 // layout.
 #pragma once
 
+#include "run/pictures/shown_surface.h"
 #include "run/session/session.h"
 
 #include <cstdint>
@@ -30,5 +31,9 @@ std::string print_failure(std::uint64_t id, const Failure& failure);
 /// A snapshot: the size of the header, as 4 bytes, least significant first; the header, JSON,
 /// filled with blanks to a multiple of 4 bytes; the shown fields, row after row, as binary32.
 std::string print_snapshot(const Snapshot& snapshot);
+
+/// A surface with its number, laid out like a snapshot: positions, normals, places of parameters,
+/// triangles, ends of shares, and the shares, each a cell and a weight; each number in 4 bytes.
+std::string print_surface(const ShownSurface& surface, std::uint64_t number);
 
 }  // namespace cascade

@@ -108,7 +108,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 21> verbs{{
+constexpr std::array<Verb, 22> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -174,6 +174,7 @@ constexpr std::array<Verb, 21> verbs{{
          auto x = fields.text("x");
          return PageQuestion(AskForMeasures{std::move(x), fields.text("y")});
      }},
+    {"surface", [](FieldReader&) -> PageRequest { return AskForSurface{}; }},
 }};
 
 }  // namespace

@@ -33,9 +33,13 @@ struct AskForMeasures { std::string x, y; };
 struct AskForPicture { PictureRequest request; };
 // clang-format on
 
+/// The page asks for the mesh of the surface that the newest snapshot lies on.
+struct AskForSurface {};
+
 using PageQuestion =
     std::variant<AskForLog, AskForNames, AskAboutName, AskForValues, AskForMeasures, AskForPicture>;
-using PageRequest = std::variant<SessionCommand, NextSnapshot, NamePage, PageQuestion>;
+using PageRequest =
+    std::variant<SessionCommand, NextSnapshot, NamePage, AskForSurface, PageQuestion>;
 
 struct PageMessage {
     std::uint64_t id = 0;  ///< Chosen by the page; the answer carries it. 0 if there was none.

@@ -6,6 +6,7 @@
 #include "view/page_message.h"
 #include "view/page_reply.h"
 #include "view/page_requests.h"
+#include "view/surface_sender.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -24,7 +25,7 @@ struct OpenPage {
     std::uint64_t seen = 0;  ///< The number of its last snapshot.
 };
 
-constexpr int snapshot_frame = 0;
+constexpr int snapshot_frame = 0, surface_frame = 1;
 
 /// What a script message depends on: the script, and which stages have begun.
 std::uint64_t version_of_script(const Snapshot& snapshot) {
@@ -46,6 +47,7 @@ struct PageServer::State {
     // The session ends before the server, to which its answers go.
     std::optional<LocalServer> server;
     std::unique_ptr<Session> session;
+    std::optional<SurfaceSender> surfaces;
     std::thread sender;
 
     ~State();
@@ -69,6 +71,11 @@ Result<void> PageServer::State::start(PageFiles files) {
     auto started = LocalServer::start(std::move(files), std::move(handlers));
     if (!started) return tl::unexpected(started.error());
     server.emplace(std::move(*started));
+    surfaces.emplace([this](PageId page, SharedBytes frame) {
+        if (frame) return server->send_frame(page, surface_frame, std::move(frame));
+        server->send_text(page,
+                          print_failure(0, {"there is not enough memory to show the surface", ""}));
+    });
     sender = std::thread([this] { send_snapshots(); });
     return {};
 }
@@ -81,6 +88,7 @@ PageServer::State::~State() {
     is_wanted.notify_all();
     if (sender.joinable()) sender.join();
     if (server) server->stop();
+    surfaces.reset();
     session.reset();
 }
 
@@ -119,6 +127,11 @@ void PageServer::State::obey(PageId page, std::string_view text) {
         return session->ask([this, page, id, asked = *question](LiveRun& run) {
             server->send_text(page, print_reply(id, asked, run));
         });
+    }
+    if (std::holds_alternative<AskForSurface>(message->request)) {
+        const auto snapshot = session->newest();
+        if (snapshot->surface) surfaces->ask(page, snapshot->surface, snapshot->surface_number);
+        return;
     }
     PageRequests::Begun begun = requests.begin(page, id);
     if (begun.answer) return server->send_text(page, std::move(*begun.answer));

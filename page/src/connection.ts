@@ -14,7 +14,20 @@ export interface Snapshot {
     number: number; script: number; is_going_on: boolean; stage: number; steps: number; stages: Stage[];
     steps_per_second: number; can_undo: boolean; can_redo: boolean; failure: string; remarks: string[];
     columns: number; rows: number; low: number; high: number; planes: Float32Array[];
+    surface: number;    ///< That of the surface that the cells lie on; 0 for none.
+    is_model: boolean;  ///< Cells lie on a model, and have no columns and rows.
     slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };  ///< Of a volume.
+}
+
+/// Triangles, and how much of the values of cells each vertex shows.
+export interface Surface {
+    number: number; up: "y" | "z"; spacing: number;
+    positions: Float32Array; normals: Float32Array;  ///< Three numbers for each vertex.
+    places?: Float32Array;  ///< Of the vertices on a plane: x and y.
+    triangles: Uint32Array;
+    ends: Uint32Array;      ///< Vertex v has the shares from ends[v − 1] to ends[v].
+    /// Of share k the cell is cells[2 k] and the weight is weights[2 k + 1].
+    cells: Uint32Array; weights: Float32Array;
 }
 
 export interface Listener {
@@ -22,7 +35,9 @@ export interface Listener {
     systems(systems: LibrarySystem[]): void;
     script(script: Script): void;
     snapshot(snapshot: Snapshot): void;
+    surface(surface: Surface): void;
     lost(reason: string): void;
+    refused(reason: string): void;  ///< What was no question, or could not be read.
 }
 
 /// The token comes in the address once, and is taken out of it. A tab keeps it for reloads.
@@ -36,13 +51,23 @@ function take_token(): string {
 }
 
 /// Of the layout that spec/page.md describes.
-function read_snapshot(bytes: ArrayBuffer): Snapshot {
+function read_frame(bytes: ArrayBuffer): Snapshot | Surface {
     const size = new DataView(bytes).getUint32(0, true);
-    const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
-    const cells = header.columns * header.rows;
-    header.planes = Array.from({ length: header.fields },
-        (_, k) => new Float32Array(bytes, 4 + size + 4 * cells * k, cells));
-    return header;
+    const { kind, ...header } = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
+    let start = 4 + size;
+    const take = <Numbers>(Type: new (bytes: ArrayBuffer, start: number, length: number) => Numbers, length: number) => {
+        start += 4 * length;
+        return new Type(bytes, start - 4 * length, length);
+    };
+    if (kind === "snapshot") {
+        return { ...header, planes: Array.from({ length: header.fields }, () => take(Float32Array, header.columns * header.rows)) };
+    }
+    const { number, up, spacing, vertices, places, triangles, shares } = header;
+    return {
+        number, up, spacing, positions: take(Float32Array, 3 * vertices), normals: take(Float32Array, 3 * vertices),
+        places: places > 0 ? take(Float32Array, 2 * places) : undefined, triangles: take(Uint32Array, 3 * triangles),
+        ends: take(Uint32Array, vertices), cells: new Uint32Array(bytes, start, 2 * shares), weights: take(Float32Array, 2 * shares),
+    };
 }
 
 const largest_message = 1 << 20;  ///< Of what the engine reads, in bytes.
@@ -71,6 +96,8 @@ export class Connection {
         return new Promise((resolve) => this.waiting.set(id, { text, resolve: resolve as (answer: Answer) => void }));
     }
 
+    ask_surface() { if (this.is_open) this.socket!.send('{"do":"surface"}'); }
+
     next_snapshot() { if (this.is_open) this.socket!.send('{"do":"next_snapshot"}'); }
 
     private get is_open() { return this.socket?.readyState === WebSocket.OPEN; }
@@ -93,11 +120,15 @@ export class Connection {
     }
 
     private take(data: string | ArrayBuffer) {
-        if (typeof data !== "string") return this.listener.snapshot(read_snapshot(data));
+        if (typeof data !== "string") {
+            const frame = read_frame(data);
+            return "planes" in frame ? this.listener.snapshot(frame) : this.listener.surface(frame);
+        }
         const message = JSON.parse(data);
         if (message.kind === "palettes") this.listener.palettes(message.palettes);
         else if (message.kind === "systems") this.listener.systems(message.systems);
         else if (message.kind === "script") this.listener.script(message);
+        else if (message.id === 0) this.listener.refused(message.messages[0].message);
         else {
             this.waiting.get(message.id)?.resolve({ is_done: true, messages: [], ...message });
             this.waiting.delete(message.id);

@@ -13,6 +13,7 @@ export const keys: Key[] = [
     { key: "0", act: "fit", does: "the whole pattern" },
     { key: "Page Up", also: ["PageUp"], act: "slice_before", does: "slice before" },
     { key: "Page Down", also: ["PageDown"], act: "slice_after", does: "slice after" },
+    { key: "Arrows", act: "", does: "turn a model, or with Shift move it" },
     { key: "h", act: "hold", does: "hold the range" },
     { key: "m", act: "measure", does: "measure" },
     { key: "p", act: "pick", does: "choose a cell to measure" },

@@ -6,6 +6,7 @@ import { Failure } from "./failure";
 import { Help } from "./help";
 import { obey_keys } from "./keys";
 import { Library } from "./library";
+import { Gestures } from "./gestures";
 import { LookControls } from "./look";
 import { Measure } from "./measure";
 import { Pattern } from "./pattern";
@@ -16,13 +17,17 @@ import { Recording } from "./recording";
 import { Slices } from "./slices";
 import { show_sliders } from "./sliders";
 import { Stages } from "./stages";
+import { SolidView } from "./solid_view";
+import { Stroke } from "./stroke";
 import { is_row, rows_of_time } from "./time_rows";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
 const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 2 });
 
-const pattern = new Pattern(element<HTMLCanvasElement>("pattern"), !location.search.includes("2d"));
+const has_shaders = !location.search.includes("2d");
+const solid = new SolidView(element<HTMLCanvasElement>("solid"), has_shaders);
+const pattern = new Pattern(element<HTMLCanvasElement>("pattern"), solid, has_shaders);
 const pointed = new Pointed(pattern);
 const look = new LookControls(() => pattern.draw());
 pattern.look = look.look;
@@ -80,11 +85,20 @@ const connection = new Connection({
             keep_pace(pattern.snapshot!);
             slices.show(pattern.snapshot!);
             void measure.look_at(pattern.snapshot!);
+            want_surface(pattern.snapshot!);
             show_state(pattern.snapshot!);
             connection.next_snapshot();
         });
     },
-    lost: (reason) => notice(reason, true),
+    surface(surface) {
+        solid.take(surface);
+        pattern.draw();
+    },
+    lost(reason) {
+        asked_surface = 0;
+        notice(reason, true);
+    },
+    refused: (reason) => notice(reason, true, 10),
 });
 
 const measure = new Measure(pattern, (what, fields) => connection.ask(what, fields));
@@ -97,11 +111,20 @@ function show_marks() {
 const failure = new Failure(pattern, (what, fields) => void ask(what, fields));
 const strip = new Stages((stage) => void ask("go_to_stage", { stage }));
 const help = new Help();
-const recording = new Recording(pattern.canvas, () => name_of_file(), (is_movie, are_frames) => {
+const recording = new Recording(() => pattern.seen, () => name_of_file(), (is_movie, are_frames) => {
     button("movie").ariaPressed = String(is_movie);
     button("frames").ariaPressed = String(are_frames);
     element("save").toggleAttribute("data-recording", is_movie || are_frames);
 });
+let asked_surface = 0;
+function want_surface({ surface, is_model }: Snapshot) {
+    button("flat").hidden = surface === 0 || is_model || !solid.is_possible;
+    if (surface === 0 || surface === asked_surface) return;
+    asked_surface = surface;
+    if (solid.is_possible) connection.ask_surface();
+    else if (is_model) notice("Models need WebGL2, which this browser does not offer.", true, 60);
+}
+
 const slices = new Slices((fields) => ask("slice", fields));
 
 const library = new Library(async (text) => {
@@ -181,7 +204,7 @@ function choose_palette() {
 function show_state(snapshot: Snapshot) {
     const { stages } = snapshot;
     strip.show(snapshot);
-    strip.keep_picture(snapshot, pattern.canvas);
+    strip.keep_picture(snapshot, pattern.seen);
     const is_going_on = snapshot.is_going_on || is_pacing;
     const rate = is_going_on && snapshot.steps_per_second > 0
         ? ` · ${compact.format(snapshot.steps_per_second)} steps/s` : "";
@@ -232,12 +255,17 @@ const actions: Record<string, () => void> = {
     redo: () => go_back("redo"),
     next: () => void ask("next_stage"),
     systems: () => library.open(),
-    fit: () => view.fit(),
+    fit: () => view().fit(),
+    flat: () => {
+        pattern.is_laid_flat = !pattern.is_laid_flat;
+        button("flat").ariaPressed = String(pattern.is_laid_flat);
+        pattern.draw();
+    },
     hold: () => look.toggle_hold(),
     measure: () => measure.toggle(),
     pick: () => measure.wait_for_pick(),
-    nearer: () => view.scale(1.5),
-    farther: () => view.scale(1 / 1.5),
+    nearer: () => view().scale(1.5),
+    farther: () => view().scale(1 / 1.5),
     slice_before: () => slices.move(-1),
     slice_after: () => slices.move(1),
     help: () => help.open(),
@@ -276,20 +304,21 @@ shown.addEventListener("change", async () => {
     if (answer.is_done) pattern.time.clear();
 });
 
-// A stroke: discs of the given value, else of the highest one, or with Shift of the lowest.
-let stroke = Promise.resolve();
-async function paint(event: PointerEvent, is_first: boolean) {
+const stroke = new Stroke((fields) => ask("paint", fields));
+function paint(event: PointerEvent, is_first: boolean) {
     const place = pattern.place(event);
-    if (measure.takes(event, place, is_first) || !brush_choice.value || !place) return;
-    const at = [place.x, place.y, ...(place.z === undefined ? [] : [place.z])].map((part) => part.toFixed(6)).join(", ");
+    if (measure.takes(event, place, is_first) || !brush_choice.value || !place || !pattern.snapshot) return;
+    const item = brush_choice.value, value = element<HTMLInputElement>("amount").value || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
     // As large on the screen at every zoom, but never so small that it misses all cells.
-    const radius = Math.max(0.03 / view.zoom, (place.z === undefined ? 0.71 : 0.87) / pattern.longest).toFixed(6);
-    const item = brush_choice.value, given = element<HTMLInputElement>("amount").value;
-    const value = given || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
-    await ask("paint", { item, expression: `if(disc(${at}, ${radius}) > 0, ${value}, ${item})`, joins_last: !is_first });
+    const { is_model } = pattern.snapshot, reach = 0.03 / view().zoom, spacing = is_model ? solid.surface!.spacing : 1 / pattern.longest;
+    stroke.go_on({ item, value, place, is_model, radius: Math.max(reach, (place.z === undefined || is_model ? 0.71 : 0.87) * spacing) }, is_first);
 }
-const view = new PlaneView(pattern.canvas, () => pattern.columns, (event, is_first) => (stroke = stroke.then(() => paint(event, is_first))));
-view.moved = () => {
+const plane = new PlaneView(pattern.canvas, () => pattern.columns);
+const view = () => pattern.is_solid ? solid : plane;
+plane.moved = () => {
     pattern.redraw();
     show_marks();
 };
+solid.moved = show_marks;
+new Gestures(pattern.canvas, plane, paint);
+new Gestures(solid.canvas, solid, paint);

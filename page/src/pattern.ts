@@ -1,21 +1,21 @@
 // The pattern on a canvas of one pixel a cell: by WebGL2, or by the processor where that is missing.
+import { colours } from "./colours";
 import type { Palette, Snapshot } from "./connection";
 import type { Look } from "./look";
+import type { SolidView } from "./solid_view";
 import { TimeRows, is_row } from "./time_rows";
 
 const vertex = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }`;
 
-/// Colours have the arithmetic of core/palette.cpp and picture/paint.cpp, light that of render/tracer.cpp without shadows.
+/// Light is that of render/tracer.cpp without shadows.
 const fragment = `#version 300 es
 precision highp float;
 precision highp sampler2D;
 uniform sampler2D red, green, blue;
-uniform vec3 stops[64];
-uniform int last;
-uniform float low, high, rows, scale, every, at, relief;
-uniform bool is_colour, has_line;
+uniform float low, high, rows, scale, relief;
 out vec4 colour;
+${colours}
 /// Between the middles of cells.
 float value_at(vec2 place) {
   ivec2 end = textureSize(red, 0) - 1;
@@ -23,12 +23,6 @@ float value_at(vec2 place) {
   ivec2 one = ivec2(from), other = min(one + 1, end);
   return mix(mix(texelFetch(red, one, 0).r, texelFetch(red, ivec2(other.x, one.y), 0).r, part.x),
     mix(texelFetch(red, ivec2(one.x, other.y), 0).r, texelFetch(red, other, 0).r, part.x), part.y);
-}
-float position_of(float value) { return high == low ? 0.5 : clamp((value - low) / (high - low), 0.0, 1.0); }
-vec3 colour_of(float value) {
-  float along = position_of(value) * float(last);
-  int left = min(int(along), last - 1);
-  return mix(stops[left], stops[left + 1], along - float(left));
 }
 float height_at(vec2 place) { return 12.0 * relief * position_of(value_at(place)); }
 vec3 lit(vec3 seen, vec2 place) {
@@ -41,8 +35,6 @@ vec3 lit(vec3 seen, vec2 place) {
   float gleam = 0.06 * pow(max(0.0, dot(normal, normalize(sun + vec3(0, 0, 1)))), 40.0);
   return pow(pow(seen, vec3(2.2)) * light + gleam, vec3(1.0 / 2.2));
 }
-/// How much of a pixel a contour line covers that is so many values away.
-float line(float away, float change) { return change > 0.0 ? clamp(1.0 - away / change, 0.0, 1.0) : 0.0; }
 void main() {
   vec2 place = vec2(gl_FragCoord.x, rows * scale - gl_FragCoord.y) / scale;
   ivec2 cell = ivec2(place);
@@ -52,10 +44,7 @@ void main() {
   if (is_colour) { colour = vec4(clamp(value, 0.0, 1.0), 1); return; }
   vec3 seen = colour_of(value.r);
   if (relief > 0.0) seen = lit(seen, place);
-  float covered = 0.0;
-  if (every > 0.0 && change < every) covered = line(abs(fract(smooth_value / every + 0.5) - 0.5) * every, change);
-  if (has_line) covered = max(covered, line(abs(smooth_value - at), change));
-  colour = vec4(mix(seen, vec3(dot(colour_of(smooth_value), vec3(0.3, 0.6, 0.1)) < 0.4 ? 1 : 0), 0.8 * covered), 1);
+  colour = vec4(mix(seen, vec3(line_level(smooth_value)), line_part(smooth_value, change)), 1);
 }`;
 
 /// Where a pointer is: coordinates as scripts have them, z in a volume, and the index of the cell in the planes of
@@ -143,21 +132,34 @@ export class Pattern {
     look: Look = { relief: 0 };
     columns = 1;  ///< Of what is drawn.
     rows = 1;
+    is_laid_flat = false;  ///< Is a surface of parameters shown as their plane?
     /// Is told what is drawn, with the range of its values.
     drawn: (shown: Snapshot) => void = () => {};
 
-    constructor(readonly canvas: HTMLCanvasElement, use_shader = true) {
+    constructor(readonly canvas: HTMLCanvasElement, readonly solid: SolidView, use_shader = true) {
         // Kept for whoever reads the picture after it was drawn.
         const gl = use_shader ? canvas.getContext("webgl2", { preserveDrawingBuffer: true, premultipliedAlpha: true }) : null;
         this.drawer = gl ? new ShaderDrawer(gl) : new ProcessorDrawer(canvas.getContext("2d")!);
     }
 
+    /// Is it drawn in space?
+    get is_solid() {
+        const { snapshot, solid } = this, { surface } = solid;
+        return !!snapshot && !!surface && solid.is_possible && surface.number === snapshot.surface && !(this.is_laid_flat && surface.places);
+    }
+
+    /// The canvas that is seen.
+    get seen() { return this.is_solid ? this.solid.canvas : this.canvas; }
+
     draw() {
-        const { canvas, snapshot, palette, look } = this;
+        const { canvas, snapshot, palette, look, solid } = this;
         if (!snapshot || !palette) return;
+        solid.canvas.hidden = !this.is_solid;
+        canvas.hidden = this.is_solid || snapshot.is_model;
         const values = is_row(snapshot) ? this.time.with(snapshot) : snapshot, { columns, rows } = values;
         this.drawn(values);
         const shown = { ...values, ...this.range_of(values) };
+        if (this.is_solid) return solid.draw(shown, palette, look);
         const scale = this.pixels_of_cell(columns, rows);
         canvas.style.imageRendering = scale > 1 ? "auto" : "";
         if (canvas.width !== columns * scale || canvas.height !== rows * scale) {
@@ -196,7 +198,7 @@ export class Pattern {
     /// Where a pointer is on the pattern; nothing beside it.
     place(event: { clientX: number; clientY: number }): Place | undefined {
         const { canvas, snapshot, longest, columns: width, rows: height } = this, box = canvas.getBoundingClientRect();
-        if (!snapshot) return undefined;
+        if (!snapshot || snapshot.is_model || this.is_solid) return this.is_solid ? this.solid.place(event) : undefined;
         const { slice, columns } = snapshot;
         const right = (event.clientX - box.left) / box.width * width, down = (event.clientY - box.top) / box.height * height;
         if (!(right >= 0 && right < width && down >= 0 && down < height)) return undefined;
@@ -220,7 +222,7 @@ export class Pattern {
     /// Where a cell of the grid is on the page; nothing if it is not seen.
     box_of_cell(cell: number): DOMRect | undefined {
         const { canvas, snapshot, columns } = this;
-        if (!snapshot) return undefined;
+        if (!snapshot || snapshot.is_model || this.is_solid) return this.is_solid ? this.solid.box_of_cell(cell) : undefined;
         const { slice } = snapshot, [i, j, k] = this.place_of(cell);
         if (slice && [i, j, k]["xyz".indexOf(slice.axis)] !== slice.number) return undefined;
         const [column, row] = !slice || slice.axis === "z" ? [i, j] : slice.axis === "y" ? [i, k] : [k, j];
@@ -238,7 +240,7 @@ export class Pattern {
 
     /// A cell of the grid in words.
     name_of(cell: number) {
-        const { slice, rows } = this.snapshot!;
-        return `cell ${this.place_of(cell).slice(0, slice ? 3 : rows === 1 ? 1 : 2).join(", ")}`;
+        const { slice, rows, is_model } = this.snapshot!;
+        return is_model ? `cell ${cell}` : `cell ${this.place_of(cell).slice(0, slice ? 3 : rows === 1 ? 1 : 2).join(", ")}`;
     }
 }

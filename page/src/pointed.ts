@@ -7,8 +7,10 @@ export class Pointed {
     private last?: PointerEvent;
 
     constructor(private readonly pattern: Pattern) {
-        pattern.canvas.addEventListener("pointermove", (event) => this.point(event));
-        pattern.canvas.addEventListener("pointerleave", () => this.point());
+        for (const canvas of [pattern.canvas, pattern.solid.canvas]) {
+            canvas.addEventListener("pointermove", (event) => this.point(event));
+            canvas.addEventListener("pointerleave", () => this.point());
+        }
     }
 
     private point(event?: PointerEvent) {

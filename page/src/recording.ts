@@ -18,7 +18,9 @@ export class Recording {
     private frames?: Promise<ZippedFile | undefined>[];
 
     /// `changed` is told whether a movie and whether frames are being recorded.
-    constructor(private readonly canvas: HTMLCanvasElement, private readonly name: () => string, private readonly changed: (is_movie: boolean, are_frames: boolean) => void) {}
+    constructor(private readonly seen: () => HTMLCanvasElement, private readonly name: () => string, private readonly changed: (is_movie: boolean, are_frames: boolean) => void) {}
+
+    private get canvas() { return this.seen(); }
 
     toggle_movie() {
         if (this.movie) this.movie.recorder.stop();

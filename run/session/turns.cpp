@@ -131,6 +131,15 @@ Canvas Turns::canvas() {
     return painter_->canvas(run_->simulation());
 }
 
+/// A surface that stays the same keeps its number, through changes of numbers and texts.
+void Turns::look_at_surface() {
+    if (std::exchange(looked_at_, script_number_) == script_number_) return;
+    auto source = SurfaceSource::of(*run_->script().program, run_->simulation().model());
+    if (source && surface_ && source->is_same_as(*surface_)) return;
+    surface_ = source ? std::make_shared<const SurfaceSource>(std::move(*source)) : nullptr;
+    ++surface_number_;
+}
+
 std::shared_ptr<const Snapshot> Turns::snapshot() {
     const Clock::time_point begun = Clock::now();
     auto made = std::make_shared<Snapshot>();
@@ -158,6 +167,9 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     made->grid = run_->simulation().grid();
     made->slice = slice_;
     made->model = run_->simulation().model();
+    look_at_surface();
+    made->surface = surface_;
+    made->surface_number = surface_ ? surface_number_ : 0;
     has_changed_ = false;
     shown_at_ = Clock::now();
     snapshot_cost_ = seconds_since(begun);

@@ -4,6 +4,7 @@
 
 #include "core/run_control.h"
 #include "run/pictures/painter.h"
+#include "run/pictures/shown_surface.h"
 #include "run/session/live_run.h"
 
 #include <chrono>
@@ -59,9 +60,11 @@ struct Snapshot {
     /// What is shown, in binary32: one field, or red, green and blue; a slice of a volume. Outside
     /// of a mask it is NaN. The cells of a model are in their rows (ModelCells::order).
     std::vector<Field> fields;
-    Grid grid;                                ///< Of the domain.
-    Slice slice;                              ///< The one that is shown of a volume.
-    std::shared_ptr<const ModelCells> model;  ///< Null on grids.
+    Grid grid;                                     ///< Of the domain.
+    Slice slice;                                   ///< The one that is shown of a volume.
+    std::shared_ptr<const ModelCells> model;       ///< Null on grids.
+    std::shared_ptr<const SurfaceSource> surface;  ///< Null if the domain is none.
+    std::uint64_t surface_number = 0;              ///< Another one for another surface; 0 for none.
 };
 
 /// One thread at a time; only `control().cancel` may be set from any.
@@ -95,6 +98,7 @@ private:
     std::int64_t steps_of_turn() const;
     void remark(const std::string& words);
     Canvas canvas();
+    void look_at_surface();
 
     std::unique_ptr<LiveRun> run_;
     RunControl control_;
@@ -107,6 +111,9 @@ private:
     std::string shown_;  ///< The expression that is asked for.
     Slice slice_;
     std::optional<Painter> painter_;
+    std::shared_ptr<const SurfaceSource> surface_;
+    std::uint64_t surface_number_ = 0;
+    std::uint64_t looked_at_ = 0;  ///< The script whose surface it is.
     const Script* painted_script_ = nullptr;
     std::uint64_t snapshots_ = 0;
     Clock::time_point shown_at_;

@@ -136,6 +136,42 @@ TEST(PageAnswer, SnapshotsAreAHeaderAndPlanes) {
     EXPECT_FALSE(header.contains("slice"));
 }
 
+TEST(PageAnswer, SurfacesAreAHeaderAndArrays) {
+    ShownSurface surface;
+    surface.up = Axis::z;
+    surface.positions = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    surface.normals = {{0, 0, 1}, {0, 0, 1}, {0, 1, 0}};
+    surface.places = {{0, 0}, {0.5F, 0}, {0, 0.25F}};
+    surface.triangles = {{0, 1, 2}};
+    surface.ends = {1, 2, 4};
+    surface.shares = {{7, 1}, {8, 1}, {7, 0.25F}, {9, 0.75F}};
+    const std::string bytes = print_surface(surface, 12);
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    ASSERT_EQ(size % 4, 0U);
+    const Json header = Json::parse(bytes.substr(sizeof size, size));
+    EXPECT_EQ(header, Json({{"kind", "surface"},
+                            {"number", 12},
+                            {"up", "z"},
+                            {"spacing", 0.0},
+                            {"vertices", 3},
+                            {"places", 3},
+                            {"triangles", 1},
+                            {"shares", 4}}));
+    ASSERT_EQ(bytes.size(), sizeof size + size + 4 * (9 + 9 + 6 + 3 + 3 + 8));
+    const char* const numbers = bytes.data() + sizeof size + size;
+    float y = 0, weight = 0;
+    std::uint32_t end = 0, cell = 0;
+    std::memcpy(&y, numbers + 4 * 4, 4);
+    std::memcpy(&end, numbers + 4 * (9 + 9 + 6 + 3 + 2), 4);
+    std::memcpy(&cell, numbers + 4 * (30 + 6), 4);
+    std::memcpy(&weight, numbers + 4 * (30 + 7), 4);
+    EXPECT_EQ(y, 5);
+    EXPECT_EQ(end, 4U);
+    EXPECT_EQ(cell, 9U);
+    EXPECT_EQ(weight, 0.75F);
+}
+
 TEST(PageAnswer, SnapshotsOfVolumesNameTheirSlice) {
     RunControl control;
     const std::string ball =

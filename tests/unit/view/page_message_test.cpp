@@ -44,6 +44,9 @@ TEST(PageMessage, Commands) {
     EXPECT_EQ(parse_command<Show>(R"({"do": "show", "expression": ""})").expression, "");
     EXPECT_EQ(parse_command<ShowSlice>(R"({"do": "slice", "axis": "x", "place": 0.25})").slice,
               (Slice{Axis::x, 0.25}));
+    const auto surface = parse_page_message(R"({"do": "surface"})");
+    ASSERT_TRUE(surface.has_value());
+    EXPECT_TRUE(std::holds_alternative<AskForSurface>(surface->request));
     const auto next = parse_page_message(R"({"do": "next_snapshot", "id": 7})");
     ASSERT_TRUE(next.has_value());
     EXPECT_EQ(next->id, 7U);

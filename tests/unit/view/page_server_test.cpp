@@ -57,6 +57,11 @@ protected:
     /// The header of the next snapshot, for which it asks.
     Json look(RawClient& client) {
         say(client, R"({"do": "next_snapshot"})");
+        return header(client);
+    }
+
+    /// That of the next binary frame.
+    Json header(RawClient& client) {
         RawClient::Frame frame;
         do {
             frame = client.read_frame();
@@ -109,6 +114,25 @@ TEST_F(PageServerTest, PagesSeeAndSteerOneSession) {
 
     say(first, R"({"id": 5, "do": "log"})");
     EXPECT_THAT(hear(first, "log")["text"].get<std::string>(), HasSubstr("\nset ka=0.01\n"));
+}
+
+TEST_F(PageServerTest, SendsTheSurfaceOfAModel) {
+    RawClient page(server_->port());
+    open(page);
+    EXPECT_EQ(look(page)["surface"], 0);
+    const std::string text = "domain { surface: sphere; cells: 200 }\\nstage one: turing_spots { }";
+    say(page, R"({"id": 1, "do": "text", "text": ")" + text + "\"}");
+    EXPECT_EQ(hear(page, "answer")["is_done"], true);
+    Json seen = look(page);
+    while (seen["surface"] == 0) seen = look(page);
+    EXPECT_EQ(seen["is_model"], true);
+    for (int k = 0; k < 2; ++k) {
+        say(page, R"({"do": "surface"})");
+        const Json surface = header(page);
+        EXPECT_EQ(surface["kind"], "surface");
+        EXPECT_EQ(surface["number"], seen["surface"]);
+        EXPECT_GT(surface["vertices"], 200);
+    }
 }
 
 TEST_F(PageServerTest, AnswersWhatIsWrong) {

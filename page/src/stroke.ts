@@ -1,0 +1,35 @@
+// Strokes as the engine wants them: expressions. Places that come while it is busy are painted together.
+import type { Answer } from "./connection";
+import type { Place } from "./pattern";
+
+const most_places = 50;  ///< Of one expression.
+
+/// A dab of the brush. On a model its radius is measured along the surface.
+export interface Dab { item: string; value: string; place: Place; radius: number; is_model: boolean }
+
+export class Stroke {
+    private waiting: { dab: Dab; is_first: boolean }[] = [];
+    private is_painting = false;
+
+    constructor(private readonly ask: (fields: Record<string, unknown>) => Promise<Answer>) {}
+
+    /// `is_first`: a new stroke begins, which is undone by itself.
+    go_on(dab: Dab, is_first: boolean) {
+        this.waiting.push({ dab, is_first });
+        if (!this.is_painting) void this.paint();
+    }
+
+    private async paint() {
+        this.is_painting = true;
+        while (this.waiting.length > 0) {
+            const [{ dab: { item, value, is_model, radius }, is_first }] = this.waiting;
+            const end = this.waiting.findIndex(({ dab, is_first }, k) => k > 0 && (is_first || dab.value !== value || dab.radius !== radius));
+            const places = this.waiting.splice(0, Math.min(end < 0 ? Infinity : end, most_places)).map(({ dab: { place: { x, y, z } } }) =>
+                [x, y, ...(z === undefined ? [] : [z])].map((part) => part.toFixed(6)).join(", "));
+            const size = radius.toFixed(6);
+            const is_near = is_model ? `distance(${places.join(", ")}) < ${size}` : `${places.map((at) => `disc(${at}, ${size})`).join(" + ")} > 0`;
+            await this.ask({ item, expression: `if(${is_near}, ${value}, ${item})`, joins_last: !is_first });
+        }
+        this.is_painting = false;
+    }
+}

@@ -1,0 +1,32 @@
+// A surface of two parameters as a mesh, and the cells around a place on it.
+#pragma once
+
+#include "render/triangle_mesh.h"
+#include "surface/parameter_surface.h"
+
+#include <cstdint>
+
+namespace cascade {
+
+/// Quadrilaterals along the two parameters, and whether the first and last of them are neighbours.
+struct Lattice {
+    std::uint32_t columns = 1, rows = 1;
+    bool is_periodic_x = false, is_periodic_y = false;
+};
+
+/// A mesh of columns × rows quadrilaterals over the square of the parameters, with one position
+/// more along each side, row after row. Triangles 2k and 2k + 1 form quadrilateral k; their first
+/// corner is its upper left, their second corner is its upper right and its lower right,
+/// respectively. Normals are smooth across joined sides that coincide in space.
+TriangleMesh surface_lattice(const SurfaceFunction& surface, const Lattice& lattice);
+
+/// Two neighbours along an axis, and the relative position of a place between them.
+struct BetweenCells {
+    std::int64_t first = 0, second = 0;
+    float part = 0;
+
+    /// Of the place s, 0 … 1, among the centres of `side` cells.
+    BetweenCells(double s, std::int64_t side, bool is_periodic);
+};
+
+}  // namespace cascade
