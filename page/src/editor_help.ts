@@ -38,6 +38,12 @@ export function editor_help(engine: EngineHelp) {
         if (!is_asked) return null;
         const names = await engine.names(before);
         if (context.aborted) return null;
+        // What the text declares may be too new for the engine: it is not correct while it is being typed.
+        if (names.some(({ what }) => what === "function")) {
+            for (const [, name] of context.state.sliceDoc().matchAll(/(?:^|[;{])\s*([A-Za-z_]\w*)\s*['=:]/gm)) {
+                if (!names.some((known) => known.name === name)) names.push({ name, what: "parameter", note: "" });
+            }
+        }
         return {
             from: word.from, validFor: /^\w*$/,
             options: names.map(({ name, what, note }) => ({

@@ -75,7 +75,7 @@ export class Browser {
 
     /// Presses a key such as "a", " ", "Home".
     async press(key, modifiers = 0) {
-        const codes = { Tab: 9, Enter: 13, " ": 32, Home: 36, ArrowRight: 39, Escape: 27, z: 90, Z: 90, ".": 190 };
+        const codes = { Tab: 9, Enter: 13, " ": 32, Home: 36, ArrowLeft: 37, ArrowRight: 39, Escape: 27, z: 90, Z: 90, ".": 190 };
         const text = key.length === 1 && modifiers < 2 ? key : undefined;
         for (const type of ["keyDown", "keyUp"]) {
             await this.call("Input.dispatchKeyEvent", { type, key, text, modifiers, windowsVirtualKeyCode: codes[key] });

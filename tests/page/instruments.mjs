@@ -54,6 +54,12 @@ async function help_with_the_text() {
     await browser.press("Enter");
     await browser.until(`${in_editor(".cm-content")}.textContent.includes("leopard")`);
     await browser.press("Escape");
+    // Names that are being declared are no part of the run yet.
+    await type_script(text.replace("kill: 0.06", "kill: 0.06; freshness: 7").replace("u * v^2 + feed", "u * fresh"));
+    for (let k = 0; k < text.length - text.indexOf("+ feed") - "+ feed".length; ++k) await browser.press("ArrowLeft");
+    await browser.press(" ", 2);
+    await browser.until(`(${options})[0]?.startsWith("freshness")`);
+    await browser.press("Escape");
     await type_script(text);
     await until_text_is_read();
 
