@@ -80,14 +80,18 @@ const connection = new Connection({
         is_drawing = true;
         requestAnimationFrame(() => {
             is_drawing = false;
-            pattern.draw();
-            recording.take();
-            keep_pace(pattern.snapshot!);
-            slices.show(pattern.snapshot!);
-            void measure.look_at(pattern.snapshot!);
-            want_surface(pattern.snapshot!);
-            show_state(pattern.snapshot!);
-            connection.next_snapshot();
+            try {
+                pattern.draw();
+                recording.take();
+                keep_pace(pattern.snapshot!);
+                slices.show(pattern.snapshot!);
+                void measure.look_at(pattern.snapshot!);
+                want_surface(pattern.snapshot!);
+                show_state(pattern.snapshot!);
+            } finally {
+                // Whatever goes wrong with one, the next one is seen.
+                connection.next_snapshot();
+            }
         });
     },
     surface(surface) {

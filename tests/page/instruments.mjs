@@ -332,6 +332,18 @@ async function lose_the_connection() {
     await browser.until(`document.getElementById("messages").textContent === ""`);
     await click("restart");
     await until_steps("0");
+
+    // A drawing that fails is not the last one.
+    await browser.evaluate(`{
+        const draw = WebGL2RenderingContext.prototype.drawArrays;
+        window.mend = () => (WebGL2RenderingContext.prototype.drawArrays = draw);
+        WebGL2RenderingContext.prototype.drawArrays = () => { throw new Error("planned"); };
+    }`);
+    await click("step");
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    await browser.evaluate(`window.mend()`);
+    await click("step");
+    await until_steps("2");
 }
 
 async function first_visit() {
@@ -439,7 +451,7 @@ async function use() {
     await lose_the_connection();
     await save_files();
 
-    const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));
+    const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style") && !words.startsWith("Error: planned"));
     expect(complaints.length === 0, `the page complains: ${complaints.join("\n")}`);
 }
 
