@@ -28,6 +28,7 @@ export class Measure {
     private is_asking = false;
     private next_values = 0;
     private next_measures = 0;
+    private is_stale = false;
     private is_picking = false;  ///< The press that chooses a cell is still held.
 
     constructor(private readonly pattern: Pattern, private readonly ask: Ask) {
@@ -85,6 +86,8 @@ export class Measure {
 
     private refresh() {
         this.next_values = this.next_measures = 0;
+        // What is being asked may be about another cell.
+        this.is_stale = this.is_asking;
         if (this.pattern.snapshot) void this.look_at(this.pattern.snapshot);
     }
 
@@ -106,6 +109,7 @@ export class Measure {
             this.next_measures = Math.max(after(measures), performance.now() + milliseconds_between_measures);
         }
         this.is_asking = false;
+        if (this.is_stale) return this.refresh();
         // What was seen last counts when all is still.
         const now = this.pattern.snapshot;
         if (now && now !== snapshot && !now.is_going_on) void this.look_at(now);

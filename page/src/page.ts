@@ -82,12 +82,12 @@ const connection = new Connection({
             is_drawing = false;
             try {
                 pattern.draw();
-                recording.take();
                 keep_pace(pattern.snapshot!);
                 slices.show(pattern.snapshot!);
                 void measure.look_at(pattern.snapshot!);
                 want_surface(pattern.snapshot!);
                 show_state(pattern.snapshot!);
+                if (!pattern.is_solid) keep_what_is_seen();
             } finally {
                 // Whatever goes wrong with one, the next one is seen.
                 connection.next_snapshot();
@@ -106,6 +106,12 @@ const connection = new Connection({
 });
 
 const measure = new Measure(pattern, (what, fields) => connection.ask(what, fields));
+function keep_what_is_seen() {
+    if (!pattern.snapshot) return;
+    recording.take(pattern.snapshot.number);
+    strip.keep_picture(pattern.snapshot, pattern.seen);
+}
+solid.drawn = keep_what_is_seen;
 function show_marks() {
     pointed.show();
     measure.show_mark();
@@ -208,7 +214,6 @@ function choose_palette() {
 function show_state(snapshot: Snapshot) {
     const { stages } = snapshot;
     strip.show(snapshot);
-    strip.keep_picture(snapshot, pattern.seen);
     const is_going_on = snapshot.is_going_on || is_pacing;
     const rate = is_going_on && snapshot.steps_per_second > 0
         ? ` · ${compact.format(snapshot.steps_per_second)} steps/s` : "";

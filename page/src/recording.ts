@@ -16,6 +16,7 @@ function enlarged(from: HTMLCanvasElement, into: HTMLCanvasElement) {
 export class Recording {
     private movie?: { canvas: HTMLCanvasElement; recorder: MediaRecorder };
     private frames?: Promise<ZippedFile | undefined>[];
+    private last = 0;  ///< The number of the snapshot that became a frame last.
 
     /// `changed` is told whether a movie and whether frames are being recorded.
     constructor(private readonly seen: () => HTMLCanvasElement, private readonly name: () => string, private readonly changed: (is_movie: boolean, are_frames: boolean) => void) {}
@@ -48,17 +49,18 @@ export class Recording {
         const { frames } = this;
         this.frames = frames ? undefined : [];
         this.tell();
-        if (!frames) return this.take();
+        if (!frames) return;
         const files = (await Promise.all(frames)).filter((file) => file !== undefined);
         download(`${this.name()}_frames.zip`, zip(files));
     }
 
     private tell() { this.changed(this.movie !== undefined, this.frames !== undefined); }
 
-    /// After each drawing.
-    take() {
+    /// After each drawing of a snapshot. Of several drawings of one the first becomes a frame.
+    take(number: number) {
         if (this.movie) enlarged(this.canvas, this.movie.canvas);
-        if (!this.frames) return;
+        if (!this.frames || number === this.last) return;
+        this.last = number;
         const name = `${String(this.frames.length).padStart(5, "0")}.png`;
         this.frames.push(new Promise((resolve) => this.canvas.toBlob(async (blob) =>
             resolve(blob ? { name, bytes: new Uint8Array(await blob.arrayBuffer()) } : undefined))));

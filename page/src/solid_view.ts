@@ -15,6 +15,7 @@ export class SolidView implements View {
     readonly camera = new Camera();
     surface?: Surface;
     moved: () => void = () => {};  ///< Is called when it is seen from elsewhere.
+    drawn: () => void = () => {};  ///< Is called after each drawing, which comes with the next frame of the page.
     private drawer?: SolidDrawer;
     private shown?: { snapshot: Snapshot; palette: Palette; look: Look };
     private values: Float32Array = new Float32Array();  ///< Of the vertices.
@@ -210,6 +211,7 @@ export class SolidView implements View {
             if (this.has_moved) this.moved();
             this.has_moved = false;
             drawer.draw(camera, shown.snapshot, shown.palette, shown.look);
+            this.drawn();
             if (drawer.is_getting_better) this.redraw();
         });
     }

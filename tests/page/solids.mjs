@@ -86,6 +86,17 @@ async function steer() {
     await browser.until(`!${canvas}.hidden && ${canvas}.width === 800 && document.getElementById("run").disabled`);
     expect(await browser.evaluate(`document.getElementById("pattern").hidden`), "a model is shown as a plane");
     await until_like("model", "the model");
+    // The strip shows what is seen, not the rows of cells, and a cell is measured where it is pressed.
+    const picture = await browser.evaluate(`(({ width, height, hidden }) => [width, height, hidden])(document.querySelector("#stages canvas"))`);
+    expect(Math.min(...picture.slice(0, 2)) > 10 && !picture[2], `the picture of the stage is ${picture}`);
+    await browser.evaluate(`document.getElementById("measure").open = true, document.getElementById("pick").click()`);
+    await browser.drag(400, 300, 400, 300);
+    const probed = `document.querySelector("#probe figcaption").textContent`;
+    await browser.until(`/^cell \\d+: \\w/.test(${probed}) && !document.querySelector(".mark.probe").hidden`);
+    const measured = await cell_at(400, 300);
+    expect((await browser.evaluate(probed)).startsWith(`cell ${measured.cell}: `), `the cell ${measured.cell} is measured as ${await browser.evaluate(probed)}`);
+    await browser.until(`${probed}.includes("${measured.value}")`);
+    await browser.evaluate(`document.getElementById("measure").open = false`);
     for (let k = 0; k < 5; ++k) await browser.press("ArrowRight");
     await browser.press("ArrowUp");
     await until_like("turned", "the turned model");
