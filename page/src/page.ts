@@ -9,6 +9,7 @@ import { Library } from "./library";
 import { Gestures } from "./gestures";
 import { LookControls } from "./look";
 import { Measure } from "./measure";
+import { Pace } from "./pace";
 import { Pattern } from "./pattern";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
@@ -19,7 +20,6 @@ import { show_sliders } from "./sliders";
 import { Stages } from "./stages";
 import { SolidView } from "./solid_view";
 import { Stroke } from "./stroke";
-import { is_row, rows_of_time } from "./time_rows";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
@@ -42,8 +42,6 @@ let is_text_open = false;  ///< The editor holds a text that the session does no
 let is_drawing = false;
 let was_opened = false;
 let is_to_start = false;  ///< With the next snapshot that shows a start.
-let is_pacing = false;  ///< The page itself asks for the steps from one row of time to the next.
-let paced = "";          ///< The moment from which it has asked for steps.
 let noticed_until = 0;
 
 const connection = new Connection({
@@ -62,6 +60,8 @@ const connection = new Connection({
     },
     script: show_script,
     snapshot(snapshot) {
+        pace.see(snapshot);
+        if (pace.is_between_rows) return connection.next_snapshot();
         pattern.snapshot = snapshot;
         const is_start = snapshot.stage === 1 && snapshot.steps === 0;
         // A session that nothing was done in yet starts when its page opens, or when a script is chosen.
@@ -82,7 +82,6 @@ const connection = new Connection({
             is_drawing = false;
             try {
                 pattern.draw();
-                keep_pace(pattern.snapshot!);
                 slices.show(pattern.snapshot!);
                 void measure.look_at(pattern.snapshot!);
                 want_surface(pattern.snapshot!);
@@ -139,7 +138,7 @@ const slices = new Slices((fields) => ask("slice", fields));
 
 const library = new Library(async (text) => {
     is_text_open = false;
-    await ask("pause");
+    await pace.stop();
     const answer = await ask("text", { text });
     if (!answer.is_done) return;
     // What has the same name in the script before would keep its values.
@@ -153,7 +152,9 @@ const engine_help = {
 };
 const editor = new Editor(element("editor"), engine_help, () => (element("text").ariaBusy = "true"), async (text) => {
     is_text_open = true;
-    const answer = await connection.ask("text", { text });
+    const asked = connection.ask("text", { text });
+    void pace.send(asked);
+    const answer = await asked;
     if (text !== editor.text) return;
     element("text").ariaBusy = "false";
     is_text_open = !answer.is_done;
@@ -189,6 +190,14 @@ async function ask<Reply = object>(what: string, fields: Record<string, unknown>
     return answer;
 }
 
+const pace = new Pace(ask);
+/// Numbers and strokes: what has ended goes on after them.
+async function change(what: string, fields: Record<string, unknown>) {
+    const answer = await ask(what, fields);
+    if (answer.is_done) pace.touch();
+    return answer;
+}
+
 function show_script(script: Script) {
     document.title = `${script.name} · Cascade`;
     element("name").textContent = script.name.split("/").pop()!;
@@ -197,7 +206,7 @@ function show_script(script: Script) {
         element("text").ariaBusy = "false";
         show_messages(script.messages);
     }
-    show_sliders(script.controls, ask);
+    show_sliders(script.controls, change);
     measure.species = script.species;
     if ([...brush_choice.options].map((o) => o.value).join() !== script.species.join()) {
         brush_choice.replaceChildren(...script.species.map((name) => new Option(name)));
@@ -214,14 +223,14 @@ function choose_palette() {
 function show_state(snapshot: Snapshot) {
     const { stages } = snapshot;
     strip.show(snapshot);
-    const is_going_on = snapshot.is_going_on || is_pacing;
-    const rate = is_going_on && snapshot.steps_per_second > 0
-        ? ` · ${compact.format(snapshot.steps_per_second)} steps/s` : "";
+    const { is_going_on, steps_per_second } = pace;
+    const rate = is_going_on && steps_per_second > 0 ? ` · ${compact.format(steps_per_second)} steps/s` : "";
     element("place").textContent = `step ${snapshot.steps.toLocaleString("en")}${rate}`;
     button("run").toggleAttribute("data-going", is_going_on);
     button("run").ariaLabel = is_going_on ? "Pause" : "Run";
     const is_over = stages.every((stage) => stage.has_ended);
-    button("run").disabled = button("step").disabled = is_over && !is_going_on;
+    button("run").disabled = !pace.is_possible;
+    button("step").disabled = is_over && !is_going_on;
     button("next").disabled = snapshot.stage === stages.length;
     button("undo").disabled = !snapshot.can_undo;
     button("redo").disabled = !snapshot.can_redo;
@@ -229,18 +238,8 @@ function show_state(snapshot: Snapshot) {
     if (is_over && snapshot.remarks.length > 0) notice(snapshot.remarks.at(-1)!);
 }
 
-/// Rows of time are the same number of steps apart, chosen so that a stage fills the picture.
-function keep_pace(snapshot: Snapshot) {
-    is_pacing &&= is_row(snapshot) && !snapshot.failure && !snapshot.stages.every((stage) => stage.has_ended);
-    const moment = `${snapshot.stage} ${snapshot.steps}`;
-    if (!is_pacing || snapshot.is_going_on || moment === paced) return;
-    paced = moment;
-    const { iterations } = snapshot.stages[snapshot.stage - 1];
-    void ask("step", { count: Math.max(1, Math.ceil(iterations / (rows_of_time(snapshot) - 1))) });
-}
-
 function go_back(what: "undo" | "redo") {
-    is_pacing = false;
+    pace.forget();
     is_text_open = false;
     void ask(what);
 }
@@ -250,13 +249,7 @@ const save = (ending: string, text: string) => download(`${name_of_file()}.${end
 
 const actions: Record<string, () => void> = {
     run: () => {
-        const { snapshot } = pattern;
-        if (!snapshot) return;
-        const was_going_on = snapshot.is_going_on || is_pacing;
-        is_pacing = !was_going_on && is_row(snapshot);
-        paced = "";
-        if (is_pacing) keep_pace(snapshot);
-        else void ask(was_going_on ? "pause" : "run");
+        void (pace.is_going_on ? pace.stop() : pace.start());
     },
     step: () => void ask("step", { count: 1 }),
     restart: () => void ask("restart"),
@@ -313,7 +306,7 @@ shown.addEventListener("change", async () => {
     if (answer.is_done) pattern.time.clear();
 });
 
-const stroke = new Stroke((fields) => ask("paint", fields));
+const stroke = new Stroke((fields) => change("paint", fields));
 function paint(event: PointerEvent, is_first: boolean) {
     const place = pattern.place(event);
     if (measure.takes(event, place, is_first) || !brush_choice.value || !place || !pattern.snapshot) return;

@@ -147,7 +147,7 @@ async function look_closely() {
     await click("restart");
     await until_steps("0");
     await click("run");
-    await browser.until(`document.getElementById("run").disabled`);
+    await browser.until(`document.getElementById("step").disabled`);
     await choose("palette", "viridis");
     await choose("every", "0.05");
     await choose("relief", "0.6", "input");
@@ -200,7 +200,7 @@ async function measure() {
     const moments = `Number(document.getElementById("whole").dataset.moments)`;
     const first = await browser.evaluate(moments);
     await click("run");
-    await browser.until(`document.getElementById("run").disabled && ${moments} > ${first}`);
+    await browser.until(`document.getElementById("step").disabled && ${moments} > ${first}`);
     await browser.until(`${caption("spectrum")}.includes("wavelength")`);
     await browser.until(`document.querySelectorAll("#measure .uplot canvas").length === 4`);
     await browser.until(`document.querySelector("#phase canvas").width === 48`);
@@ -225,7 +225,7 @@ async function see_the_stages() {
     const pictures = `[...document.querySelectorAll("#stages canvas")].map(({ hidden }) => hidden).join()`;
     await browser.until(`${pictures} === "false,true"`);
     await click("run");
-    await browser.until(`document.getElementById("run").disabled && ${pictures} === "false,false"`);
+    await browser.until(`document.getElementById("step").disabled && ${pictures} === "false,false"`);
     // As wide as the grid, in its colours: not of one colour.
     const seen = await browser.evaluate(`(({ width, height, colours }) => [width, height, colours])((() => {
         const canvas = document.querySelectorAll("#stages canvas")[1], { width, height } = canvas;
@@ -321,7 +321,7 @@ async function lose_the_connection() {
     const strokes = await browser.evaluate(`window.strokes.size`);
     expect(strokes >= 2 && seen.join() === `${strokes},1,1,1`, `${seen} strokes, numbers and texts in ${log}`);
     await click("run");
-    await browser.until(`document.getElementById("run").disabled`);
+    await browser.until(`document.getElementById("step").disabled`);
 
     // Whatever is typed, the page and the run go on.
     for (const wrong of ["\ud800 stage", "stage", "}{", '"', "\u0000", "a".repeat(1 << 20), "system s { u: u' = ", "domain { grid: 99999999, 99999999 }", "((((".repeat(9999)]) {
@@ -419,7 +419,7 @@ async function save_files() {
         await new Promise((resolve) => setTimeout(resolve, 60));
     }
     await click("run");
-    await browser.until(`document.getElementById("run").disabled`);
+    await browser.until(`document.getElementById("step").disabled`);
     const movie = await file("spots.webm", "movie");
     expect(movie.readUInt32BE() === 0x1a45dfa3 && movie.length > 2000, `a movie of ${movie.length} bytes is no WebM`);
     const track = movie.indexOf(Buffer.from([0xb0, 0x82])), [width, height] = [movie.readUInt16BE(track + 2), movie.indexOf(Buffer.from([0xba, 0x82, 640 >> 8, 640 & 255]))];

@@ -28,7 +28,20 @@ function expect(condition, message) { if (!condition) throw new Error(message); 
 const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
 const steps = () => browser.evaluate(`Number(document.getElementById("place").textContent.match(/[\\d,]+/)[0].replaceAll(",", ""))`);
 const until_steps = (count) => browser.until(`document.getElementById("place").textContent.startsWith("step ${count}")`);
-const is_over = `document.querySelectorAll("#stages progress").length === 2 && document.getElementById("run").disabled`;
+const is_over = `document.querySelectorAll("#stages progress").length === 2 && document.getElementById("step").disabled`;
+
+const is_growing = `document.getElementById("run").ariaLabel === "Pause"`;
+
+/// From the start of the first stage.
+async function grow() {
+    // What has ended goes on with a new text.
+    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 200))");
+    await browser.evaluate(`${is_growing} && document.getElementById("run").click()`);
+    await browser.until(`!(${is_growing})`);
+    await click("restart");
+    await until_steps("0");
+    await click("run");
+}
 
 /// The pixels of a canvas or an image, by an expression in the page.
 const pixels = (image) => browser.evaluate(`(async () => {
@@ -74,7 +87,7 @@ async function steer() {
     await browser.call("Page.navigate", { url: address });
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     expect(!(await browser.evaluate("location.href")).includes("token"), "the token stays in the address");
-    expect(await browser.evaluate(`document.getElementById("name").textContent`) === "spots.cascade", "the name is missing");
+    await browser.until(`document.getElementById("name").textContent === "spots.cascade"`);
     await choose_leopard();
 
     // Growth starts with the page, but not again with its reload.
@@ -116,6 +129,9 @@ async function steer() {
     await browser.until(`${value} === "0.04" && !document.getElementById("undo").disabled`);
     const sliders = await browser.evaluate(`document.querySelectorAll("#controls input").length`);
     expect(sliders === 2, `${sliders} sliders instead of 2`);
+    // What had ended goes on: as many steps again as all stages have.
+    await until_steps("2,500");
+    await browser.until(is_over);
 
     // Moves are undone one by one, however quickly they follow each other.
     await browser.until(`!("isBusy" in document.querySelector("#controls input").dataset)`);
@@ -130,12 +146,12 @@ async function steer() {
     }
 
     // A wrong text: its place and message; the run stays as it is.
-    const text = readFileSync("spots.cascade", "utf8");
+    const text = readFileSync("spots.cascade", "utf8"), reached_before = await steps();
     await type_script(text.replace("- u * v^2 +", "- u * w^2 +"));
     await browser.until(`document.getElementById("messages").textContent.includes("line 8:")`);
-    expect(await steps() === 500, "a wrong text has changed the run");
+    expect(await steps() === reached_before, "a wrong text has changed the run");
     await type_script(text.replace("iterations: 500", "iterations: 600"));
-    await browser.until(`document.getElementById("messages").textContent === "" && !document.getElementById("run").disabled`);
+    await browser.until(`document.getElementById("messages").textContent === ""`);
 
     // Without sliders the pattern does not move into their place.
     await type_script(text.replace("in 0.01 .. 0.08 step 0.001", "").replace("iterations: 500", "iterations: 600"));
@@ -207,17 +223,13 @@ async function steer() {
 
     // Values that are not finite stop the run, which says so and goes on once the text is mended.
     await type_script(text.replace("0.16 * lap(u)", "16 * lap(u)"));
-    await click("restart");
-    await until_steps("0");
-    await click("run");
+    await grow();
     await browser.until(`document.getElementById("failure").textContent.includes("finite")`);
 
     // Colours, in a domain of another shape and size.
     await type_script(readFileSync("colours.cascade", "utf8"));
     await browser.until(`document.querySelectorAll("#stages li").length === 1`);
-    await click("restart");
-    await until_steps("0");
-    await click("run");
+    await grow();
     await until_steps("800");
     await expect_the_picture("the canvas of colours", "colours");
     await type_script(text);
@@ -225,10 +237,8 @@ async function steer() {
 
     // The button pauses what grows. The next stage starts here, and the log says so.
     await type_script(text.replace("iterations: 1500", "iterations: 100000000"));
-    await click("restart");
-    await until_steps("0");
-    await click("run");
-    await browser.until(`document.getElementById("run").ariaLabel === "Pause" && !document.getElementById("place").textContent.startsWith("step 0")`);
+    await grow();
+    await browser.until(`${is_growing} && !document.getElementById("place").textContent.startsWith("step 0")`);
     await click("run");
     await browser.until(`document.getElementById("run").ariaLabel === "Run"`);
     const reached = await steps();
@@ -246,9 +256,7 @@ async function steer() {
 
     // Time runs downwards over a grid of one row, as in the picture of `--space-time`.
     await type_script(readFileSync("line.cascade", "utf8"));
-    await click("restart");
-    await until_steps("0");
-    await click("run");
+    await grow();
     await until_picture("the canvas of a row", "line");
     writeFileSync("line_page.png", await browser.screenshot());
     await type_script(text);
@@ -256,9 +264,7 @@ async function steer() {
 
     // A volume: every slice that is asked for, and a ball that is painted into one of them.
     await type_script(readFileSync("volume.cascade", "utf8"));
-    await click("restart");
-    await until_steps("0");
-    await click("run");
+    await grow();
     await until_steps("10");
     await until_picture("the middle slice", "z");
     const choose_slice = (axis, number) => browser.evaluate(`{
@@ -279,6 +285,8 @@ async function steer() {
     await browser.until(`${place} === "8"`);
     await until_picture("the slice before the next one", "y");
     writeFileSync("volume_page.png", await browser.screenshot());
+    await click("restart");
+    await until_steps("0");
     before = await canvas();
     const [slice_x, slice_y, slice_wide, slice_high] = await box_of_pattern();
     const in_slice = [slice_x + 15.5 / 20 * slice_wide, slice_y + 9.5 / 12 * slice_high];
@@ -302,9 +310,7 @@ async function steer() {
     await browser.until(`document.querySelector("#controls input") !== null`);
     await browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "0.037"; input.dispatchEvent(new Event("input")); }`);
     await browser.until(`${value} === "0.037"`);
-    await click("restart");
-    await until_steps("0");
-    await click("run");
+    await grow();
     await browser.until(is_over);
     await expect_the_picture("the canvas without WebGL");
 
@@ -328,13 +334,36 @@ async function steer() {
         expect(found.length < 9 && found.includes(wanted), `a search for ${words} finds ${found}`);
     }
     await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("code").textContent === "gray_scott").click()`);
-    await browser.until(`document.getElementById("run").ariaLabel === "Pause" && !document.getElementById("place").textContent.startsWith("step 0")`);
+    await browser.until(`!document.getElementById("place").textContent.startsWith("step 0")`);
     const typed = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").textContent`;
     expect((await browser.evaluate(typed)).includes("Gray-Scott"), "the script of the chosen system is missing");
     // What was chosen before leaves no values to a system with species of the same names.
     await click("systems");
     await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("code").textContent === "kdv").click()`);
-    await browser.until(`document.getElementById("stages").textContent === "overtaking" && document.getElementById("place").textContent.includes("steps/s")`);
+    await browser.until(`document.getElementById("stages").textContent === "overtaking" && !document.getElementById("place").textContent.startsWith("step 0")`);
+
+    // As slowly as is asked for, on past the end, and again as fast as can be.
+    const set_speed = (power) => browser.evaluate(`{ const input = document.getElementById("speed"); input.value = "${power}"; input.dispatchEvent(new Event("input")); }`);
+    await set_speed(-1);
+    await type_script("domain { grid: 64, 64 }\nstage slow: turing_spots { iterations: 4000 }\n");
+    await grow();
+    await browser.until(`document.getElementById("place").textContent.endsWith("· 100 steps/s")`);
+    expect(await steps() < 2000, "it does not grow slowly");
+    await click("run");
+    await browser.until(`!(${is_growing})`);
+    const paused_at = await steps();
+    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 200))");
+    expect(await steps() === paused_at, "it grows while it is paused");
+    await click("run");
+    await set_speed(5);
+    await until_steps("4,000");
+    await browser.until(`!(${is_growing})`);
+    await click("run");
+    await until_steps("8,000");
+    // A stage that is typed after the end is run.
+    await type_script("domain { grid: 64, 64 }\nstage slow: turing_spots { iterations: 4000 }\nstage after: turing_spots { a: a; b: b; iterations: 300 }\n");
+    await browser.until(`document.querySelectorAll("#stages button")[1]?.hasAttribute("aria-current")`);
+    await until_steps("300");
 
     // Chromium's own editing wants to style what replaces a selection, which the policy forbids.
     const complaints = browser.heard.filter((words) => !words.startsWith("Applying inline style"));

@@ -83,7 +83,7 @@ async function open(question) {
 async function steer() {
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
     await open("");
-    await browser.until(`!${canvas}.hidden && ${canvas}.width === 800 && document.getElementById("run").disabled`);
+    await browser.until(`!${canvas}.hidden && ${canvas}.width === 800 && document.getElementById("step").disabled`);
     expect(await browser.evaluate(`document.getElementById("pattern").hidden`), "a model is shown as a plane");
     await until_like("model", "the model");
     // The strip shows what is seen, not the rows of cells, and a cell is measured where it is pressed.
@@ -119,8 +119,10 @@ async function steer() {
     expect((await cell_at(...there)).cell !== before.cell, "nothing has moved");
     await browser.press("0");
 
-    // A stroke changes the cells under it and no others, and one undo takes it back.
+    // A stroke changes the cells under it and no others, and one undo takes it back. After a reload it does not grow on.
     await until_like("model", "the model from the front again");
+    await open("");
+    await until_like("model", "the model after a reload");
     const far = [445, 530], old_far = await cell_at(...far), old = await cell_at(...there);
     await browser.evaluate(`document.getElementById("amount").value = "7"`);
     await browser.drag(there[0] - 40, there[1], there[0], there[1]);
