@@ -167,6 +167,11 @@ constexpr std::array<Verb, 22> verbs{{
          request.scale = static_cast<int>(fields.whole("scale", 1, largest_scale));
          if (fields.has("low")) request.range = {fields.number("low"), fields.number("high")};
          if (fields.has("axis")) request.slice = {fields.axis("axis"), fields.part("place")};
+         if (fields.has("around")) {
+             request.view.azimuth = static_cast<float>(fields.whole("around", -180, 180));
+             request.view.elevation = static_cast<float>(fields.whole("above", -89, 89));
+         }
+         request.flat = fields.flag("flat");
          return PageQuestion(AskForPicture{std::move(request)});
      }},
     {"measure",

@@ -279,7 +279,8 @@ const actions: Record<string, () => void> = {
         const { snapshot } = pattern, { low, high } = snapshot ? pattern.range_of(snapshot) : { low: 0, high: 1 };
         const is_held = look.look.low !== undefined || look.look.high !== undefined, { slice } = snapshot ?? {};
         const { png } = await ask<{ png?: string }>("picture", {
-            show: shown.value, palette: palette_choice.value, scale: Math.min(64, Math.max(1, Math.floor(960 / Math.max(pattern.columns, pattern.rows)))),
+            show: shown.value, palette: palette_choice.value, scale: pattern.is_solid ? 1 : Math.min(64, Math.max(1, Math.floor(960 / Math.max(pattern.columns, pattern.rows)))),
+            ...(pattern.is_solid ? solid.view : snapshot?.surface && !snapshot.is_model ? { flat: true } : {}),
             ...(is_held && { low, high }), ...(slice && { axis: slice.axis, place: (slice.number + 0.5) / slice.sides["xyz".indexOf(slice.axis)] }),
         });
         if (png) download(`${name_of_file()}.png`, new Blob([Uint8Array.from(atob(png), (sign) => sign.charCodeAt(0))], { type: "image/png" }));

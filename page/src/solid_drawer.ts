@@ -87,10 +87,13 @@ vec3 look() {
 void main() {
   vec3 light = look();
   if (isnan(seen.r)) discard;
-  vec3 normal = normalize(gl_FrontFacing ? toward : -toward), to_eye = normalize(eye - place);
+  vec3 to_eye = normalize(eye - place), outward = normalize(toward);
+  // At the rim a triangle may turn away though the surface does not yet.
+  bool is_outside = gl_FrontFacing || dot(outward, to_eye) > -0.08;
+  vec3 normal = is_outside ? outward : -outward;
   float gleam = 0.06 * pow(max(0.0, dot(normal, normalize(sun + to_eye))), 40.0);
   float bright = 0.72 * max(0.0, dot(normal, sun));
-  colour = vec4(stored_of(min(light * (bright * sun_light + 0.42 * (gl_FrontFacing ? sky_parts.x : sky_parts.y)) + gleam * sun_light, 1.0)), 1);
+  colour = vec4(stored_of(min(light * (bright * sun_light + 0.42 * (is_outside ? sky_parts.x : sky_parts.y)) + gleam * sun_light, 1.0)), 1);
 }`;
 
 const ground = `${shade}

@@ -56,6 +56,11 @@ export class SolidView implements View {
 
     /// Can this browser draw it?
     get is_possible() { return this.drawer !== undefined; }
+    /// The direction that it is seen from, in whole degrees, as pictures want it.
+    get view() {
+        const { azimuth, elevation } = this.camera;
+        return { around: Math.round(azimuth - 360 * Math.round(azimuth / 360)), above: Math.round(elevation) };
+    }
     get zoom() { return this.camera.zoom; }
 
     take(surface: Surface) {

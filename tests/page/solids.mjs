@@ -14,7 +14,9 @@ async function end(error) {
     clearTimeout(limit);
     if (error) {
         console.log(error.stack);
-        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
+        // A page that hangs draws no picture.
+        const later = new Promise((resolve) => setTimeout(() => resolve(""), 10000));
+        writeFileSync("failed.png", await Promise.race([browser.screenshot().catch(() => ""), later]));
         if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
     }
     browser.end();

@@ -79,6 +79,14 @@ TEST(PageMessage, Questions) {
         R"({"do": "picture", "show": "u", "palette": "grey", "scale": 4, "low": -1, "high": 2.5,)"
         R"( "axis": "y", "place": 0.25})");
     ASSERT_TRUE(picture.has_value());
+    const auto turned = parse_page_message(
+        R"({"do": "picture", "show": "", "palette": "grey", "scale": 1, "around": -40, "above": 7})");
+    ASSERT_TRUE(turned.has_value());
+    const View view = std::get<AskForPicture>(std::get<PageQuestion>(turned->request)).request.view;
+    EXPECT_EQ(view.azimuth, -40);
+    EXPECT_EQ(view.elevation, 7);
+    EXPECT_FALSE(parse_page_message(
+        R"({"do": "picture", "show": "", "palette": "grey", "scale": 1, "around": 40})"));
     const auto& wanted = std::get<AskForPicture>(std::get<PageQuestion>(picture->request)).request;
     EXPECT_EQ(wanted.scale, 4);
     EXPECT_EQ(wanted.range->high, 2.5F);
