@@ -21,6 +21,7 @@ export class Pace {
     private usual = 60;      ///< Steps a second, with the slider in its middle.
     private is_asking = false;  ///< The page asks for the steps of each frame itself.
     private is_wanted = false;  ///< Nobody has paused what grows, though it may have ended.
+    private is_lengthened = false;   ///< The last stage will not be at its end any more.
     private goes_on_after?: number;  ///< This script, if the next one is not at its end.
     private asked = "";      ///< The moment from which steps were asked for last.
     private due = 0;         ///< Steps that are due now.
@@ -58,9 +59,11 @@ export class Pace {
         }
         this.seen = snapshot;
         if (is_over(snapshot) || snapshot.failure) this.is_asking = false;
-        if (this.goes_on_after === undefined || this.goes_on_after === snapshot.script) return;
-        this.goes_on_after = undefined;
-        if (!is_over(snapshot)) void this.start();
+        const is_new = this.goes_on_after !== undefined && this.goes_on_after !== snapshot.script;
+        if (is_new) this.goes_on_after = undefined;
+        if (is_over(snapshot) || !is_new && !this.is_lengthened) return;
+        this.is_lengthened = false;
+        void this.start();
     }
 
     /// Beyond the end of the last stage it goes on for as long again.
@@ -84,7 +87,7 @@ export class Pace {
 
     /// Nothing is wanted any more, such as after an undo, which pauses by itself.
     forget() {
-        this.is_asking = this.is_wanted = false;
+        this.is_asking = this.is_wanted = this.is_lengthened = false;
         this.goes_on_after = undefined;
     }
 
@@ -100,12 +103,13 @@ export class Pace {
     private get has_ended_by_itself() { return this.is_wanted && this.seen !== undefined && is_over(this.seen); }
 
     private async lengthen(joins_last: boolean) {
-        this.goes_on_after = this.seen!.script;
+        this.is_lengthened = true;
         const { name, steps, t, duration } = this.seen!.stages.at(-1)!;
         const more = Math.ceil(this.usual * usual_seconds);
-        await this.ask("set", { joins_last, ...duration > 0
+        const { is_done } = await this.ask("set", { joins_last, ...duration > 0
             ? { name: `${name}.duration`, expression: String(t + duration * Math.min(1, more / Math.max(steps, 1))) }
             : { name: `${name}.iterations`, expression: String(steps + more) } });
+        if (!is_done) this.is_lengthened = false;
     }
 
     private get rate() { return this.slider.value === this.slider.max ? very_fast : this.usual * 2 ** this.slider.valueAsNumber; }
