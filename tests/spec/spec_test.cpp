@@ -38,6 +38,7 @@ std::vector<std::filesystem::path> pages() {
     }
     std::sort(paths.begin(), paths.end());
     paths.push_back(spec_folder.parent_path() / "README.md");
+    paths.push_back(spec_folder.parent_path() / "docs" / "tutorial.md");
     return paths;
 }
 

@@ -1,0 +1,139 @@
+// Follows docs/tutorial.md on the page of `cascade view` as its readers do, with the script that stands there. Arguments:
+// the browser, the program and the tutorial. It leaves the tutorial's pictures in the current folder, from where
+// page/tutorial_pictures.sh takes them, and what the page saved.
+import { existsSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { Browser, serve } from "./browser.mjs";
+
+const [command, program, tutorial] = process.argv.slice(2);
+const { cascade, address } = await serve(program);
+const browser = await Browser.start(command, join(process.cwd(), "profile_of_tutorial"));
+const limit = setTimeout(() => end(new Error("it took more than 4 minutes")), 240000);
+const script = readFileSync(tutorial, "utf8").match(/^```cascade\n(.*?)^```/ms)[1];
+
+async function end(error) {
+    clearTimeout(limit);
+    if (error) {
+        console.log(error.stack);
+        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
+    }
+    browser.end();
+    cascade.kill("SIGKILL");
+    process.exit(error ? 1 : 0);
+}
+
+const sleep = (seconds) => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
+const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
+const text_of = (id) => browser.evaluate(`document.getElementById("${id}").textContent`);
+const steps = async () => Number((await text_of("place")).match(/[\d,]+/)[0].replaceAll(",", ""));
+const until_steps = (count, seconds = 60) => browser.until(`Number(document.getElementById("place").textContent.match(/[\\d,]+/)[0].replaceAll(",", "")) >= ${count}`, seconds);
+const move = (slider, value) => browser.evaluate(`{ const input = document.querySelector("${slider}"); input.value = "${value}"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
+const in_editor = (selector) => `document.getElementById("editor").shadowRoot.querySelector("${selector}")`;
+const is_growing = `document.getElementById("run").ariaLabel === "Pause"`;
+const is_over = `[...document.querySelectorAll("#stages progress")].every(({ value }) => value === 1)`;
+const at_stage = (number) => `document.querySelectorAll("#stages button")[${number - 1}]?.hasAttribute("aria-current")`;
+const save_picture = async (name) => writeFileSync(`${name}.webp`,
+    Buffer.from((await browser.call("Page.captureScreenshot", { format: "webp", quality: 80 })).data, "base64"));
+const key = async (name) => { await browser.evaluate("document.activeElement.blur()"); await browser.press(name); };
+
+/// Searches, and takes the system of this name.
+async function choose(words, name) {
+    await browser.until(`document.getElementById("library").open`);
+    await browser.call("Input.insertText", { text: words });
+    await browser.evaluate(`[...document.querySelectorAll("#library li:not([hidden])")].find((item) => item.querySelector("b").textContent === "${name}").querySelector("button").click()`);
+    await browser.until(`!document.getElementById("library").open`);
+}
+
+async function type_script(text) {
+    await browser.evaluate(`${in_editor(".cm-content")}.focus()`);
+    await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "a", modifiers: 2, windowsVirtualKeyCode: 65, commands: ["selectAll"] });
+    await browser.call("Input.insertText", { text });
+    await browser.until(`document.getElementById("text").ariaBusy === "false"`);
+    await browser.until(`document.getElementById("messages").textContent === ""`);
+    await browser.evaluate("document.activeElement.blur()");
+}
+
+async function saved(id, name) {
+    rmSync(name, { force: true });
+    await click(id);
+    for (let k = 0; k < 200 && !existsSync(name); ++k) await sleep(0.05);
+    await sleep(0.2);
+}
+
+async function follow() {
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 1200, height: 760, deviceScaleFactor: 1, mobile: false });
+    await browser.call("Page.navigate", { url: address });
+    await browser.until(`document.querySelectorAll("#library li").length > 50`);
+    await choose("gray", "Gray-Scott");
+    await browser.until(`document.getElementById("stages").textContent === "maze"`);
+    await click("tour_end");
+    await until_steps(4000);
+
+    // Change it while it grows, or after its end.
+    await browser.until(is_over);
+    await move("#speed", 2);
+    await move("#controls label:nth-of-type(2) input", 0.063);
+    await until_steps(17000);
+    await browser.press(" ");
+    await browser.until(`!(${is_growing})`);
+    const reached = await steps();
+    const [x, y, side] = await browser.evaluate(`(({ x, y, width }) => [x, y, width])(document.getElementById("pattern").getBoundingClientRect())`);
+    if (reached < 17000) throw new Error("it has not gone on after its end");
+    for (const [kind, along] of [["mousePressed", 0], ...Array.from({ length: 24 }, (_, k) => ["mouseMoved", k / 24]), ["mouseReleased", 1]]) {
+        await browser.call("Input.dispatchMouseEvent", { type: kind, button: "left", buttons: 1, clickCount: 1,
+            x: x + (0.25 + 0.5 * along) * side, y: y + (0.7 - 0.2 * Math.sin(3 * along)) * side });
+    }
+    await sleep(1);
+    await save_picture("change");
+    await browser.press("z", 2);
+    await browser.press("z", 2);
+    await browser.until(`document.querySelector("#controls label:nth-of-type(2) output").value === "0.06"`);
+    await browser.until(`document.getElementById("place").textContent === "step 12,000"`);
+    await browser.press("Z", 10);
+    await browser.until(`document.querySelector("#controls label:nth-of-type(2) output").value === "0.063"`);
+
+    // Read.
+    const [left, middle] = await browser.evaluate(`(({ x, y }) => [x, y + 10])([...document.getElementById("editor").shadowRoot.querySelectorAll(".cm-line")].find((line) => line.textContent.includes("v' =")).getBoundingClientRect())`);
+    await browser.call("Input.dispatchMouseEvent", { type: "mouseMoved", x: left + 26, y: middle });
+    await browser.until(`${in_editor(".explanation math")} !== null`);
+    await save_picture("read");
+    await browser.call("Input.dispatchMouseEvent", { type: "mouseMoved", x: 5, y: 5 });
+
+    // A cascade: the second stage is typed when the first one has ended, and grows by itself.
+    await move("#speed", 5);
+    await click("systems");
+    await choose("turing", "Turing's spots");
+    await browser.until(`document.getElementById("stages").textContent === "spots"`);
+    await browser.until(is_over);
+    const spots_alone = await steps();
+    await move("#speed", 3);
+    await type_script(script);
+    await browser.until(`document.querySelectorAll("#stages li").length === 2 && ${is_over}`);
+    if (spots_alone !== 12000 || await steps() !== 4000) throw new Error("the stages have other lengths");
+    await save_picture("cascade");
+
+    // Back to the first stage; it ends before it is ready.
+    await browser.evaluate(`document.querySelector("#stages button").click()`);
+    await browser.until(at_stage(1));
+    await key(" ");
+    await until_steps(500);
+    await key("n");
+    await browser.until(at_stage(2));
+    await browser.evaluate(`document.querySelector("#stages button").click()`);
+    await browser.until(at_stage(1));
+    await move("#speed", 5);
+    await browser.evaluate(`${is_growing} || document.getElementById("run").click()`);
+    await browser.until(is_over);
+
+    await browser.call("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: process.cwd() });
+    for (const [id, name] of [["picture", "new.png"], ["script", "new.cascade"], ["log", "new.session"]]) await saved(id, name);
+    if (readFileSync("new.cascade", "utf8") !== script) throw new Error("the script that was saved is another one");
+
+    // On an animal.
+    await type_script(script.replace(/^domain .*$/m, "domain { surface: creature; cells: 8000 }"));
+    await browser.until(`!document.getElementById("solid").hidden && ${at_stage(2)} && ${is_over}`, 120);
+    await sleep(4);
+    await save_picture("animal");
+}
+
+await follow().then(() => end(), end);
