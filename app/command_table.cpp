@@ -7,7 +7,7 @@ namespace cascade {
 
 std::span<const CommandEntry> command_table() {
     using enum AtPrompt;
-    static constexpr std::array<CommandEntry, 11> all = {{
+    static constexpr std::array<CommandEntry, 12> all = {{
         {Command::run, "run", run_command, absent},
         {Command::sweep, "sweep", sweep_command, of_script},
         {Command::check, "check", check_command, of_script},
@@ -19,6 +19,7 @@ std::span<const CommandEntry> command_table() {
         {Command::mesh, "mesh", mesh_command, plain},
         {Command::repl, "repl", repl_command, absent},
         {Command::view, "view", view_command, absent},
+        {Command::export_page, "export", export_command, of_script},
     }};
     return all;
 }

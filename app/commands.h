@@ -23,6 +23,7 @@ int new_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
 int mesh_command(const Options& options, Console& console);
 int view_command(const Options& options, Console& console);
+int export_command(const Options& options, Console& console);
 int repl_command(const Options& options, Console& console);
 
 /// What a command is at the prompt: there ':check' is 'cascade check' of the script so far.

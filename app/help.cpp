@@ -115,6 +115,12 @@ const std::string_view view_examples = R"(Examples:
   cascade view leopard.cascade --no-browser          prints the address
 Only this machine reaches the page. Ctrl-C ends it.)";
 
+const std::string_view export_page =
+    "Writes a script as one page that any browser opens: its pattern grows there, offline.";
+const std::string_view export_page_examples = R"(Example:
+  cascade export leopard.cascade --html leopard.html
+The page is that of 'cascade view', and carries Cascade, the model and the pictures of the script.)";
+
 std::string in_lines(const std::vector<std::string>& names) {
     constexpr std::size_t widest = 52;
     std::string text;

@@ -19,6 +19,7 @@ extern const std::string_view new_script, new_script_examples;
 extern const std::string_view format, format_examples;
 extern const std::string_view mesh, mesh_examples;
 extern const std::string_view repl, repl_examples;
+extern const std::string_view export_page, export_page_examples;
 extern const std::string_view view, view_examples;
 
 /// The names in lines that fit into the column of descriptions.

@@ -347,4 +347,10 @@ void add_compile(CLI::App& app, Options& options) {
         ->group(group);
 }
 
+void add_export(CLI::App& app, Options& options) {
+    add_value(app, "--html", "FILE.html", "The page; without it SCRIPT.html in this folder",
+              any_text, [&](auto path) { options.html = path; })
+        ->group("Output");
+}
+
 }  // namespace cascade::option_groups

@@ -29,6 +29,7 @@ void add_quiet(CLI::App& app, Options& options);
 void add_dump(CLI::App& app, Options& options);
 void add_bench(CLI::App& app, Options& options);
 void add_compile(CLI::App& app, Options& options);
+void add_export(CLI::App& app, Options& options);
 void add_sweep(CLI::App& app, Options& options);
 
 }  // namespace cascade::option_groups

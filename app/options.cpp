@@ -57,6 +57,7 @@ struct Parser {
     CLI::App* mesh = nullptr;
     CLI::App* repl = nullptr;
     CLI::App* view = nullptr;
+    CLI::App* export_page = nullptr;
     Options options;
     bool show_version = false;
 
@@ -189,14 +190,18 @@ void Parser::add_all() {
     groups::add_stop(*repl, options);
     groups::add_quiet(*repl, options);
 
+    export_page = command("export", help::export_page, help::export_page_examples);
+    groups::add_script(*export_page, options, "A script");
+    groups::add_export(*export_page, options);
+    groups::add_overrides(*export_page, options.overrides);
     view = command("view", help::view, help::view_examples);
     groups::add_script(*view, options, "A script; without it the page offers the library");
     view->add_flag("--no-browser", options.no_browser, "Print the address and open nothing");
     groups::add_overrides(*view, options.overrides);
     groups::add_simulation(*view, options, "Threads; without it all cores");
 
-    for (CLI::App* sub :
-         {run, sweep, check, bench, compile, systems, new_script, format, mesh, repl, view}) {
+    for (CLI::App* sub : {run, sweep, check, bench, compile, systems, new_script, format, mesh,
+                          repl, view, export_page}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -271,7 +276,7 @@ std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::check ||
         options.command == Command::bench || options.command == Command::compile ||
-        options.command == Command::format ||
+        options.command == Command::format || options.command == Command::export_page ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
     if (options.command == Command::mesh && options.models.empty()) return "a model is missing";

@@ -30,7 +30,8 @@ enum class Command {
     format,
     mesh,
     repl,
-    view
+    view,
+    export_page
 };
 
 /// The picture options that were given. A picture that is run again has stored options of its own,
@@ -82,6 +83,7 @@ struct Options {
     bool no_browser = false;       ///< `view --no-browser`
     std::filesystem::path object;  ///< `compile -o`
     std::filesystem::path header;  ///< `compile --header`
+    std::filesystem::path html;    ///< `export --html`
 };
 
 inline const TypedScript* typed_of(const Options& options) {

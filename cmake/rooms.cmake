@@ -57,13 +57,16 @@ function(cascade_load_late target macro file)
   target_compile_definitions(${target} PRIVATE ${macro}="${name}")
 endfunction()
 
-# cascade_room(NAME PACKAGES…): the library of the folder NAME and its subfolders.
+# cascade_room(NAME PACKAGES…): the library of the folder NAME and its subfolders. Files in the list
+# CASCADE_WITHOUT, regular expressions without their ending, are left out, as are rooms that are not built.
 function(cascade_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
+  list(JOIN CASCADE_WITHOUT "|" without)
+  list(FILTER sources EXCLUDE REGEX "^${PROJECT_SOURCE_DIR}/(${without})\\.cpp$")
   add_library(cascade_${name} STATIC ${sources})
   cascade_rooms_below(${name} rooms)
   foreach(room IN LISTS rooms)
-    if(NOT room STREQUAL jit OR CASCADE_JIT)
+    if(TARGET cascade_${room})
       target_link_libraries(cascade_${name} PUBLIC cascade_${room})
     endif()
   endforeach()

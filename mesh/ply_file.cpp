@@ -16,7 +16,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::uint32_t most_points = std::numeric_limits<std::int32_t>::max();
+constexpr std::uint32_t most_numbered_points = std::numeric_limits<std::int32_t>::max();
 
 /// Reads numbers from the body of the file in sequence.
 class NumberReader {
@@ -210,7 +210,7 @@ private:
         if (std::min({columns_.place[0], columns_.place[1], columns_.place[2]}) < 0) {
             return failure("the points of the PLY file lack x, y or z");
         }
-        if (number >= most_points) return failure("the PLY file has too many points");
+        if (number >= most_numbered_points) return failure("the PLY file has too many points");
         const auto at = [&](int column) { return row_[static_cast<std::size_t>(column)]; };
         soup_.points.push_back(
             {at(columns_.place[0]), at(columns_.place[1]), at(columns_.place[2])});
@@ -225,7 +225,8 @@ private:
     }
 
     bool add_corner(double number) {
-        if (!(number >= 0 && number < most_points) || number != std::floor(number)) return false;
+        if (!(number >= 0 && number < most_numbered_points) || number != std::floor(number))
+            return false;
         soup_.corners.push_back(static_cast<std::uint32_t>(number));
         return true;
     }

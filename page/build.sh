@@ -14,7 +14,7 @@ if ! cmp -s "$page/package-lock.json" node_modules/installed; then
 fi
 
 mkdir -p "$into"
-NODE_PATH=$PWD/node_modules node_modules/.bin/esbuild "$page/src/page.ts" "$page/src/page.css" \
+NODE_PATH=$PWD/node_modules node_modules/.bin/esbuild "$page/src/page.ts" "$page/src/worker.ts" "$page/src/page.css" \
     --bundle --minify --legal-comments=none --format=esm --target=es2022 --log-level=warning \
     --banner:js="$(cat "$page/src/license.js")" --outdir="$into"
 cp "$page/src/index.html" "$into/index.html"

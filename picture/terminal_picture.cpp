@@ -74,12 +74,12 @@ Image reduce(const Image& image, std::int64_t width) {
 
 namespace {
 
-using Bytes = std::array<int, 3>;
+using Levels = std::array<int, 3>;
 
 /// Nothing for the terminal's background.
-std::optional<Bytes> bytes_of(const Colour& colour) {
+std::optional<Levels> bytes_of(const Colour& colour) {
     if (is_transparent(colour)) return std::nullopt;
-    Bytes bytes{};
+    Levels bytes{};
     std::transform(colour.begin(), colour.end(), bytes.begin(), [](float value) {
         if (!(value > 0)) return 0;
         return static_cast<int>(std::min(value, 1.0F) * 255.0F + 0.5F);
@@ -89,8 +89,8 @@ std::optional<Bytes> bytes_of(const Colour& colour) {
 
 /// Appends the escape sequence of a colour if it differs from the current one. `kind` is 38 for the
 /// foreground, 48 for the background; no colour means the terminal's own.
-void set_colour(std::string& out, std::optional<Bytes>& current, const std::optional<Bytes>& wanted,
-                int kind) {
+void set_colour(std::string& out, std::optional<Levels>& current,
+                const std::optional<Levels>& wanted, int kind) {
     if (current == wanted) return;
     current = wanted;
     if (!wanted) {
@@ -102,8 +102,8 @@ void set_colour(std::string& out, std::optional<Bytes>& current, const std::opti
 }
 
 /// Draws one character for two pixels.
-void draw_pair(std::string& out, std::optional<Bytes>& ink, std::optional<Bytes>& ground,
-               const std::optional<Bytes>& upper, const std::optional<Bytes>& lower) {
+void draw_pair(std::string& out, std::optional<Levels>& ink, std::optional<Levels>& ground,
+               const std::optional<Levels>& upper, const std::optional<Levels>& lower) {
     if (upper) {
         set_colour(out, ink, upper, 38);
         set_colour(out, ground, lower, 48);
@@ -123,7 +123,7 @@ std::string half_blocks(const Image& image, int columns) {
     if (image.width > columns) return half_blocks(reduce(image, columns), columns);
     std::string out;
     for (std::int64_t y = 0; y < image.height; y += 2) {
-        std::optional<Bytes> ink, ground;
+        std::optional<Levels> ink, ground;
         for (std::int64_t x = 0; x < image.width; ++x) {
             // Below the last row of an odd number the terminal's background remains.
             draw_pair(out, ink, ground, bytes_of(image.at(x, y)),
@@ -143,7 +143,7 @@ std::string plain_characters(const Image& image, int columns) {
     for (std::int64_t y = 0; y < image.height; y += 2) {
         for (std::int64_t x = 0; x < image.width; ++x) {
             const Stretch down(y / 2, (image.height + 1) / 2, image.height);
-            const std::optional<Bytes> bytes =
+            const std::optional<Levels> bytes =
                 bytes_of(average(image, Stretch(x, image.width, image.width), down));
             const int light = bytes ? (*bytes)[0] + (*bytes)[1] + (*bytes)[2] : 0;
             out += ramp[static_cast<std::size_t>(light) * ramp.size() / (3 * 256)];

@@ -3,14 +3,13 @@
 #include "core/check.h"
 #include "core/enough_memory.h"
 #include "core/write_encoded.h"
+#include "picture/deflate.h"
 #include "picture/image.h"
 #include "picture/png_rows.h"
 
 #include <fmt/format.h>
-#include <libdeflate.h>
 
 #include <algorithm>
-#include <memory>
 
 namespace cascade {
 namespace {
@@ -27,20 +26,7 @@ void append_chunk(std::string& file, std::string_view name, std::string_view dat
     append_big_endian(file, data.size());
     const std::size_t begin = file.size();
     file.append(name).append(data);
-    append_big_endian(file, libdeflate_crc32(0, file.data() + begin, file.size() - begin));
-}
-
-/// The bytes in the format of zlib (RFC 1950). Throws std::bad_alloc.
-std::string compressed(const void* bytes, std::size_t size, int level) {
-    const auto free = [](libdeflate_compressor* made) { libdeflate_free_compressor(made); };
-    const std::unique_ptr<libdeflate_compressor, decltype(free)> compressor(
-        libdeflate_alloc_compressor(level), free);
-    if (!compressor) lack_memory();
-    const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), size);
-    const auto buffer = std::make_unique_for_overwrite<char[]>(most);
-    const std::size_t used =
-        libdeflate_zlib_compress(compressor.get(), bytes, size, buffer.get(), most);
-    return {buffer.get(), used};
+    append_big_endian(file, crc32_of(std::string_view(file).substr(begin)));
 }
 
 std::string header_of(const Image& image, const PngFormat& format) {
@@ -57,12 +43,12 @@ std::string text_chunk(const std::string& keyword, const std::string& text, int 
     std::string data = keyword;
     data.append({'\0', is_long ? '\1' : '\0', '\0'});
     data.append(2, '\0');  // No language, no translated keyword.
-    return data + (is_long ? compressed(text.data(), text.size(), level) : text);
+    return data + (is_long ? deflated(text, level) : text);
 }
 
 std::string compressed_rows(const Image& image, const PngFormat& format, int level) {
     const std::vector<std::uint8_t> rows = png_rows(image, format);
-    return compressed(rows.data(), rows.size(), level);
+    return deflated({reinterpret_cast<const char*>(rows.data()), rows.size()}, level);
 }
 
 bool valid_keyword(const std::string& keyword) {

@@ -90,6 +90,8 @@ RayCaster::RayCaster(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>(
     if (embree().get_device_error(device) != RTC_ERROR_NONE) throw std::bad_alloc();
 }
 
+bool RayCaster::is_available() { return true; }
+
 RayCaster::~RayCaster() = default;
 
 namespace {

@@ -22,6 +22,8 @@ class RayCaster {
 public:
     /// Uses the same instructions on every processor, for equal pictures. Throws std::bad_alloc.
     explicit RayCaster(const TriangleMesh& mesh);
+    /// False in a browser's tab, which has no Embree; then there are no others.
+    static bool is_available();
     ~RayCaster();
 
     std::optional<Hit> nearest(const Ray& ray) const;

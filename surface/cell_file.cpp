@@ -83,27 +83,28 @@ private:
     CellKey key_{{0xcbf29ce484222325ULL, 0x9ae16a3b2f90404fULL}};
 };
 
-Result<Header> read_header(const std::filesystem::path& path, const CellKey& key) {
-    const auto fails = [&](std::string_view why) {
-        return failure(fmt::format("'{}' {}", path.string(), why));
-    };
-    if (!size_of_file(path)) return fails("is not there");
+std::uint64_t size_of(const Header& header) {
+    return sizeof header + header.cells * bytes_per_cell + header.edges * bytes_per_edge + 8;
+}
+
+Result<Header> parse_header(std::string_view bytes, const CellKey& key) {
     Header header;
-    const std::string bytes = first_bytes(path, sizeof header);
-    std::memcpy(&header, bytes.data(), bytes.size());
+    std::memcpy(&header, bytes.data(), std::min(bytes.size(), sizeof header));
     if (bytes.size() < sizeof header ||
         std::string_view(header.magic.data(), header.magic.size()) != magic) {
-        return fails("is no file of cells");
+        return failure("is no file of cells");
     }
-    if (header.byte_order != byte_order_mark)
-        return fails("is of a machine with another byte order");
+    if (header.byte_order != byte_order_mark) {
+        return failure("is of a machine with another byte order");
+    }
     if (header.version != cell_file_version) {
-        return fails(fmt::format("is of version {}, not {}", header.version, cell_file_version));
+        return failure(fmt::format("is of version {}, not {}", header.version, cell_file_version));
     }
-    if (header.key != key.words)
-        return fails("holds cells of another surface or made in another way");
+    if (header.key != key.words) {
+        return failure("holds cells of another surface or made in another way");
+    }
     if (header.cells > most || header.edges > most) {
-        return fails("is damaged: it cannot be as large as it says");
+        return failure("is damaged: it cannot be as large as it says");
     }
     return header;
 }
@@ -197,8 +198,7 @@ CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options) {
     return hashes.key();
 }
 
-Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& cells,
-                         const CellKey& key) {
+std::string print_cells(const SurfaceCells& cells, const CellKey& key) {
     Header header;
     std::copy(magic.begin(), magic.end(), header.magic.begin());
     header.version = cell_file_version;
@@ -208,8 +208,7 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
     header.edges = cells.edges.size();
     header.bare_area = cells.bare_area;
     std::string bytes;
-    bytes.reserve(sizeof header + header.cells * bytes_per_cell + header.edges * bytes_per_edge +
-                  8);
+    bytes.reserve(size_of(header));
     append(bytes, header);
     for (std::size_t k = 0; k < cells.places.size(); ++k) {
         append(bytes, cells.places[k].triangle);
@@ -223,32 +222,44 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& 
         append(bytes, edge.distance);
     }
     append(bytes, fnv1a(bytes));
-    return write_file(path, bytes);
+    return bytes;
+}
+
+Result<SurfaceCells> parse_cells(std::string_view bytes, const SurfaceMesh& mesh,
+                                 const CellKey& key) {
+    const Result<Header> header = parse_header(bytes, key);
+    if (!header) return tl::unexpected(header.error());
+    if (bytes.size() != size_of(*header)) {
+        return failure("is damaged: its size is not what it says");
+    }
+    const std::string_view content = bytes.substr(0, bytes.size() - 8);
+    if (Bytes(bytes.substr(content.size())).take<std::uint64_t>() != fnv1a(content)) {
+        return failure("is damaged: its checksum is wrong");
+    }
+    SurfaceCells cells = taken_from(Bytes(content.substr(sizeof(Header))), *header);
+    if (!are_sound(cells, mesh)) return failure("is damaged: its cells do not fit the surface");
+    return cells;
+}
+
+Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& cells,
+                         const CellKey& key) {
+    return write_file(path, print_cells(cells, key));
 }
 
 Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                 const CellKey& key) {
-    const Result<Header> header = read_header(path, key);
-    if (!header) return tl::unexpected(header.error());
-    const std::uint64_t size =
-        sizeof(Header) + header->cells * bytes_per_cell + header->edges * bytes_per_edge + 8;
-    const Result<std::string> bytes = read_file(path, size);
-    if (!bytes) return tl::unexpected(bytes.error());
-    const auto damaged = [&](std::string_view why) {
-        return failure(fmt::format("'{}' is damaged: {}", path.string(), why));
+    const auto fails = [&](const Failure& why) {
+        return failure(fmt::format("'{}' {}", path.string(), why.message));
     };
-    if (bytes->size() != size) return damaged("its size is not what it says");
-    // The file may have been replaced since its header was read.
-    if (std::memcmp(bytes->data(), &*header, sizeof(Header)) != 0) {
-        return damaged("it changed while it was read");
-    }
-    const std::string_view content(bytes->data(), size - 8);
-    if (Bytes(std::string_view(*bytes).substr(size - 8)).take<std::uint64_t>() != fnv1a(content)) {
-        return damaged("its checksum is wrong");
-    }
-    SurfaceCells cells = taken_from(Bytes(content.substr(sizeof(Header))), *header);
-    if (!are_sound(cells, mesh)) return damaged("its cells do not fit the surface");
-    return cells;
+    // The file may be of any size, and may be replaced after its header was read.
+    if (!size_of_file(path)) return fails({"is not there", ""});
+    const Result<Header> header = parse_header(first_bytes(path, sizeof(Header)), key);
+    if (!header) return fails(header.error());
+    const Result<std::string> bytes = read_file(path, size_of(*header));
+    if (!bytes) return tl::unexpected(bytes.error());
+    Result<SurfaceCells> cells = parse_cells(*bytes, mesh, key);
+    if (cells) return cells;
+    return fails(cells.error());
 }
 
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,

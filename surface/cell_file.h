@@ -9,6 +9,8 @@
 #include "surface/make_cells.h"
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace cascade {
 
@@ -23,6 +25,13 @@ struct CellKey {
     std::string text() const;  ///< 32 hexadecimal digits, for a file name.
 };
 CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options);
+
+/// The content of a file of cells.
+std::string print_cells(const SurfaceCells& cells, const CellKey& key);
+/// The cells of such a content, made with this key for this surface. Fails, with a clause such as
+/// "is no file of cells", as read_cells() does.
+Result<SurfaceCells> parse_cells(std::string_view bytes, const SurfaceMesh& mesh,
+                                 const CellKey& key);
 
 /// Writes a temporary file and renames it, so that an incomplete file is never seen.
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& cells,

@@ -198,6 +198,12 @@ std::string print_script(const LiveRun& run) {
                   {"species", print_species(run)}});
 }
 
+std::uint64_t version_of_script(const Snapshot& snapshot) {
+    const auto begun = std::count_if(snapshot.stages.begin(), snapshot.stages.end(),
+                                     [](const StageProgress& stage) { return stage.has_begun; });
+    return snapshot.script * 65536 + static_cast<std::uint64_t>(begun);
+}
+
 std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::string_view text) {
     Json messages = Json::array();
     if (!result) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "run/pictures/shown_surface.h"
-#include "run/session/session.h"
+#include "run/session/turns.h"
 
 #include <cstdint>
 #include <string>
@@ -20,6 +20,9 @@ std::string print_systems();
 /// The script of a run, its parameters with a range, for sliders, and the species of the current
 /// stage.
 std::string print_script(const LiveRun& run);
+
+/// A number that changes when print_script() does: with the script, and when a stage begins.
+std::uint64_t version_of_script(const Snapshot& snapshot);
 
 /// The answer to the message `id`. Diagnostics in `text`, the script as the page sees it, carry
 /// their place in it.

@@ -3,8 +3,13 @@
 
 #include "view/local_server.h"
 
+#include <string_view>
+
 namespace cascade {
 
 PageFiles page_files();
+
+/// The script of the worker in which a page runs an engine that it carries.
+std::string_view page_worker();
 
 }  // namespace cascade

@@ -184,6 +184,12 @@ constexpr std::array<Verb, 22> verbs{{
 
 }  // namespace
 
+std::string text_of(const SessionCommand& command) {
+    const auto* const made = std::get_if<MakeChange>(&command);
+    const auto* const set = made != nullptr ? std::get_if<SetText>(&made->change) : nullptr;
+    return set != nullptr ? set->text : std::string();
+}
+
 Result<PageMessage> parse_page_message(std::string_view text) {
     if (text.size() > largest_page_message) return failure("the message is too long");
     const JsonSize size = measure_json(text);

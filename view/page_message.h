@@ -4,7 +4,7 @@
 
 #include "core/result.h"
 #include "run/script/picture_request.h"
-#include "run/session/session.h"
+#include "run/session/turns.h"
 
 #include <cstdint>
 #include <string>
@@ -45,6 +45,9 @@ struct PageMessage {
     std::uint64_t id = 0;  ///< Chosen by the page; the answer carries it. 0 if there was none.
     PageRequest request;
 };
+
+/// The text that messages about a command are about; empty if there is none.
+std::string text_of(const SessionCommand& command);
 
 /// The most bytes of a message.
 inline constexpr std::size_t largest_page_message = std::size_t{1} << 20;

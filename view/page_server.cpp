@@ -27,13 +27,6 @@ struct OpenPage {
 
 constexpr int snapshot_frame = 0, surface_frame = 1;
 
-/// What a script message depends on: the script, and which stages have begun.
-std::uint64_t version_of_script(const Snapshot& snapshot) {
-    const auto begun = std::count_if(snapshot.stages.begin(), snapshot.stages.end(),
-                                     [](const StageProgress& stage) { return stage.has_begun; });
-    return snapshot.script * 65536 + static_cast<std::uint64_t>(begun);
-}
-
 }  // namespace
 
 struct PageServer::State {
@@ -137,10 +130,7 @@ void PageServer::State::obey(PageId page, std::string_view text) {
     if (begun.answer) return server->send_text(page, std::move(*begun.answer));
     if (!begun.is_new) return;
     auto command = std::get<SessionCommand>(std::move(message->request));
-    std::string script;  // The text that messages are about.
-    if (const auto* made = std::get_if<MakeChange>(&command)) {
-        if (const auto* set = std::get_if<SetText>(&made->change)) script = set->text;
-    }
+    std::string script = text_of(command);
     if (std::holds_alternative<Pause>(command)) session->cancel();
     session->post(std::move(command), [this, from = std::move(begun.page), id,
                                        script = std::move(script)](const Accepted<void>& result) {

@@ -38,7 +38,9 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool is_part_of_number(char c) {
+    return c == '.' || std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
 
 class TexReader {
 public:
@@ -153,9 +155,9 @@ private:
     void read() {
         const char c = tex_[at_];
         if (c == '\\') return read_command();
-        if (is_digit(c) || c == '.') {
+        if (is_part_of_number(c)) {
             const std::size_t begin = at_;
-            while (at_ < tex_.size() && (is_digit(tex_[at_]) || tex_[at_] == '.')) ++at_;
+            while (at_ < tex_.size() && is_part_of_number(tex_[at_])) ++at_;
             return add_and_close(element("mn", tex_.substr(begin, at_ - begin)));
         }
         ++at_;

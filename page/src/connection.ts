@@ -1,4 +1,5 @@
-// The WebSocket to the engine: requests with answers, and the newest snapshot.
+// The line to the engine, a WebSocket or a worker: requests with answers, and the newest snapshot.
+import { EngineLine, type Line } from "./carried_engine";
 
 export interface Message { is_error: boolean; message: string; hint: string; from?: [number, number]; to?: [number, number]; notes?: string[] }
 export interface Answer { kind: "answer"; id: number; is_done: boolean; messages: Message[] }
@@ -73,10 +74,10 @@ function read_frame(bytes: ArrayBuffer): Snapshot | Surface {
 const largest_message = 1 << 20;  ///< Of what the engine reads, in bytes.
 
 export class Connection {
-    private readonly token = take_token();
+    private readonly token = EngineLine.is_carried ? "" : take_token();
     /// By it the engine knows what this page has asked before its connection was lost.
     private readonly name = [...crypto.getRandomValues(new Uint32Array(4))].map((part) => part.toString(36)).join("");
-    private socket?: WebSocket;
+    private socket?: Line;
     private last_id = 0;
     /// What was not answered, in the order of its ids. It is sent again over a new connection.
     private readonly waiting = new Map<number, { text: string; resolve: (answer: Answer) => void }>();
@@ -103,8 +104,8 @@ export class Connection {
     private get is_open() { return this.socket?.readyState === WebSocket.OPEN; }
 
     private open() {
-        if (!this.token) return this.listener.lost("Open the address that Cascade printed.");
-        const socket = new WebSocket(`ws://${location.host}/session?token=${this.token}`);
+        if (!EngineLine.is_carried && !this.token) return this.listener.lost("Open the address that Cascade printed.");
+        const socket: Line = EngineLine.is_carried ? new EngineLine() : new WebSocket(`ws://${location.host}/session?token=${this.token}`);
         socket.binaryType = "arraybuffer";
         socket.onopen = () => {
             socket.send(JSON.stringify({ do: "page", name: this.name }));
@@ -112,7 +113,8 @@ export class Connection {
             this.next_snapshot();
         };
         socket.onmessage = ({ data }) => this.take(data);
-        socket.onclose = ({ code }) => {
+        socket.onclose = ({ code, reason }) => {
+            if (EngineLine.is_carried) return this.listener.lost(`The engine has ended: ${reason}. Reload the page to begin anew.`);
             this.listener.lost(code === 1001 ? "Cascade has ended." : "The connection is lost; trying again. What is done now is kept.");
             setTimeout(() => this.open(), 1000);
         };

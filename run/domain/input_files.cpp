@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
@@ -110,6 +111,16 @@ void each_text_read(const Script& script, const Read& read) {
 }
 
 }  // namespace
+
+std::vector<std::string> input_file_names(const Script& script) {
+    std::vector<std::string> names;
+    each_text_read(script, [&](Function function, const Node& text) {
+        const std::string& name = script.program->literals->text(text_of(text));
+        const bool is_known = std::find(names.begin(), names.end(), name) != names.end();
+        if (function != Function::attr && !is_known) names.push_back(name);
+    });
+    return names;
+}
 
 Result<void> check_attributes(Script& script, const SurfaceMesh& mesh) {
     each_text_read(script, [&](Function function, const Node& text) {

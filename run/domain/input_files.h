@@ -9,6 +9,8 @@
 #include "run/script/script.h"
 
 #include <map>
+#include <string>
+#include <vector>
 
 namespace cascade {
 
@@ -35,6 +37,9 @@ public:
 private:
     std::map<NamedPlane, Field> planes_;
 };
+
+/// The names of the files that the mask and starting values read, each once.
+std::vector<std::string> input_file_names(const Script& script);
 
 /// Checks that a model's points have all that attr() reads in the mask or a starting value; if not,
 /// there are diagnostics at the text in the script.

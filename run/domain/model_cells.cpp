@@ -15,6 +15,7 @@
 #include "mesh/model_file.h"
 #include "mesh/normals.h"
 #include "mesh/shapes.h"
+#include "run/domain/carried_model.h"
 #include "run/domain/free_memory.h"
 #include "run/domain/model_directions.h"
 #include "surface/cell_file.h"
@@ -182,9 +183,15 @@ public:
         if (auto spread = spread_cells(access.cache); !spread)
             return tl::unexpected(spread.error());
         if (control_.cancel) return std::shared_ptr<const ModelCells>();
-        model_->grid = rows_of_cells(static_cast<std::int64_t>(model_->count()));
-        measure();
-        return std::shared_ptr<const ModelCells>(std::move(model_));
+        return linked();
+    }
+
+    std::shared_ptr<const ModelCells> link(CarriedModel carried) {
+        model_->mesh = std::move(carried.mesh);
+        model_->repairs = std::move(carried.repairs);
+        model_->cells = std::move(carried.cells);
+        model_->up = settings_.up;
+        return linked();
     }
 
 private:
@@ -243,7 +250,13 @@ private:
         return std::move(kept->cells);
     }
 
-    /// Makes planes and links.
+    /// With planes and links.
+    std::shared_ptr<const ModelCells> linked() {
+        model_->grid = rows_of_cells(static_cast<std::int64_t>(model_->count()));
+        measure();
+        return std::move(model_);
+    }
+
     void measure() {
         const SurfaceCells& cells = model_->cells;
         const double total = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
@@ -256,7 +269,7 @@ private:
         if (settings_.cells == ModelCellKind::spread) widen_tight_cells(areas);
         std::vector<double> weights =
             weights_of(cells, settings_.laplacian, areas, model_->unit, mean);
-        link(std::move(weights));
+        link_cells(std::move(weights));
         make_planes(areas);
     }
 
@@ -270,7 +283,7 @@ private:
         }
     }
 
-    void link(std::vector<double> weights) {
+    void link_cells(std::vector<double> weights) {
         const SurfaceCells& cells = model_->cells;
         LinkList list;
         list.ends = cells.ends;
@@ -353,6 +366,11 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control) {
     return ModelCellMaker(program, team, control).make(access);
+}
+
+std::shared_ptr<const ModelCells> link_carried_model(const Program& program, CarriedModel model,
+                                                     Team& team, RunControl& control) {
+    return ModelCellMaker(program, team, control).link(std::move(model));
 }
 
 const Links& ModelCells::links_with_gradients() const {

@@ -60,6 +60,19 @@ bool is_same(const std::optional<DirectionSettings>& first,
            is_same(first->height, second->height) && first->smoothing == second->smoothing;
 }
 
+/// Do two programs grow on the same model, but for its seed? False if there is none.
+bool have_same_model(const Program& before, const Program& after) {
+    const auto& first = before.domain.model;
+    const auto& second = after.domain.model;
+    if (!first || !second) return false;
+    return first->shape == second->shape && first->path == second->path &&
+           first->sizes == second->sizes && is_same(first->implicit, second->implicit) &&
+           first->cells == second->cells && first->count == second->count &&
+           first->laplacian == second->laplacian && first->unit == second->unit &&
+           first->up == second->up && is_same(first->directions, second->directions) &&
+           first->stretch == second->stretch;
+}
+
 }  // namespace
 
 std::optional<ItemId> find_item(const System& system, std::string_view name) {
@@ -150,18 +163,6 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState&
         }
     }
     return painted;
-}
-
-bool have_same_model(const Program& before, const Program& after) {
-    const auto& first = before.domain.model;
-    const auto& second = after.domain.model;
-    if (!first || !second) return false;
-    return before.domain.precision == after.domain.precision && first->shape == second->shape &&
-           first->path == second->path && first->sizes == second->sizes &&
-           is_same(first->implicit, second->implicit) && first->cells == second->cells &&
-           first->count == second->count && first->laplacian == second->laplacian &&
-           first->unit == second->unit && first->up == second->up &&
-           is_same(first->directions, second->directions) && first->stretch == second->stretch;
 }
 
 bool have_same_cells(const Program& before, const Program& after) {

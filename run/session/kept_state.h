@@ -59,7 +59,4 @@ std::optional<ItemId> find_item(const System& system, std::string_view name);
 /// the grid, the mask, the model, and the precision and seed of the run.
 bool have_same_cells(const Program& before, const Program& after);
 
-/// Do two programs grow on the same cells of the same model? False if there is none.
-bool have_same_model(const Program& before, const Program& after);
-
 }  // namespace cascade

@@ -101,7 +101,7 @@ Failure Refusal::in_brief() const {
 Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunControl& control) const {
     SimulationOptions options = options_;
     options.control = &control;
-    const bool is_known = simulation_ && have_same_model(*script_->program, *script.program);
+    const bool is_known = simulation_ && have_same_cells(*script_->program, *script.program);
     if (is_known) options.known_model = simulation_->model();
     auto made = Simulation::create(script, options);
     if (!made) return refuse(std::move(script), made.error());
@@ -157,6 +157,8 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const Simulatio
     if (!run) return run;
     auto started = (*run)->adopt(std::move(script), {}, Continuation::changed, control);
     if (!started) return tl::unexpected(std::move(started.error()));
+    // From now on the cells are those of the present simulation, while they are the same.
+    (*run)->options_.known_model = nullptr;
     return run;
 }
 

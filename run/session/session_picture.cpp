@@ -1,6 +1,7 @@
 // The session is one more text chunk beside those of a script.
 #include "run/session/session_picture.h"
 
+#include "render/ray_caster.h"
 #include "run/script/embedded_script.h"
 
 #include <fmt/format.h>
@@ -42,6 +43,11 @@ Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& reques
     auto painter = make_painter(run, request);
     if (!painter) return tl::unexpected(std::move(painter.error()));
     const Canvas canvas = painter->canvas(run.simulation());
+    if (!painter->is_flat() && !RayCaster::is_available()) {
+        return refused<std::string>({"a page without the program draws no pictures of surfaces",
+                                     "'cascade view' does, and so does 'cascade run' with the "
+                                     "session or its script"});
+    }
     const PngTexts texts = run.is_resumed() ? embed_script(run.script(), request)
                                             : embed_session(run.script(), request, run.log());
     auto file = encode_png(painter->image(canvas), request.png_depth(), texts);

@@ -1,6 +1,8 @@
 // What pages are told: places of messages, sliders, and the layout of snapshots.
 #include "view/page_answer.h"
 
+#include "run/session/session.h"
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 

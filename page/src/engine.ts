@@ -1,0 +1,108 @@
+// Hosts engine.wasm: what it imports, what it exports (tab/engine.cpp), and its turns.
+
+/// What a page carries for its engine.
+export interface Carried {
+    name: string;
+    text: string;
+    overrides: string;
+    files: [name: string, bytes: Uint8Array][];
+}
+
+interface Exports {
+    memory: WebAssembly.Memory;
+    __indirect_function_table: WebAssembly.Table;
+    _initialize(): void;
+    allocate(size: number): number;
+    carry(name: number, name_size: number, bytes: number, size: number): void;
+    begin(...texts: number[]): number;
+    receive(message: number, size: number): void;
+    turn(): number;
+}
+
+export interface Host {
+    send_text(text: string): void;
+    send_frame(bytes: ArrayBuffer): void;
+}
+
+class Ended extends Error {}
+
+export class Engine {
+    private exports!: Exports;
+    private words = "";  ///< What the engine has printed of a line.
+
+    constructor(module: WebAssembly.Module, private readonly host: Host) {
+        const copy = (at: number, size: number) => this.bytes.slice(at, at + size);
+        const text = (at: number, size: number) => new TextDecoder().decode(copy(at, size));
+        const page = {
+            send_text: (at: number, size: number) => this.host.send_text(text(at, size)),
+            send_frame: (at: number, size: number) => this.host.send_frame(copy(at, size).buffer),
+            add_kernel: (at: number, size: number) => this.add_kernel(copy(at, size)),
+            drop_kernel: (place: number) => this.exports.__indirect_function_table.set(place, null),
+        };
+        this.exports = new WebAssembly.Instance(module, { page, wasi_snapshot_preview1: this.system(module) })
+            .exports as unknown as Exports;
+        this.exports._initialize();
+    }
+
+    carry([name, bytes]: [string, Uint8Array]) { this.exports.carry(...this.put(name), ...this.put(bytes)); }
+
+    /// Why not, if the run could not start, is told to the host.
+    begin({ name, text, overrides }: Carried): boolean {
+        return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides)) !== 0;
+    }
+
+    receive(message: string) { this.exports.receive(...this.put(message)); }
+
+    /// Is there more to do before the next message?
+    turn(): boolean { return this.exports.turn() !== 0; }
+
+    // Views of memory end when it grows.
+    private get bytes() { return new Uint8Array(this.exports.memory.buffer); }
+
+    private put(what: string | Uint8Array): [number, number] {
+        const bytes = typeof what === "string" ? new TextEncoder().encode(what) : what;
+        const at = this.exports.allocate(bytes.length) >>> 0;
+        this.bytes.set(bytes, at);
+        return [at, bytes.length];
+    }
+
+    private add_kernel(bytes: Uint8Array<ArrayBuffer>): number {
+        const { memory, __indirect_function_table: table } = this.exports;
+        try {
+            const { run } = new WebAssembly.Instance(new WebAssembly.Module(bytes), { env: { memory } }).exports;
+            const place = table.grow(1);
+            table.set(place, run);
+            return place;
+        } catch {
+            return 0;
+        }
+    }
+
+    /// What the C library asks of its system: the time, and a place for last words.
+    private system(module: WebAssembly.Module): WebAssembly.ModuleImports {
+        const view = () => new DataView(this.exports.memory.buffer);
+        const known: Record<string, (...numbers: number[]) => number> = {
+            clock_time_get: (_clock, _precision, at) => {
+                view().setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
+                return 0;
+            },
+            fd_write: (_file, pieces, count, written) => {
+                let size = 0;
+                for (let k = 0; k < count; ++k) {
+                    const at = view().getUint32(pieces + 8 * k, true), length = view().getUint32(pieces + 8 * k + 4, true);
+                    this.words += new TextDecoder().decode(this.bytes.slice(at, at + length));
+                    size += length;
+                }
+                view().setUint32(written, size, true);
+                const lines = this.words.split("\n");
+                this.words = lines.pop()!;
+                for (const line of lines) console.error(line);
+                return 0;
+            },
+            proc_exit: () => { throw new Ended("the engine has ended"); },
+        };
+        const unsupported = 52;  // ENOSYS of WASI.
+        const names = WebAssembly.Module.imports(module).filter((each) => each.module === "wasi_snapshot_preview1");
+        return Object.fromEntries(names.map(({ name }) => [name, known[name] ?? (() => unsupported)]));
+    }
+}

@@ -1,0 +1,57 @@
+# All of Cascade as one WebAssembly module, engine.wasm, for a browser's tab: the rooms that a session
+# needs, without those of their files that need threads, a file system, or a library that exists only as
+# native code. Files of tab/substitutes take their place.
+#
+#     cmake -S . -B build/tab -DCMAKE_TOOLCHAIN_FILE=cmake/wasi.cmake && cmake --build build/tab
+
+# Libraries that consist of headers. Only they are taken from the folder of this machine's own programs.
+set(native_headers ${PROJECT_BINARY_DIR}/native_headers)
+file(MAKE_DIRECTORY ${native_headers})
+foreach(name fmt tl nlohmann eigen3 fftw3.h)
+  if(NOT EXISTS /usr/include/${name})
+    message(FATAL_ERROR "/usr/include/${name} is missing")
+  endif()
+  file(CREATE_LINK /usr/include/${name} ${native_headers}/${name} SYMBOLIC)
+endforeach()
+
+list(APPEND CASCADE_WITHOUT
+  core/cache_sizes core/descriptor core/file core/floating_point core/granted_files core/kept_files
+  core/late_library core/open_below core/own_folder core/parallel core/plane_memory core/read_file
+  core/temporary_file core/transform_planner
+  ir/tiered_backend
+  mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_file mesh/half_edges mesh/isotropic_remesh
+  surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
+  surface/retiled_attribute
+  picture/deflate picture/png_reader picture/read_grey_picture picture/read_png
+  render/ray_caster
+  run/domain/free_memory
+  run/pictures/frame_folder run/pictures/frames run/pictures/model_files
+  run/session/session
+  run/commands/.* run/emit_c/.*
+  view/admission view/carried view/local_server view/outbox view/page_requests view/page_server
+  view/standalone_page view/surface_sender)
+
+include(cmake/rooms.cmake)
+target_include_directories(cascade_options SYSTEM INTERFACE ${native_headers} ${native_headers}/eigen3)
+target_compile_definitions(cascade_options INTERFACE FMT_HEADER_ONLY)
+target_compile_options(cascade_options INTERFACE -msimd128 -fno-exceptions -fno-rtti)
+
+cascade_room(core)
+target_compile_definitions(cascade_core PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
+foreach(room ir lang wasm solvers picture measure mesh surface render export run view)
+  cascade_room(${room})
+endforeach()
+include(lang/systems/embed.cmake)
+foreach(room solvers measure)
+  target_compile_definitions(cascade_${room} PRIVATE
+    CASCADE_FFTW_LIBRARY="fftw3" CASCADE_FFTW_FLOAT_LIBRARY="fftw3f")
+endforeach()
+target_compile_definitions(cascade_run PRIVATE CASCADE_HAS_JIT=0)
+set_source_files_properties(surface/repulsion.cpp PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
+
+file(GLOB tab_sources CONFIGURE_DEPENDS tab/*.cpp tab/substitutes/*.cpp)
+add_executable(engine ${tab_sources})
+target_link_libraries(engine PRIVATE cascade_view cascade_wasm)
+target_link_options(engine PRIVATE -mexec-model=reactor -Wl,--export-table,--growable-table
+  -Wl,-z,stack-size=4194304 -Wl,--strip-all)
+set_target_properties(engine PROPERTIES SUFFIX .wasm RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -1,0 +1,165 @@
+// The engine of a page that has no server: a live run behind the messages of spec/page.md.
+//
+// Exported functions, all for the one thread of a browser's worker:
+//
+// - allocate(size): memory for the bytes of the next call, which frees it.
+// - carry(name, name_size, bytes, size): a file that the script may read.
+// - begin(name, name_size, text, size, overrides, overrides_size): the script, and its overrides as
+//   pictures carry them. 0 if the run could not start; the page has then been told why.
+// - receive(message, size): a message of the page.
+// - turn(): takes some steps and sends what has changed. 0 if there is nothing to do before the
+// next
+//   message.
+#include "core/file.h"
+#include "ir/tiered_backend.h"
+#include "run/domain/carried_model.h"
+#include "run/script/embedded_script.h"
+#include "run/session/turns.h"
+#include "tab/files.h"
+#include "tab/host.h"
+#include "tab/module_backend.h"
+#include "view/carried.h"
+#include "view/page_answer.h"
+#include "view/page_message.h"
+#include "view/page_reply.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+namespace {
+
+void send_text(const std::string& text) { host_send_text(text.data(), text.size()); }
+
+void send_frame(const std::string& bytes) { host_send_frame(bytes.data(), bytes.size()); }
+
+class Engine {
+public:
+    bool begin(const std::string& name, const std::string& text, const std::string& overrides);
+    void receive(std::string_view text);
+    bool turn();
+
+private:
+    void send_surface();
+    void tell_script() { send_text(print_script(turns_->run())); }
+
+    std::optional<Turns> turns_;
+    std::shared_ptr<const Snapshot> newest_;  ///< That the page has.
+    bool wants_snapshot_ = false;
+    bool has_library_ = false;  ///< The page.
+    std::uint64_t told_script_ = 0;
+};
+
+bool Engine::begin(const std::string& name, const std::string& text, const std::string& stored) {
+    const auto refuse = [](const std::string& why) {
+        send_text(print_failure(0, {why, ""}));
+        return false;
+    };
+    auto overrides = overrides_from_json(stored.empty() ? "{}" : stored);
+    if (!overrides) return refuse(overrides.error().message);
+    Script script = load_script(name, text, "", std::move(*overrides));
+    if (!script.program) return refuse(script.messages(false));
+    SimulationOptions options;
+    options.threads = 1;
+    options.stepper = std::make_shared<TieredBackend>(make_module_backend());
+    RunControl control;
+    if (auto bytes = read_file(carried_model_name, UINT64_MAX);
+        bytes && script.program->domain.model) {
+        auto model = parse_carried_model(*bytes);
+        if (!model) return refuse(model.error().message);
+        Team team(1);
+        options.known_model = link_carried_model(*script.program, *std::move(model), team, control);
+    }
+    auto run = LiveRun::begin(std::move(script), options, control);
+    if (!run) return refuse(run.error().messages(false));
+    turns_.emplace(std::move(*run));
+    send_text(print_palettes());
+    return true;
+}
+
+void Engine::receive(std::string_view text) {
+    auto message = parse_page_message(text);
+    if (!message) return send_text(print_failure(0, message.error()));
+    const std::uint64_t id = message->id;
+    if (std::holds_alternative<NextSnapshot>(message->request)) {
+        wants_snapshot_ = true;
+    } else if (std::holds_alternative<NamePage>(message->request)) {
+        return;  // There is one page.
+    } else if (std::holds_alternative<AskForSurface>(message->request)) {
+        send_surface();
+    } else if (const auto* question = std::get_if<PageQuestion>(&message->request)) {
+        send_text(print_reply(id, *question, turns_->run()));
+    } else {
+        const auto& command = std::get<SessionCommand>(message->request);
+        const auto result = turns_->obey(command);
+        send_text(print_answer(id, result, text_of(command)));
+    }
+}
+
+void Engine::send_surface() {
+    if (!newest_ || !newest_->surface) return;
+    Team team(1);
+    send_frame(print_surface(shown_surface(*newest_->surface, team), newest_->surface_number));
+}
+
+bool Engine::turn() {
+    if (turns_->is_going_on()) turns_->take();
+    if (wants_snapshot_ && turns_->has_changed() && turns_->is_snapshot_due()) {
+        newest_ = turns_->snapshot();
+        if (const auto version = version_of_script(*newest_); version != told_script_) {
+            told_script_ = version;
+            tell_script();
+        }
+        wants_snapshot_ = false;
+        send_frame(print_snapshot(*newest_));
+        // Not before: a page that has the library at first lets its user choose from it.
+        if (!has_library_) send_text(print_systems());
+        has_library_ = true;
+    }
+    return turns_->is_going_on();
+}
+
+Engine& engine() {
+    static Engine one;
+    return one;
+}
+
+/// Takes the bytes that allocate() made room for.
+std::string taken(char* bytes, std::size_t size) {
+    std::string text(bytes, size);
+    delete[] bytes;
+    return text;
+}
+
+}  // namespace
+}  // namespace cascade
+
+using namespace cascade;
+
+extern "C" {
+
+[[clang::export_name("allocate")]] char* engine_allocate(std::size_t size) {
+    return new char[size];
+}
+
+[[clang::export_name("carry")]] void engine_carry(char* name, std::size_t name_size, char* bytes,
+                                                  std::size_t size) {
+    carry_file(taken(name, name_size), taken(bytes, size));
+}
+
+[[clang::export_name("begin")]] int engine_begin(char* name, std::size_t name_size, char* text,
+                                                 std::size_t size, char* overrides,
+                                                 std::size_t overrides_size) {
+    return engine().begin(taken(name, name_size), taken(text, size),
+                          taken(overrides, overrides_size));
+}
+
+[[clang::export_name("receive")]] void engine_receive(char* message, std::size_t size) {
+    engine().receive(taken(message, size));
+}
+
+[[clang::export_name("turn")]] int engine_turn() { return engine().turn(); }
+
+}  // extern "C"

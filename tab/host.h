@@ -1,0 +1,22 @@
+// What the page does for its engine: imports of the WebAssembly module.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" {
+
+/// A message to the page: a text, or a snapshot as bytes (spec/page.md).
+[[clang::import_module("page"), clang::import_name("send_text")]] void host_send_text(
+    const char* text, std::size_t size);
+[[clang::import_module("page"), clang::import_name("send_frame")]] void host_send_frame(
+    const char* bytes, std::size_t size);
+
+/// Compiles a module of wasm/kernel_module.h and puts its function into the engine's table. The
+/// place there, or 0 if that fails.
+[[clang::import_module("page"), clang::import_name("add_kernel")]] std::uint32_t host_add_kernel(
+    const std::uint8_t* bytes, std::size_t size);
+[[clang::import_module("page"), clang::import_name("drop_kernel")]] void host_drop_kernel(
+    std::uint32_t place);
+
+}  // extern "C"

@@ -1,0 +1,37 @@
+// What needs OpenMesh, tinygltf or Embree, which exist only as native code. A page that carries a
+// model carries its cells, too, so that only another model needs these.
+#include "core/check.h"
+#include "mesh/coarse_copy.h"
+#include "mesh/flat_triangles.h"
+#include "mesh/isotropic_remesh.h"
+#include "mesh/model_file.h"
+#include "render/ray_caster.h"
+
+namespace cascade {
+namespace {
+
+tl::unexpected<Failure> needs_program() {
+    return failure("a page without the program cannot make the cells of this model",
+                   "'cascade view' can");
+}
+
+}  // namespace
+
+Result<CoarseCopy> coarse_copy(const SurfaceMesh&, double) { return needs_program(); }
+Result<FlatTriangles> remove_flat_triangles(SurfaceMesh&) { return needs_program(); }
+Result<void> isotropic_remesh(SurfaceMesh&, double, const BringBack&, const std::atomic<bool>&) {
+    return needs_program();
+}
+Result<PolygonSoup> read_gltf(std::string_view, const GrantedFiles&) { return needs_program(); }
+
+// Nothing is drawn by tracing rays where there is no ray caster.
+struct RayCaster::Scene {};
+RayCaster::RayCaster(const TriangleMesh&) {
+    CHECK(is_available(), "pictures of surfaces are refused before they are drawn");
+}
+RayCaster::~RayCaster() = default;
+bool RayCaster::is_available() { return false; }
+std::optional<Hit> RayCaster::nearest(const Ray&) const { return std::nullopt; }
+bool RayCaster::is_blocked(const Ray&, float) const { return false; }
+
+}  // namespace cascade

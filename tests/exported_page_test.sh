@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# A page that carries its engine: headless Chromium opens the file from the disk, without a network, and its
+# canvas is compared with the PNG files of `cascade run`. And what `cascade export` refuses.
+set -u
+
+fail() { echo "exported_page: $*"; exit 1; }
+
+[ -z "${SANITIZE:-}" ] || { echo "exported_page: builds with sanitizers have no engine"; exit 77; }
+browser=$(command -v chromium-headless-shell || command -v chromium) || fail "chromium is missing; cmake/packages.txt names its package"
+command -v node >/dev/null || fail "node is missing; cmake/packages.txt names its package"
+
+cat >spots.cascade <<'SCRIPT'
+domain { grid: 48, 32 }
+system spots {
+  feed: 0.037 in 0.01 .. 0.08 step 0.001   ## of u
+  u: 1 - 0.5 * image("dots.png")
+  v: 0.25 * image("dots.png") + random(0.01, 0.01)
+  u' = 0.16 * lap(u) - u * v^2 + feed * (1 - u)
+  v' = 0.08 * lap(v) + u * v^2 - 0.097 * v
+}
+stage grow: spots { iterations: 1500 }
+stage more: spots { u: u; v: v; feed: 0.05; iterations: 500 }
+SCRIPT
+cat >dots.cascade <<'SCRIPT'
+domain { grid: 48, 32 }
+system dots { u: disc(0.3, 0.3, 0.1); u' = 0 }
+stage only: dots { iterations: 1 }
+SCRIPT
+"$CASCADE" run dots.cascade --palette grey -o dots.png --quiet || fail "the picture to read was not drawn"
+"$CASCADE" run spots.cascade --palette leopard -o spots.png --quiet || fail "the picture was not drawn"
+"$CASCADE" export spots.cascade >said || fail "the page was not written"
+grep -qE '^spots\.html \([0-9.]+ MB\)$' said || fail "it said: $(cat said)"
+[ "$(stat -c %s spots.html)" -lt 4000000 ] || fail "the page has $(stat -c %s spots.html) bytes"
+
+cat >sphere.cascade <<'SCRIPT'
+domain { mesh: "ball.off"; cells: 2000 }
+system heat { u: if(z > 0.5, 1, 0); u' = 0.1 * lap(u) }
+stage grow: heat { iterations: 60 }
+SCRIPT
+cat >ball.off <<'MODEL'
+OFF
+6 8 0
+1 0 0
+-1 0 0
+0 1 0
+0 -1 0
+0 0 1
+0 0 -1
+3 0 2 4
+3 2 1 4
+3 1 3 4
+3 3 0 4
+3 2 0 5
+3 1 2 5
+3 3 1 5
+3 0 3 5
+MODEL
+"$CASCADE" export sphere.cascade --html ball.html --set grow.iterations=80 >/dev/null || fail "the page of a model was not written"
+
+# Bad input: one message, and nothing is left.
+refused() {
+    local wanted=$1
+    shift
+    "$CASCADE" export "$@" >out 2>error && fail "not refused: $*"
+    grep -qF -- "$wanted" error || fail "'$*' said: $(cat error)"
+    [ ! -e refused.html ] || fail "'$*' left a page"
+}
+echo "system s { u: 1" >wrong.cascade
+refused "wrong.cascade" wrong.cascade --html refused.html
+echo 'system s { u: field("none.npy"); u'"'"' = 0 } stage a: s { iterations: 1 }' >missing.cascade
+refused "none.npy" missing.cascade --html refused.html
+refused "no folder" spots.cascade --html none/refused.html
+mkdir -p folder.html
+refused "folder.html" spots.cascade --html folder.html
+refused "a script is missing"
+
+rm -rf profile
+node "$SOURCE/tests/page/exported.mjs" "$browser" || fail "see above"

@@ -1,0 +1,95 @@
+// Opens spots.html and ball.html, pages that carry their engine, from the disk and without a network. Argument: the
+// browser; what `cascade run` draws of the script is spots.png. Screenshots are left in the current folder.
+import { deflateSync } from "node:zlib";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Browser } from "./browser.mjs";
+
+const browser = await Browser.start(process.argv[2], join(process.cwd(), "profile"));
+const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
+
+async function end(error) {
+    clearTimeout(limit);
+    if (error) {
+        console.log(error.stack);
+        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
+        if (browser.heard.length > 0) console.log(browser.heard.join("\n"));
+    }
+    browser.end();
+    process.exit(error ? 1 : 0);
+}
+
+function expect(condition, message) { if (!condition) throw new Error(message); }
+const click = (id) => browser.evaluate(`document.getElementById("${id}").click()`);
+const is_over = `document.querySelectorAll("#stages li").length > 0 && document.getElementById("step").disabled`;
+const text = () => browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`);
+
+async function open(page, fragment = "") {
+    await browser.call("Page.navigate", { url: "about:blank" });
+    await browser.call("Page.navigate", { url: pathToFileURL(page).href + fragment });
+}
+
+const pixels = (image) => browser.evaluate(`(async () => {
+    const image = await (${image}), copy = document.createElement("canvas");
+    [copy.width, copy.height] = [image.width, image.height];
+    copy.getContext("2d").drawImage(image, 0, 0);
+    return [image.width, image.height, ...copy.getContext("2d").getImageData(0, 0, image.width, image.height).data];
+})()`);
+
+async function expect_the_picture(how) {
+    await browser.evaluate(`{ const choice = document.getElementById("palette"); choice.value = "leopard"; choice.dispatchEvent(new Event("change")); }`);
+    const found = await pixels(`document.getElementById("pattern")`);
+    const wanted = await pixels(`new Promise((resolve) => {
+        const image = new Image();
+        image.onload = () => resolve(image);
+        image.src = "data:image/png;base64,${readFileSync("spots.png").toString("base64")}";
+    })`);
+    const differs = found.findIndex((level, k) => Math.abs(level - wanted[k]) > (k < 2 ? 0 : 1));
+    expect(found.length === wanted.length && differs < 0, `${how}: the canvas differs from spots.png at ${differs}: ${found[differs]} and not ${wanted[differs]}`);
+}
+
+try {
+    await browser.call("Network.enable");
+    await browser.call("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 });
+    await open("spots.html");
+    await browser.until(is_over);
+    await expect_the_picture("grown by itself");
+    writeFileSync("exported.png", await browser.screenshot());
+
+    // A slider, a stroke and undo, as with the program.
+    await browser.evaluate(`{ const slider = document.querySelector("#controls input"); slider.value = 0.06; slider.dispatchEvent(new Event("input")); slider.dispatchEvent(new Event("change")); }`);
+    await browser.until(`!document.getElementById("undo").disabled`);
+    await click("undo");
+    await browser.until(`document.getElementById("undo").disabled`);
+    await click("restart");
+    await browser.until(`document.getElementById("place").textContent.startsWith("step 0")`);
+    await click("run");
+    await browser.until(is_over);
+    await expect_the_picture("after undo");
+    await click("systems");
+    await browser.until(`document.querySelectorAll("#systems_list li, dialog[open] li").length > 50`);
+    await browser.press("Escape");
+
+    // A script in the link, right and wrong.
+    const packed = (script) => `#script=${deflateSync(script).toString("base64").replaceAll("+", "-").replaceAll("/", "_")}`;
+    const linked = `domain { grid: 32, 32 }\nsystem linked { u: x; u' = lap(u) / 8 }\nstage only: linked { iterations: 20 }\n`;
+    await open("spots.html", packed(linked));
+    await browser.until(is_over);
+    expect((await text()).includes("system linked"), "the linked script is not there");
+    await open("spots.html", packed("system wrong {"));
+    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+    expect((await text()).includes("system spots"), "the page's own script is not there after a wrong link");
+
+    // A model comes with its cells.
+    await open("ball.html");
+    await browser.until(is_over);
+    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 500))");
+    writeFileSync("exported_ball.png", await browser.screenshot());
+    const shown = await browser.evaluate(`!document.getElementById("solid").hidden && document.getElementById("place").textContent`);
+    expect(shown.startsWith?.("step 80"), `the model shows ${shown}`);
+    expect(browser.heard.length === 0, `the pages said: ${browser.heard.join("\n")}`);
+} catch (error) {
+    await end(error);
+}
+await end();

@@ -1,0 +1,110 @@
+// Runs the scripts of tests/tab_agreement_test.sh natively, with denormal numbers kept as a browser
+// keeps them, and writes what a page needs to run them too, and the bits that it must get.
+//
+//   tab_states FILE
+#include "core/base64.h"
+#include "core/check.h"
+#include "core/floating_point.h"
+#include "lang/library/library.h"
+#include "lang/print/library_note.h"
+#include "run/session/turns.h"
+#include "tests/agreement/random_scripts.h"
+#include "view/carried.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace cascade::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::int64_t most_steps = 40;
+
+/// FNV-1a over the words of all cells; tests/tab/run_states.mjs has the same.
+std::uint32_t hash_of(const Field& field) {
+    std::uint32_t hash = 0x811c9dc5;
+    const PlaneLayout& layout = field.layout();
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        for (std::int64_t column = 0; column < layout.width; ++column) {
+            const float value = field.row(row)[column];
+            const auto word = std::isnan(value) ? 0x7fc00000U : std::bit_cast<std::uint32_t>(value);
+            hash = (hash ^ word) * 0x01000193;
+        }
+    }
+    return hash;
+}
+
+/// What a page carries, and what it must show after some steps of each stage; nothing if the run
+/// fails, as some random ones do.
+Json state_of(Script script) {
+    SimulationOptions options;
+    options.threads = 1;
+    // Native code counts on denormal numbers being flushed, and may do so early.
+    options.backend = BackendKind::interpreter;
+    RunControl control;
+    auto run = LiveRun::begin(std::move(script), options, control);
+    if (!run) return nullptr;
+    const auto carried = carried_by((*run)->script(), (*run)->simulation());
+    CHECK(carried, "test: the files of a script can be read");
+    Json files = Json::array();
+    for (const auto& [name, bytes] : carried->files) files.push_back({name, base64(bytes)});
+    if (!(*run)->advance(std::int64_t{1} << 40, control)) return nullptr;
+    const Program& program = *(*run)->script().program;
+    const auto last = static_cast<std::uint32_t>(program.stages.size() - 1);
+    Turns turns(std::move(*run));
+    Json species = Json::array();
+    for (const ItemId item : program.system_of(last).items()) {
+        if (!program.system_of(last).is_species(item)) continue;
+        const std::string name(program.system_of(last).item_name(item));
+        if (!turns.obey(Show{name})) continue;
+        const auto snapshot = turns.snapshot();
+        species.push_back({name, hash_of(snapshot->fields[0])});
+    }
+    return {{"name", carried->name}, {"text", carried->text}, {"overrides", carried->overrides},
+            {"files", files},        {"species", species},    {"steps", turns.run().place().steps}};
+}
+
+void write_states(const std::filesystem::path& path) {
+    Json all = Json::array();
+    const auto add = [&](Script script) {
+        CHECK(script.program, "test: the script is right");
+        if (script.program->stages.empty()) return;
+        if (auto state = state_of(std::move(script)); !state.is_null()) all.push_back(state);
+    };
+    Overrides overrides;
+    overrides.steps = most_steps;
+    for (const LibraryText& text : library_texts()) {
+        add(load_script(std::string(text.file_name), starting_script(text), ".", overrides));
+    }
+    std::set<std::filesystem::path> examples;
+    const auto folder = std::filesystem::path(CASCADE_SOURCE_DIR) / "examples";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() == ".cascade") examples.insert(entry.path());
+    }
+    for (const auto& example : examples) {
+        auto loaded = load_script_file(example, overrides);
+        CHECK(loaded, "test: examples can be read");
+        if (loaded->script.program) add(std::move(loaded->script));
+    }
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        add(load_script(fmt::format("random script {}", seed), random_script(seed), folder,
+                        overrides));
+    }
+    std::ofstream(path) << all.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+}  // namespace cascade::testing
+
+int main(int argc, char** argv) {
+    CHECK(argc == 2, "test: tab_states FILE");
+    cascade::keep_denormals();
+    cascade::testing::write_states(argv[1]);
+}

@@ -1,0 +1,34 @@
+// Reads what a simulation of the script has read.
+#include "view/carried.h"
+
+#include "core/granted_files.h"
+#include "picture/npy.h"
+#include "picture/pixel_file.h"
+#include "run/domain/carried_model.h"
+#include "run/domain/input_files.h"
+#include "run/script/embedded_script.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+Result<Carried> carried_by(const Script& script, const Simulation& simulation) {
+    Carried carried{script.name, script.text, overrides_to_json(script.overrides), {}};
+    const GrantedFiles files(script.folder, script.overrides.reads);
+    for (const std::string& name : input_file_names(script)) {
+        auto bytes = files.read(name, std::max(largest_npy_file, largest_picture_file));
+        if (!bytes) return tl::unexpected(bytes.error());
+        if (bytes->starts_with("\x89PNG")) {
+            const auto picture = parse_grey_picture(*bytes);
+            if (!picture) return tl::unexpected(picture.error());
+            bytes = print_pixel_file(*picture);
+        }
+        carried.files.emplace_back(name, *std::move(bytes));
+    }
+    if (const auto model = simulation.model()) {
+        carried.files.emplace_back(carried_model_name, print_carried_model(*model));
+    }
+    return carried;
+}
+
+}  // namespace cascade
