@@ -19,3 +19,5 @@ done <commands
 for file in new.png larger.png animal.png new_sweep/sheet.png; do
     [ -s "$file" ] || fail "$file is missing"
 done
+
+"$CASCADE" check "$SOURCE/page/film.cascade" >out 2>&1 || fail "the script of README's first picture is wrong: $(cat out)"
