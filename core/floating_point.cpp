@@ -43,10 +43,10 @@ void write_control(unsigned long long value) {
 
 #endif
 
-std::atomic<bool> keeps_denormals = false;
+std::atomic<bool> are_kept = false;
 
 unsigned long long spec_control(unsigned long long control) {
-    const unsigned long long flushed = keeps_denormals ? 0 : flushing;
+    const unsigned long long flushed = are_kept ? 0 : flushing;
     return (control & ~(rounding_bits | flushing)) | flushed;
 }
 
@@ -56,6 +56,7 @@ FlushDenormals::FlushDenormals() : saved_(read_control()) { write_control(spec_c
 
 FlushDenormals::~FlushDenormals() { write_control(saved_); }
 
-void keep_denormals() { keeps_denormals = true; }
+void keep_denormals() { are_kept = true; }
+bool keeps_denormals() { return are_kept; }
 
 }  // namespace cascade

@@ -17,8 +17,10 @@ private:
     unsigned long long saved_;
 };
 
-/// From now on FlushDenormals only sets the rounding, in all threads, so that tests can compare
-/// results with those of WebAssembly, which keeps denormal numbers.
+/// From now on FlushDenormals only sets the rounding, in all threads, and the interpreter flushes
+/// what it writes to planes, so that tests can compare results with those of WebAssembly, whose
+/// arithmetic keeps denormal numbers.
 void keep_denormals();
+bool keeps_denormals();
 
 }  // namespace cascade

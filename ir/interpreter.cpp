@@ -6,6 +6,7 @@
 #include "ir/interpreter.h"
 
 #include "core/check.h"
+#include "core/floating_point.h"
 #include "ir/block_loops.h"
 #include "ir/word_operations.h"
 
@@ -357,6 +358,16 @@ private:
             std::fill_n(out, count_, scalars_[location.index]);
         } else {
             std::memcpy(out, address(location), static_cast<std::size_t>(count_) * sizeof(Number));
+        }
+        if (keeps_denormals()) flush(out);
+    }
+
+    /// As kernels of WebAssembly do. Zeros keep their sign, and so does what becomes one.
+    void flush(Number* out) const {
+        for (std::int64_t i = 0; i < count_; ++i) {
+            if (std::abs(out[i]) < std::numeric_limits<Number>::min()) {
+                out[i] = std::copysign(Number{0}, out[i]);
+            }
         }
     }
 

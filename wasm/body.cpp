@@ -72,7 +72,17 @@ void Body::define(ValueId id) {
 
 void Body::store(std::size_t result) {
     const ValueId id = kernel_.results[result];
-    cells_.store(part_.results[result], number(id));
+    if (is_exact_) {
+        cells_.store(part_.results[result], number(id));
+    } else {
+        // Else processors would compute with denormal numbers for as long as a field decays, which
+        // takes many times as long. Within a step they are rare.
+        code().get(number(id));
+        Arithmetic(function_, LoopLevel::cell, true).flush();
+        const Local flushed = keep();
+        cells_.store(part_.results[result], flushed);
+        function_.give_back(flushed);
+    }
     release(id);
 }
 

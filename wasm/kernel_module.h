@@ -16,7 +16,8 @@ namespace cascade {
 
 struct WasmOptions {
     /// Flushes denormal numbers wherever a processor that flushes them would, which takes several
-    /// times as long. Without it they are kept, and the bits are those of a run that keeps them.
+    /// times as long. Without it only results are flushed, and the bits are those of the
+    /// interpreter after keep_denormals().
     bool is_exact = false;
 };
 

@@ -40,6 +40,7 @@ TransformPlanner::~TransformPlanner() = default;
 FlushDenormals::FlushDenormals() : saved_(0) {}
 FlushDenormals::~FlushDenormals() = default;
 void keep_denormals() {}
+bool keeps_denormals() { return true; }
 
 std::vector<CacheLevel> cache_levels(const std::filesystem::path&) { return {}; }
 CacheSizes CacheSizes::described_in(const std::filesystem::path&) { return {}; }
