@@ -12,10 +12,15 @@ while read -r program words; do
     [ "$program" = ./cascade ] || fail "what is '$program'?"
     # Everything after '#' explains.
     read -ra words <<<"${words%%#*}"
-    "$CASCADE" "${words[@]}" --quiet >out 2>&1 </dev/null || fail "cascade ${words[*]}: $(cat out)"
     count=$((count + 1))
+    quiet=(--quiet)
+    if [ "${words[0]}" = export ]; then
+        [ -z "${SANITIZE:-}" ] || continue  # These builds have no engine.
+        quiet=()
+    fi
+    "$CASCADE" "${words[@]}" ${quiet[@]+"${quiet[@]}"} >out 2>&1 </dev/null || fail "cascade ${words[*]}: $(cat out)"
 done <commands
-[ "$count" = 5 ] || fail "$count commands instead of 5"
+[ "$count" = 6 ] || fail "$count commands instead of 6"
 for file in new.png larger.png animal.png new_sweep/sheet.png; do
     [ -s "$file" ] || fail "$file is missing"
 done

@@ -1,0 +1,78 @@
+// Follows the links of the static site in the folder `site`, from the disk and without a network: no link is broken, and
+// a script of the specification grows. Argument: the browser. Screenshots are left in the current folder.
+import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { Browser } from "./browser.mjs";
+
+function expect(condition, message) { if (!condition) throw new Error(message); }
+
+const pages = readdirSync("site", { recursive: true }).filter((name) => name.endsWith(".html") && !/live|animal/.test(name));
+let links = 0;
+for (const page of pages) {
+    const text = readFileSync(join("site", page), "utf8");
+    for (const [, address] of text.matchAll(/(?:href|src)="([^"]*)"/g)) {
+        if (/^(https?|data):/.test(address)) continue;
+        const [path, fragment] = address.split("#"), target = path === "" ? join("site", page) : resolve("site", dirname(page), path);
+        expect(existsSync(target), `${page}: ${address.slice(0, 60)} is not there`);
+        expect(!fragment || fragment.startsWith("script=") || readFileSync(target, "utf8").includes(`id="${fragment}"`), `${page}: ${address} has no such heading`);
+        ++links;
+    }
+    expect(!/<script/i.test(text), `${page} has a script`);
+}
+expect(pages.length > 25 && links > 500, `there are only ${pages.length} pages with ${links} links`);
+
+const browser = await Browser.start(process.argv[2], join(process.cwd(), "profile"));
+const limit = setTimeout(() => end(new Error("it took more than 3 minutes")), 180000);
+
+async function end(error) {
+    clearTimeout(limit);
+    if (error) {
+        console.log(error.stack);
+        writeFileSync("failed.png", await browser.screenshot().catch(() => ""));
+    }
+    browser.end();
+    process.exit(error ? 1 : 0);
+}
+
+const open = (page) => browser.call("Page.navigate", { url: pathToFileURL(join("site", page)).href });
+const follow_link = (selector) => browser.evaluate(`document.querySelector(${JSON.stringify(selector)}).click()`);
+/// The page with the engine has the script that the link brings, and it grows.
+async function expect_growth(words) {
+    await browser.until(`document.querySelectorAll("#stages li").length > 0`);
+    await browser.until(`!document.getElementById("place").textContent.startsWith("step 0")`);
+    const text = await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").textContent`);
+    expect(text.includes(words), `the script is ${text}`);
+}
+
+try {
+    await browser.call("Network.enable");
+    await browser.call("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 });
+    for (const [name, width, scheme] of [["wide", 1280, "light"], ["dark", 1280, "dark"], ["phone", 390, "light"]]) {
+        await browser.call("Emulation.setDeviceMetricsOverride", { width, height: 844, deviceScaleFactor: 1, mobile: width < 500 });
+        await browser.call("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: scheme }] });
+        for (const page of ["index.html", "tutorial.html", "systems.html", "spec/stages.html"]) {
+            await open(page);
+            await browser.until(`document.readyState === "complete"`);
+            const overflow = await browser.evaluate("document.documentElement.scrollWidth - innerWidth");
+            expect(overflow <= 0, `${name}: ${page} is ${overflow} pixels too wide`);
+            writeFileSync(`${name}_${page.replace("/", "_").replace("html", "png")}`, await browser.screenshot());
+        }
+    }
+    await open("index.html");
+    await browser.until(`document.querySelectorAll(".gallery img").length > 30`);
+    await follow_link(`.gallery a[href*="script="]`);
+    await expect_growth("Appendix C");
+    for (const [page, words] of [["tutorial.html", "the spots stay as they are"], ["spec/stages.html", "stage"]]) {
+        await open(page);
+        await browser.until(`document.querySelector(".live .grow") !== null`);
+        await follow_link(".live .grow");
+        await expect_growth(words);
+    }
+    writeFileSync("grown.png", await browser.screenshot());
+    await open("animal.html");
+    await expect_growth("creature");
+    await end();
+} catch (error) {
+    await end(error);
+}

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# The static site is written, its links lead somewhere, and its scripts grow in headless Chromium without a network.
+set -u
+
+fail() { echo "site: $*"; exit 1; }
+
+[ -z "${SANITIZE:-}" ] || { echo "site: builds with sanitizers have no engine"; exit 77; }
+browser=$(command -v chromium-headless-shell || command -v chromium) || fail "chromium is missing; cmake/packages.txt names its package"
+
+rm -rf site profile
+"$SOURCE/page/site.sh" site "$CASCADE" >said || fail "it was not written: $(cat said)"
+tail -n 1 said
+node "$SOURCE/tests/page/site.mjs" "$browser" || fail "see above"
