@@ -7,11 +7,13 @@ export type Line = Pick<WebSocket, "readyState" | "send" | "close" | "binaryType
 
 const element = (id: string) => document.getElementById(id);
 
-async function unpacked(base64: string): Promise<Uint8Array<ArrayBuffer>> {
-    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-    return new Uint8Array(await new Response(stream).arrayBuffer());
+/// Browsers decode addresses of data, decompress and compile at the same time.
+async function stream_of(base64: string, type: string): Promise<Response> {
+    const packed = await fetch(`data:application/octet-stream;base64,${base64}`);
+    return new Response(packed.body!.pipeThrough(new DecompressionStream("deflate")), { headers: { "Content-Type": type } });
 }
+
+const unpacked = async (base64: string) => new Uint8Array(await (await stream_of(base64, "application/octet-stream")).arrayBuffer());
 
 /// A script in the fragment of the address: its text, compressed, in base64 of addresses.
 async function linked(): Promise<Carried | undefined> {
@@ -45,7 +47,7 @@ export class EngineLine implements Line {
     close() { this.end(""); }
 
     private async begin() {
-        const engine = unpacked(element("engine")!.textContent!).then((bytes) => WebAssembly.compile(bytes));
+        const engine = WebAssembly.compileStreaming(stream_of(element("engine")!.textContent!, "application/wasm"));
         const source = new Blob([element("worker")!.textContent!], { type: "text/javascript" });
         const worker = new Worker(URL.createObjectURL(source));
         worker.onmessage = ({ data }) => this.onmessage?.call(this as unknown as WebSocket, new MessageEvent("message", { data }));
