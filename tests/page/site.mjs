@@ -40,7 +40,7 @@ const follow_link = (selector) => browser.evaluate(`document.querySelector(${JSO
 /// The page with the engine has the script that the link brings, and it grows.
 async function expect_growth(words) {
     await browser.until(`document.querySelectorAll("#stages li").length > 0`);
-    await browser.until(`!document.getElementById("place").textContent.startsWith("step 0")`);
+    await browser.until(`[...document.querySelectorAll("#stages progress")].some(({ value }) => value > 0)`);
     const text = await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").textContent`);
     expect(text.includes(words), `the script is ${text}`);
 }
