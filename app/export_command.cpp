@@ -17,7 +17,7 @@ int export_command(const Options& options, Console& console) {
     console.say(file->script.messages(console.error().colour));
     if (!file->script.program) return exit_status::wrong_script;
     auto path = options.html;
-    if (path.empty()) path = std::filesystem::path(file->script.name).stem().concat(".html");
+    if (path.empty()) path = output_stem(file->script) + ".html";
     const auto fail = [&](const Failure& failure) {
         console.fail(failure);
         return exit_status::failed_run;

@@ -57,6 +57,9 @@ OFF
 MODEL
 "$CASCADE" export sphere.cascade --html ball.html --set grow.iterations=80 >/dev/null || fail "the page of a model was not written"
 
+"$CASCADE" export - <dots.cascade >said || fail "a script of standard input was not exported"
+grep -q '^cascade\.html (' said || fail "a script of standard input became: $(cat said)"
+
 # Bad input: one message, and nothing is left.
 refused() {
     local wanted=$1
