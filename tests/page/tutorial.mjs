@@ -99,6 +99,14 @@ async function follow() {
     await save_picture("read");
     await browser.call("Input.dispatchMouseEvent", { type: "mouseMoved", x: 5, y: 5 });
 
+    // Another rate.
+    const lines = await browser.evaluate(`[...${in_editor(".cm-content")}.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\\n")`);
+    await type_script(lines.replace("feed * (1 - u)", "feed * (1 - u) * (0.5 + x)"));
+    const start = await steps();
+    await browser.press(" ");
+    await until_steps(start + 500);
+    if (!(await browser.evaluate(`document.getElementById("failure").hidden`))) throw new Error("the rate of the tutorial blows up");
+
     // A cascade: the second stage is typed when the first one has ended, and grows by itself.
     await move("#speed", 5);
     await click("systems");
