@@ -115,16 +115,15 @@ struct TextPlace {
     bool is_string = false;
 };
 
-/// Does a statement go on in the line after this?
-bool goes_on(std::string_view statement) {
-    const std::size_t last = statement.find_last_not_of(blanks);
-    return last != std::string_view::npos &&
-           std::string_view("+-*/^,=<>:").find(statement[last]) != std::string_view::npos;
+/// Does a statement go on in the next line if this is its last character in a line?
+bool goes_on(char last) {
+    return std::string_view("+-*/^,=<>:").find(last) != std::string_view::npos;
 }
 
 TextPlace place_at_end(std::string_view text) {
     TextPlace place;
     std::size_t begin = 0;
+    char last = 0;  // Of the statement so far, without blanks and comments.
     const auto statement_to = [&](std::size_t end) {
         return without_blanks_before(text.substr(begin, end - begin));
     };
@@ -148,9 +147,15 @@ TextPlace place_at_end(std::string_view text) {
         } else if (c == ')' || c == ']') {
             if (!place.calls.empty()) place.calls.pop_back();
         }
-        const bool ends_line = c == '\n' && place.calls.empty() && !goes_on(statement_to(k));
-        if (ends_line || c == '{' || c == '}' || c == ';') begin = k + 1;
-        if (c == '{' || c == '}' || c == ';') place.calls.clear();
+        const bool ends_line = c == '\n' && place.calls.empty() && !goes_on(last);
+        const bool ends_statement = c == '{' || c == '}' || c == ';';
+        if (ends_statement) place.calls.clear();
+        if (ends_line || ends_statement) {
+            begin = k + 1;
+            last = 0;
+        } else if (c != '#' && blanks.find(c) == std::string_view::npos) {
+            last = c;
+        }
     }
     place.statement = statement_to(text.size());
     return place;

@@ -48,6 +48,12 @@ TEST_F(KnownNames, StatementsBeginWithWhatTheirBlockHas) {
     EXPECT_THAT(after("picture { co"), ElementsAre("color"));
 }
 
+TEST_F(KnownNames, CommentsDoNotGoOn) {
+    EXPECT_THAT(after("stage one: s {\n u: 1 +\n"), Not(Contains("iterations")));
+    EXPECT_THAT(after("stage one: s {\n u: 1  # of a and b:\n"), Contains("iterations"));
+    EXPECT_THAT(after("stage one: s {\n u: 1 +  # and\n"), Not(Contains("iterations")));
+}
+
 TEST_F(KnownNames, ValuesAreOfWhatTheyMayBe) {
     EXPECT_THAT(after("system s { u' = k * la"), IsSupersetOf({"lap", "u", "k", "d", "pi"}));
     EXPECT_THAT(after("system s { u' = k *\n  la"), Contains("lap"));
