@@ -70,6 +70,13 @@ public:
         return 0;
     }
 
+    /// From a number to another one, which may be smaller.
+    ValueRange range(const char* from, const char* to) {
+        const ValueRange range{number(from), number(to)};
+        if (range.low == range.high) complain(to, fmt::format("another number than '{}'", from));
+        return range;
+    }
+
     Axis axis(const char* name) {
         const auto axis = axis_of_name(text(name));
         if (!axis) complain(name, "x, y or z");
@@ -165,7 +172,7 @@ constexpr std::array<Verb, 22> verbs{{
          request.show = fields.text("show");
          request.palette = fields.text("palette");
          request.scale = static_cast<int>(fields.whole("scale", 1, largest_scale));
-         if (fields.has("low")) request.range = {fields.number("low"), fields.number("high")};
+         if (fields.has("low")) request.range = fields.range("low", "high");
          if (fields.has("axis")) request.slice = {fields.axis("axis"), fields.part("place")};
          if (fields.has("around")) {
              request.view.azimuth = static_cast<float>(fields.whole("around", -180, 180));

@@ -10,6 +10,7 @@
 #include "run/pictures/frames.h"
 #include "run/pictures/measured.h"
 #include "run/pictures/picture_remarks.h"
+#include "run/pictures/picture_size.h"
 #include "run/session/live_run.h"
 #include "run/stage/stage_time.h"
 

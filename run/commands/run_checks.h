@@ -28,9 +28,4 @@ Result<void> check_outputs(const RunRequest& request,
 enum class Folders { tried, made };
 Result<void> check_folders(const RunRequest& request, Folders folders);
 
-/// Refuses pictures that do not fit into memory; `memory` is what the run needs without them, in
-/// bytes.
-Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,
-                                double memory, std::uint64_t memory_limit);
-
 }  // namespace cascade

@@ -1,7 +1,9 @@
 // The session is one more text chunk beside those of a script.
 #include "run/session/session_picture.h"
 
+#include "core/enough_memory.h"
 #include "render/ray_caster.h"
+#include "run/pictures/picture_size.h"
 #include "run/script/embedded_script.h"
 
 #include <fmt/format.h>
@@ -42,7 +44,9 @@ PngTexts embed_session(const Script& script, const PictureRequest& request, cons
 Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& request) {
     auto painter = make_painter(run, request);
     if (!painter) return tl::unexpected(std::move(painter.error()));
-    const Canvas canvas = painter->canvas(run.simulation());
+    if (const auto fits = check_picture_size(run.script().program->domain, request); !fits) {
+        return refused<std::string>(fits.error());
+    }
     if (!painter->is_flat() && !RayCaster::is_available()) {
         return refused<std::string>({"a page without the program draws no pictures of surfaces",
                                      "'cascade view' does, and so does 'cascade run' with the "
@@ -50,7 +54,10 @@ Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& reques
     }
     const PngTexts texts = run.is_resumed() ? embed_script(run.script(), request)
                                             : embed_session(run.script(), request, run.log());
-    auto file = encode_png(painter->image(canvas), request.png_depth(), texts);
+    auto file = enough_memory_for([&] {
+        return encode_png(painter->image(painter->canvas(run.simulation())), request.png_depth(),
+                          texts);
+    });
     if (!file) return refused<std::string>(file.error());
     return std::move(*file);
 }

@@ -16,8 +16,8 @@ using Seconds = std::chrono::duration<double>;
 
 /// Steps are taken for about this long before the queue is looked at.
 constexpr double turn_seconds = 0.015;
-/// Fewer steps than this leave too little for several steps a pass through memory, so a turn takes
-/// at least these where that is not longer than
+/// With fewer steps several of them a pass through memory gain too little, so a turn takes at least
+/// these, unless that takes longer than longest_turn_seconds.
 constexpr std::int64_t least_steps = 32;
 constexpr double longest_turn_seconds = 0.2;
 /// Steps in which nothing happens take no time.

@@ -1,6 +1,7 @@
 // Messages of pages: each request, and one sentence for everything that is none.
 #include "view/page_message.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace cascade {
@@ -91,8 +92,11 @@ TEST(PageMessage, Questions) {
     EXPECT_EQ(wanted.scale, 4);
     EXPECT_EQ(wanted.range->high, 2.5F);
     EXPECT_EQ(wanted.slice, (Slice{Axis::y, 0.25}));
-    EXPECT_FALSE(parse_page_message(
-        R"({"do": "picture", "show": "", "palette": "grey", "scale": 1, "low": 1})"));
+    for (const char* range : {R"("low": 1)", R"("low": 1, "high": 1)", R"("low": 1, "high": "")"}) {
+        EXPECT_FALSE(parse_page_message(fmt::format(
+            R"({{"do": "picture", "show": "", "palette": "grey", "scale": 1, {}}})", range)))
+            << range;
+    }
     EXPECT_FALSE(
         parse_page_message(R"({"do": "picture", "show": "", "palette": "grey", "scale": 65})"));
 }

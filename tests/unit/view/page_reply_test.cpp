@@ -118,6 +118,18 @@ TEST_F(PageReply, Picture) {
     EXPECT_EQ(this->reply(AskForPicture{request})["is_done"], false);
 }
 
+TEST_F(PageReply, PicturesThatAreTooLargeAreRefused) {
+    RunControl control;
+    ASSERT_TRUE(run_->apply(SetText{"domain { grid: 300, 300 }\nsystem s { u: 1; u' = 0 }\n"
+                                    "stage one: s { }\n"},
+                            control));
+    PictureRequest request;
+    request.scale = 64;
+    const Json refused = reply(AskForPicture{request});
+    EXPECT_EQ(refused["is_done"], false);
+    EXPECT_THAT(refused["messages"][0]["message"].get<std::string>(), testing::HasSubstr("pixels"));
+}
+
 TEST_F(PageReply, SpectrumWithItsWavelength) {
     const std::string script =
         "domain { grid: 32, 32 }\n"
