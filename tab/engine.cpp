@@ -5,15 +5,16 @@
 // - allocate(size): memory for the bytes of the next call, which frees it.
 // - carry(name, name_size, bytes, size): a file that the script may read.
 // - begin(name, name_size, text, size, overrides, overrides_size): the script, and its overrides as
-//   pictures carry them. 0 if the run could not start; the page has then been told why.
+//   pictures carry them. 0 if the run could not start; the page has then been told why. May be
+//   called again for another script, which takes the place of the first, and its model where it has
+//   the same.
 // - receive(message, size): a message of the page.
-// - turn(): takes some steps and sends what has changed. 0 if there is nothing to do before the
-// next
-//   message.
+// - turn(): takes some steps and sends what has changed. 0 if nothing is left to do.
 #include "core/file.h"
 #include "ir/tiered_backend.h"
 #include "run/domain/carried_model.h"
 #include "run/script/embedded_script.h"
+#include "run/session/kept_state.h"
 #include "run/session/turns.h"
 #include "tab/files.h"
 #include "tab/host.h"
@@ -53,29 +54,36 @@ private:
 };
 
 bool Engine::begin(const std::string& name, const std::string& text, const std::string& stored) {
-    const auto refuse = [](const std::string& why) {
-        send_text(print_failure(0, {why, ""}));
+    const auto refuse = [&](Refusal why) {
+        send_text(print_answer(0, tl::unexpected(std::move(why)), text));
         return false;
     };
+    const auto fail = [&](Failure why) { return refuse({{}, {}, std::move(why)}); };
     auto overrides = overrides_from_json(stored.empty() ? "{}" : stored);
-    if (!overrides) return refuse(overrides.error().message);
+    if (!overrides) return fail(overrides.error());
     Script script = load_script(name, text, "", std::move(*overrides));
-    if (!script.program) return refuse(script.messages(false));
+    if (!script.program)
+        return refuse({std::move(script.diagnostics), std::move(script.sources), {}});
     SimulationOptions options;
     options.threads = 1;
     options.stepper = std::make_shared<TieredBackend>(make_module_backend());
     RunControl control;
-    if (auto bytes = read_file(carried_model_name, UINT64_MAX);
-        bytes && script.program->domain.model) {
+    if (turns_) {
+        const LiveRun& before = turns_->run();
+        if (have_same_cells(*before.script().program, *script.program)) {
+            options.known_model = before.simulation().model();
+        }
+    } else if (auto bytes = read_file(carried_model_name, UINT64_MAX);
+               bytes && script.program->domain.model) {
         auto model = parse_carried_model(*bytes);
-        if (!model) return refuse(model.error().message);
+        if (!model) return fail(model.error());
         Team team(1);
         options.known_model = link_carried_model(*script.program, *std::move(model), team, control);
     }
     auto run = LiveRun::begin(std::move(script), options, control);
-    if (!run) return refuse(run.error().messages(false));
+    if (!run) return refuse(std::move(run.error()));
+    if (!turns_) send_text(print_palettes());
     turns_.emplace(std::move(*run));
-    send_text(print_palettes());
     return true;
 }
 

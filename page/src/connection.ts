@@ -38,7 +38,7 @@ export interface Listener {
     snapshot(snapshot: Snapshot): void;
     surface(surface: Surface): void;
     lost(reason: string): void;
-    refused(reason: string): void;  ///< What was no question, or could not be read.
+    refused(why: Message): void;  ///< What was no question, or could not be read.
 }
 
 /// The token comes in the address once, and is taken out of it. A tab keeps it for reloads.
@@ -130,7 +130,7 @@ export class Connection {
         if (message.kind === "palettes") this.listener.palettes(message.palettes);
         else if (message.kind === "systems") this.listener.systems(message.systems);
         else if (message.kind === "script") this.listener.script(message);
-        else if (message.id === 0) this.listener.refused(message.messages[0].message);
+        else if (message.id === 0) this.listener.refused(message.messages.find(({ is_error }: Message) => is_error));
         else {
             this.waiting.get(message.id)?.resolve({ is_done: true, messages: [], ...message });
             this.waiting.delete(message.id);

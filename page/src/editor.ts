@@ -7,6 +7,7 @@ import { EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers } f
 import { tags } from "@lezer/highlight";
 import type { Message } from "./connection";
 import { type EngineHelp, editor_help } from "./editor_help";
+import { in_words } from "./words";
 
 const language = StreamLanguage.define({
     token(stream) {
@@ -95,7 +96,7 @@ export class Editor {
         };
         this.view.dispatch(setDiagnostics(this.view.state, messages.filter((m) => m.from && m.to).map((m) => ({
             from: offset(m.from!), to: offset(m.to!), severity: m.is_error ? "error" as const : "warning" as const,
-            message: m.hint ? `${m.message}: ${m.hint}` : m.message,
+            message: in_words({ ...m, from: undefined }),
         }))));
     }
 }

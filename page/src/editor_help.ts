@@ -2,13 +2,12 @@
 import { type CompletionContext, autocompletion, completionKeymap } from "@codemirror/autocomplete";
 import { EditorView, hoverTooltip, keymap } from "@codemirror/view";
 import type { Explanation, KnownName } from "./connection";
+import { digits } from "./words";
 
 export interface EngineHelp {
     names(text: string): Promise<KnownName[]>;
     explain(text: string): Promise<Explanation>;
 }
-
-const digits = (value: number) => String(Number(value.toPrecision(4)));
 
 /// What is worth a box: not what is plain to see.
 export function explanation_box(told: Explanation): HTMLElement | undefined {

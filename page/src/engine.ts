@@ -24,8 +24,6 @@ export interface Host {
     send_frame(bytes: ArrayBuffer): void;
 }
 
-class Ended extends Error {}
-
 export class Engine {
     private exports!: Exports;
     private words = "";  ///< What the engine has printed of a line.
@@ -46,7 +44,7 @@ export class Engine {
 
     carry([name, bytes]: [string, Uint8Array]) { this.exports.carry(...this.put(name), ...this.put(bytes)); }
 
-    /// Why not, if the run could not start, is told to the host.
+    /// If the run cannot start, the host is told why, and the one before goes on.
     begin({ name, text, overrides }: Carried): boolean {
         return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides)) !== 0;
     }
@@ -99,7 +97,7 @@ export class Engine {
                 for (const line of lines) console.error(line);
                 return 0;
             },
-            proc_exit: () => { throw new Ended("the engine has ended"); },
+            proc_exit: () => { throw new Error("it has left"); },
         };
         const unsupported = 52;  // ENOSYS of WASI.
         const names = WebAssembly.Module.imports(module).filter((each) => each.module === "wasi_snapshot_preview1");

@@ -1,5 +1,6 @@
 // How values are shown: the range of the palette, contour lines and relief.
 import type { Palette, Snapshot } from "./connection";
+import { digits } from "./words";
 
 export interface Look {
     low?: number;    ///< Held; else the smallest value that is shown.
@@ -9,7 +10,7 @@ export interface Look {
     relief: number;  ///< 0 … 1.
 }
 
-export const digits = (value: number) => String(Number(value.toPrecision(4)));
+export const is_held = ({ low, high }: Look) => low !== undefined || high !== undefined;
 
 export class LookControls {
     readonly look: Look = { relief: 0 };
@@ -38,15 +39,15 @@ export class LookControls {
 
     /// Holds the range as it is, or lets it follow the values again.
     toggle_hold() {
-        const is_held = this.look.low !== undefined || this.look.high !== undefined;
-        [this.look.low, this.look.high] = is_held ? [undefined, undefined] : this.range;
-        this.input("low").value = is_held ? "" : digits(this.range[0]);
-        this.input("high").value = is_held ? "" : digits(this.range[1]);
+        const was_held = is_held(this.look);
+        [this.look.low, this.look.high] = was_held ? [undefined, undefined] : this.range;
+        this.input("low").value = was_held ? "" : digits(this.range[0]);
+        this.input("high").value = was_held ? "" : digits(this.range[1]);
         this.update();
     }
 
     private update() {
-        this.hold.ariaPressed = String(this.look.low !== undefined || this.look.high !== undefined);
+        this.hold.ariaPressed = String(is_held(this.look));
         this.changed();
     }
 

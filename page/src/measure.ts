@@ -1,10 +1,10 @@
 // What is measured while the panel is open: a probe and the whole domain over time, and the distribution, the spectrum
 // and the pairs of values now. The engine computes it; the page keeps the curves.
 import type { Answer, Snapshot } from "./connection";
-import { digits } from "./look";
 import { Mark } from "./mark";
 import type { Pattern, Place } from "./pattern";
 import { Plot, colour_of_curve, draw_density } from "./plots";
+import { digits } from "./words";
 
 interface Cost { seconds: number }  ///< That the engine spent.
 interface Values extends Cost { t: number | null; stage: number; steps: number; species?: { name: string; mean: number; smallest: number; largest: number; value?: number | null }[] }

@@ -11,6 +11,7 @@ import { LookControls } from "./look";
 import { Measure } from "./measure";
 import { Pace } from "./pace";
 import { Pattern } from "./pattern";
+import { picture_fields } from "./picture_fields";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
 import { close_popups } from "./popups";
@@ -20,6 +21,7 @@ import { show_sliders } from "./sliders";
 import { Stages } from "./stages";
 import { SolidView } from "./solid_view";
 import { Stroke } from "./stroke";
+import { in_words } from "./words";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
@@ -101,7 +103,7 @@ const connection = new Connection({
         asked_surface = 0;
         notice(reason, true);
     },
-    refused: (reason) => notice(reason, true, 10),
+    refused: (why) => notice(in_words(why), true, 10),
 });
 
 const measure = new Measure(pattern, (what, fields) => connection.ask(what, fields));
@@ -168,9 +170,10 @@ function notice(text: string, is_wrong = false, seconds = 0) {
     element("notice").classList.toggle("wrong", is_wrong);
     if (seconds === 0) return;
     setTimeout(() => {
-        if (performance.now() < noticed_until) return;
+        // Without a pattern it is all there is to see.
+        if (performance.now() < noticed_until || !pattern.snapshot) return;
         notice("");
-        if (pattern.snapshot) show_state(pattern.snapshot);
+        show_state(pattern.snapshot);
     }, 1000 * seconds + 100);
 }
 
@@ -178,7 +181,7 @@ function show_messages(messages: Message[]) {
     editor.show(messages);
     element("messages").replaceChildren(...messages.filter((m) => m.is_error).slice(0, 5).map((m) => {
         const line = document.createElement("p");
-        line.textContent = `${m.from ? `line ${m.from[0]}: ` : ""}${m.message}${m.hint ? ` – ${m.hint}` : ""}`;
+        line.textContent = in_words(m);
         return line;
     }));
 }
@@ -186,7 +189,7 @@ function show_messages(messages: Message[]) {
 /// Asks, and shows why not where it is refused.
 async function ask<Reply = object>(what: string, fields: Record<string, unknown> = {}): Promise<Answer & Reply> {
     const answer = await connection.ask<Reply>(what, fields);
-    if (!answer.is_done && answer.messages.length > 0) notice(answer.messages[0].message, true, 5);
+    if (!answer.is_done && answer.messages.length > 0) notice(in_words(answer.messages[0]), true, 5);
     return answer;
 }
 
@@ -235,7 +238,7 @@ function show_state(snapshot: Snapshot) {
     button("undo").disabled = !snapshot.can_undo;
     button("redo").disabled = !snapshot.can_redo;
     failure.show(snapshot);
-    if (is_over && snapshot.remarks.length > 0) notice(snapshot.remarks.at(-1)!);
+    if (is_over && snapshot.remarks.length > 0 && performance.now() > noticed_until) notice(snapshot.remarks.at(-1)!);
 }
 
 function go_back(what: "undo" | "redo") {
@@ -276,13 +279,7 @@ const actions: Record<string, () => void> = {
         if (text !== undefined) save("session", text);
     },
     picture: async () => {
-        const { snapshot } = pattern, { low, high } = snapshot ? pattern.range_of(snapshot) : { low: 0, high: 1 };
-        const is_held = look.look.low !== undefined || look.look.high !== undefined, { slice } = snapshot ?? {};
-        const { png } = await ask<{ png?: string }>("picture", {
-            show: shown.value, palette: palette_choice.value, scale: pattern.is_solid ? 1 : Math.min(64, Math.max(1, Math.floor(960 / Math.max(pattern.columns, pattern.rows)))),
-            ...(pattern.is_solid ? solid.view : snapshot?.surface && !snapshot.is_model ? { flat: true } : {}),
-            ...(is_held && { low, high }), ...(slice && { axis: slice.axis, place: (slice.number + 0.5) / slice.sides["xyz".indexOf(slice.axis)] }),
-        });
+        const { png } = await ask<{ png?: string }>("picture", { show: shown.value, palette: palette_choice.value, ...picture_fields(pattern) });
         if (png) download(`${name_of_file()}.png`, new Blob([Uint8Array.from(atob(png), (sign) => sign.charCodeAt(0))], { type: "image/png" }));
     },
     script: () => save("cascade", editor.text),

@@ -1,6 +1,6 @@
 // The cell under the pointer and its value, in words.
-import { digits } from "./look";
 import type { Pattern } from "./pattern";
+import { digits } from "./words";
 
 export class Pointed {
     private readonly output = document.getElementById("pointed")!;

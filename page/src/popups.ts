@@ -1,9 +1,11 @@
-// Small boxes that open over the page close with Escape and with a press beside them.
+// Small boxes that open over the page close with Escape, which gives the focus back, and with a press beside them.
 export function close_popups(ids: string[]) {
     const close = (is_kept: (box: HTMLDetailsElement) => boolean) => {
         for (const id of ids) {
             const box = document.getElementById(id) as HTMLDetailsElement;
-            if (box.open && !is_kept(box)) box.open = false;
+            if (!box.open || is_kept(box)) continue;
+            if (box.contains(document.activeElement)) box.querySelector("summary")!.focus();
+            box.open = false;
         }
     };
     document.addEventListener("pointerdown", ({ target }) => close((box) => box.contains(target as Node)));

@@ -1,6 +1,8 @@
 // A slider for each parameter with a range.
 import type { Answer, Control } from "./connection";
-import { digits } from "./look";
+
+/// As many digits as the step may need, but not those by which binary32 differs from decimals.
+const exact = (value: number) => String(Number(value.toPrecision(7)));
 
 type Ask = (what: string, fields: Record<string, unknown>) => Promise<Answer>;
 
@@ -21,7 +23,7 @@ export function show_sliders(controls: Control[], ask: Ask) {
         // What comes now is older than what its user wants.
         if (input.matches(":active") || "isBusy" in input.dataset) return;
         input.value = String(controls[k].value);
-        input.parentElement!.querySelector("output")!.value = digits(controls[k].value);
+        input.parentElement!.querySelector("output")!.value = exact(controls[k].value);
     });
 }
 
@@ -50,7 +52,7 @@ function make_slider(control: Control, ask: Ask): HTMLElement {
         delete input.dataset.isBusy;
     };
     input.addEventListener("input", () => {
-        wanted = { text: digits(input.valueAsNumber), move };
+        wanted = { text: exact(input.valueAsNumber), move };
         value.value = wanted.text;
         void send();
     });

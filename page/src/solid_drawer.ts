@@ -12,7 +12,6 @@ const shadow_side = 1024;
 const ground_side = 64;     ///< Quadrilaterals of the ground.
 const ground_reach = 1.2;   ///< In diagonals of the surface.
 
-/// Coordinates in a shadow's depth map: −1 … 1, larger away from the light.
 /// The visible part of the sun's disc at a place: what hides it is looked for first, since its distance says how soft its
 /// shadow is. Depth maps have coordinates of −1 … 1, larger away from the light, and 1 where there is nothing.
 const shadow = `#version 300 es
@@ -72,8 +71,7 @@ out vec4 colour;
 vec3 light_of(vec3 stored) { return mix(stored / 12.92, pow((stored + 0.055) / 1.055, vec3(2.4)), step(0.04045, stored)); }
 vec3 stored_of(vec3 light) { return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light)); }`;
 
-/// Where values change much within a pixel, it has the
-/// mean colour.
+/// Where values change much within a pixel, it has their mean colour.
 const surface = `${shade}
 uniform float low, high;
 ${colours}

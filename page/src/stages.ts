@@ -21,7 +21,7 @@ export class Stages {
         stages.forEach((stage, k) => {
             const go = this.list.children[k].firstElementChild as HTMLButtonElement;
             go.querySelector("span")!.textContent = stage.name;
-            go.toggleAttribute("aria-current", k + 1 === current);
+            go.ariaCurrent = k + 1 === current ? "step" : null;
             go.title = stage.has_ended ? "ended" : `step ${stage.steps.toLocaleString("en")} of ${stage.iterations.toLocaleString("en")}`;
             go.querySelector("progress")!.value = stage.has_ended ? 1
                 : stage.duration > 0 ? stage.t / stage.duration : stage.steps / Math.max(stage.iterations, 1);

@@ -2,7 +2,7 @@
 // with; all further ones are those of spec/page.md, in both directions.
 import { type Carried, Engine } from "./engine";
 
-/// A linked script comes before the one that the page carries, which is right.
+/// A linked script takes the place of the one that the page carries, if it is right.
 export interface Beginning { engine: WebAssembly.Module; carried: Carried; linked?: Carried }
 
 const page = self as unknown as { postMessage(message: unknown, transfer?: Transferable[]): void; onmessage: unknown };
@@ -24,13 +24,17 @@ turns.port1.onmessage = () => {
 
 page.onmessage = ({ data }: MessageEvent<Beginning | string>) => {
     if (typeof data === "string") {
-        engine!.receive(data);
+        // The page has been told why there is none.
+        if (!engine) return;
+        engine.receive(data);
         return go_on();
     }
-    engine = new Engine(data.engine, {
+    const begun = new Engine(data.engine, {
         send_text: (text) => page.postMessage(text),
         send_frame: (bytes) => page.postMessage(bytes, [bytes]),
     });
-    data.carried.files.forEach((file) => engine!.carry(file));
-    if (!data.linked || !engine.begin(data.linked)) engine.begin(data.carried);
+    data.carried.files.forEach((file) => begun.carry(file));
+    if (!begun.begin(data.carried)) return;
+    if (data.linked) begun.begin(data.linked);
+    engine = begun;
 };

@@ -77,9 +77,17 @@ try {
     await open("spots.html", packed(linked));
     await browser.until(is_over);
     expect((await text()).includes("system linked"), "the linked script is not there");
-    await open("spots.html", packed("system wrong {"));
-    await browser.until(`document.querySelectorAll("#stages li").length === 2`);
-    expect((await text()).includes("system spots"), "the page's own script is not there after a wrong link");
+    const wrong = [[packed("system wrong {"), "line 1: "], ["#script=AAAA", "the link was cut off"], [packed("#".repeat(2 ** 21)), "1 MiB"]];
+    for (const [link, why] of wrong) {
+        await open("spots.html", link);
+        await browser.until(`document.querySelectorAll("#stages li").length === 2`);
+        expect((await text()).includes("system spots"), "the page's own script is not there after a wrong link");
+        const notice = await browser.evaluate(`document.getElementById("notice").textContent`);
+        expect(notice.includes(why), `of a wrong link it says: ${notice}`);
+    }
+    // Another link in the same tab: the page is loaded again, which ends what it is asked.
+    await browser.evaluate(`location.hash = "${packed(linked)}"; new Promise(() => {})`).catch(() => {});
+    await browser.until(`document.querySelectorAll("#stages li").length === 1 && ${is_over}`);
 
     // A model comes with its cells.
     await open("ball.html");
@@ -88,6 +96,17 @@ try {
     writeFileSync("exported_ball.png", await browser.screenshot());
     const shown = await browser.evaluate(`!document.getElementById("solid").hidden && document.getElementById("place").textContent`);
     expect(shown.startsWith?.("step 80"), `the model shows ${shown}`);
+    // A linked script has these cells if it is about the same model, and no others.
+    const shown_at_end = async (script) => {
+        await open("ball.html", packed(script));
+        await browser.until(`${is_over} || document.getElementById("notice")?.textContent`);
+        return browser.evaluate(`document.getElementById("notice").textContent || document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`);
+    };
+    const of_model = (model) => `domain { mesh: ${model}; cells: 2000 }\nsystem new { u: z; u' = 0.1 * lap(u) }\nstage only: new { iterations: 5 }\n`;
+    const same = await shown_at_end(of_model('"ball.off"'));
+    expect(same.includes("system new"), `with the same model it shows ${same}`);
+    const other = await shown_at_end(of_model('"other.off"'));
+    expect(other.includes("other.off"), `with another model it shows ${other}`);
     expect(browser.heard.length === 0, `the pages said: ${browser.heard.join("\n")}`);
 } catch (error) {
     await end(error);

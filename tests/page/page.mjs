@@ -153,6 +153,20 @@ async function steer() {
     await type_script(text.replace("iterations: 500", "iterations: 600"));
     await browser.until(`document.getElementById("messages").textContent === ""`);
 
+    // Fine steps are rounded neither in what is shown nor in what is sent.
+    await type_script(text.replace("kill: 0.06", "kill: 0.060001 in 0 .. 1 step 0.000001").replace("iterations: 500", "iterations: 600"));
+    const fine = `document.querySelectorAll("#controls output")[1]?.value`;
+    await browser.until(`${fine} === "0.060001"`);
+    await browser.evaluate(`{
+        const input = document.querySelectorAll("#controls input")[1];
+        input.value = "0.060002", input.dispatchEvent(new Event("input")), input.dispatchEvent(new Event("change"));
+    }`);
+    await browser.until(`!("isBusy" in document.querySelectorAll("#controls input")[1].dataset) && ${fine} === "0.060002"`);
+    await click("undo");
+    await browser.until(`${fine} === "0.060001"`);
+    await click("undo");
+    await browser.until(`document.querySelectorAll("#controls input").length === 2`);
+
     // Without sliders the pattern does not move into their place.
     await type_script(text.replace("in 0.01 .. 0.08 step 0.001", "").replace("iterations: 500", "iterations: 600"));
     await browser.until(`document.querySelectorAll("#controls input").length === 0`);
@@ -204,6 +218,12 @@ async function steer() {
     await browser.press("0");
     expect((await box_of_pattern())[2] === width, "the key does not fit the pattern again");
 
+    // A small box that Escape closes gives the focus back to what has opened it.
+    await browser.evaluate(`document.getElementById("look").open = true, document.getElementById("every").focus()`);
+    await browser.press("Escape");
+    expect(await browser.evaluate(`!document.getElementById("look").open && document.activeElement.matches("#look > summary")`), "Escape loses the focus");
+    await browser.evaluate("document.activeElement.blur()");
+
     // Two fingers zoom, and paint nothing.
     await until_changed((cells) => cells.length === 0, "undo");
     const middle = [x + width / 2, y + height / 2];
@@ -244,7 +264,7 @@ async function steer() {
     const reached = await steps();
     await browser.press("Escape");
     await browser.press("n");
-    await browser.until(`document.querySelectorAll("#stages button")[1].hasAttribute("aria-current") && document.getElementById("next").disabled`);
+    await browser.until(`document.querySelectorAll("#stages button")[1].ariaCurrent === "step" && document.getElementById("next").disabled`);
     rmSync("spots.session", { force: true });
     await browser.call("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: process.cwd() });
     await click("log");

@@ -1,0 +1,6 @@
+// Numbers and messages as the page writes them.
+import type { Message } from "./connection";
+
+export const digits = (value: number) => String(Number(value.toPrecision(4)));
+
+export const in_words = ({ from, message, hint }: Message) => `${from ? `line ${from[0]}: ` : ""}${message}${hint ? ` – ${hint}` : ""}`;
