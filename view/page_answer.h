@@ -14,7 +14,7 @@ namespace cascade {
 /// The palettes, which do not change while a page is open.
 std::string print_palettes();
 
-/// The systems of the library, each with a script to start from, and what is searched for words.
+/// The systems of the library, each with a script to start from and the words to search in.
 std::string print_systems();
 
 /// The script of a run, its parameters with a range, for sliders, and the species of the current
