@@ -11,6 +11,8 @@ skip() {
 
 command -v node >/dev/null && command -v npm >/dev/null || skip "node or npm is missing"
 
+node "$SOURCE/page/library.mjs" --check || fail "see above"
+
 "$SOURCE/page/build.sh" built >build.log 2>&1
 status=$?
 cat build.log

@@ -341,11 +341,17 @@ async function steer() {
         expect(overflow <= 0, `${name}: the page is ${overflow} pixels too wide`);
         writeFileSync(`${name}.png`, await browser.screenshot());
     }
-    // Without a script a start page offers the library. A click shows a system, which grows.
+    // Without a script a start page offers the library and the examples with pictures. A click shows one, which grows.
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
     await browser.call("Page.navigate", { url: start_page.address });
     await browser.until(`document.getElementById("library")?.open && document.querySelectorAll("#library li").length > 50`);
     writeFileSync("start.png", await browser.screenshot());
+    await browser.evaluate(`Promise.all([...document.querySelectorAll("#library img")].map((image) => image.decode()))`);
+    const bare = await browser.evaluate(`[...document.querySelectorAll("#library li")].filter((item) => !item.querySelector("img")?.naturalWidth).map((item) => item.textContent)`);
+    expect(bare.length === 0, `without a picture: ${bare}`);
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 390, height: 800, deviceScaleFactor: 1, mobile: true });
+    expect(await browser.evaluate(`(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.querySelector("#library ul"))`), "the library is too wide for a phone");
+    await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
     expect(await steps() === 0, "a pattern grows under the start page");
     const offered = () => browser.evaluate(`[...document.querySelectorAll("#library li:not([hidden]) code")].map((name) => name.textContent)`);
     for (const [words, wanted] of [["aliev panf", "aliev_panfilov"], ["prigogine", "brusselator"]]) {
@@ -357,6 +363,9 @@ async function steer() {
     await browser.until(`!document.getElementById("place").textContent.startsWith("step 0")`);
     const typed = `document.getElementById("editor").shadowRoot.querySelector(".cm-content").textContent`;
     expect((await browser.evaluate(typed)).includes("Gray-Scott"), "the script of the chosen system is missing");
+    await click("systems");
+    await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("b").textContent === "Fish").click()`);
+    await browser.until(`${typed}.includes("fn fins(a, b)") && !document.getElementById("place").textContent.startsWith("step 0")`);
     // What was chosen before leaves no values to a system with species of the same names.
     await click("systems");
     await browser.evaluate(`[...document.querySelectorAll("#library li button")].find((choice) => choice.querySelector("code").textContent === "kdv").click()`);
