@@ -35,8 +35,9 @@ int export_command(const Options& options, Console& console) {
         console.say(run.error().messages(console.error().colour));
         return exit_status::failed_run;
     }
-    const auto carried = carried_by((*run)->script(), (*run)->simulation());
+    auto carried = carried_by((*run)->script(), (*run)->simulation());
     if (!carried) return fail(carried.error());
+    carried->is_exact = options.exact;
     const std::string page = standalone_page(*carried, *engine);
     if (const auto written = write_file(path, page); !written) return fail(written.error());
     console.print(

@@ -351,6 +351,10 @@ void add_export(CLI::App& app, Options& options) {
     add_value(app, "--html", "FILE.html", "The page; without it SCRIPT.html in this folder",
               any_text, [&](auto path) { options.html = path; })
         ->group("Output");
+    app.add_flag(
+           "--exact", options.exact,
+           "The bits of 'cascade run', also of numbers below 1.2e-38;\nsteps take 8 times as long")
+        ->group("Output");
 }
 
 }  // namespace cascade::option_groups

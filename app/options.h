@@ -84,6 +84,7 @@ struct Options {
     std::filesystem::path object;  ///< `compile -o`
     std::filesystem::path header;  ///< `compile --header`
     std::filesystem::path html;    ///< `export --html`
+    bool exact = false;            ///< `export --exact`
 };
 
 inline const TypedScript* typed_of(const Options& options) {

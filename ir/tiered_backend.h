@@ -33,6 +33,8 @@ public:
     std::string_view name() const override;
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override;
     KernelPointer find(const CellKernel& kernel, Stencil stencil) override;
+    /// For kernels that run too rarely to be worth compiling. Thread-safe.
+    Backend& interpreter() const { return *interpreter_; }
     KernelCounts counts() const override;
     std::string code_identity() const override;
 

@@ -4,10 +4,11 @@
 //
 // - allocate(size): memory for the bytes of the next call, which frees it.
 // - carry(name, name_size, bytes, size): a file that the script may read.
-// - begin(name, name_size, text, size, overrides, overrides_size): the script, and its overrides as
-//   pictures carry them. 0 if the run could not start; the page has then been told why. May be
-//   called again for another script, which takes the place of the first, and its model where it has
-//   the same.
+// - begin(name, name_size, text, size, overrides, overrides_size, is_exact): the script, its
+//   overrides as pictures carry them, and whether denormal numbers are flushed wherever the program
+//   flushes them, from now on. 0 if the run could not start; the page has then been told why. May
+//   be called again for another script, which takes the place of the first, and its model where it
+//   has the same.
 // - receive(message, size): a message of the page.
 // - turn(): takes some steps and sends what has changed. 0 if nothing is left to do.
 #include "core/file.h"
@@ -38,7 +39,8 @@ void send_frame(const std::string& bytes) { host_send_frame(bytes.data(), bytes.
 
 class Engine {
 public:
-    bool begin(const std::string& name, const std::string& text, const std::string& overrides);
+    bool begin(const std::string& name, const std::string& text, const std::string& overrides,
+               bool is_exact);
     void receive(std::string_view text);
     bool turn();
 
@@ -53,7 +55,8 @@ private:
     std::uint64_t told_script_ = 0;
 };
 
-bool Engine::begin(const std::string& name, const std::string& text, const std::string& stored) {
+bool Engine::begin(const std::string& name, const std::string& text, const std::string& stored,
+                   bool is_exact) {
     const auto refuse = [&](Refusal why) {
         send_text(print_answer(0, tl::unexpected(std::move(why)), text));
         return false;
@@ -66,6 +69,7 @@ bool Engine::begin(const std::string& name, const std::string& text, const std::
         return refuse({std::move(script.diagnostics), std::move(script.sources), {}});
     SimulationOptions options;
     options.threads = 1;
+    if (is_exact) make_modules_exact();
     options.stepper = std::make_shared<TieredBackend>(make_module_backend());
     RunControl control;
     if (turns_) {
@@ -159,9 +163,9 @@ extern "C" {
 
 [[clang::export_name("begin")]] int engine_begin(char* name, std::size_t name_size, char* text,
                                                  std::size_t size, char* overrides,
-                                                 std::size_t overrides_size) {
+                                                 std::size_t overrides_size, int is_exact) {
     return engine().begin(taken(name, name_size), taken(text, size),
-                          taken(overrides, overrides_size));
+                          taken(overrides, overrides_size), is_exact != 0);
 }
 
 [[clang::export_name("receive")]] void engine_receive(char* message, std::size_t size) {

@@ -1,6 +1,7 @@
 // Calls the functions of modules with the planes of their kernels.
 #include "tab/module_backend.h"
 
+#include "ir/interpreter.h"
 #include "tab/host.h"
 #include "wasm/kernel_module.h"
 
@@ -11,6 +12,8 @@
 
 namespace cascade {
 namespace {
+
+bool are_modules_exact = false;
 
 // The arguments that all kernels have: fields, masks, uniforms, results, columns, stride, rows.
 using Shared = void(const void*, const void*, const void*, const void*, std::int32_t, std::int32_t,
@@ -98,7 +101,7 @@ public:
     std::string_view name() const override { return "wasm"; }
 
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
-        auto module = wasm_module(kernel, stencil);
+        auto module = wasm_module(kernel, stencil, {are_modules_exact});
         if (!module) return tl::unexpected(module.error());
         const std::string key(module->begin(), module->end());
         KernelPointer& known = kernels_[{key, stencil_number(stencil)}];
@@ -130,6 +133,12 @@ private:
 
 }  // namespace
 
+void make_modules_exact() { are_modules_exact = true; }
+
 std::unique_ptr<Backend> make_module_backend() { return std::make_unique<ModuleBackend>(); }
+
+std::unique_ptr<Backend> make_starting_backend() {
+    return are_modules_exact ? make_module_backend() : make_interpreter();
+}
 
 }  // namespace cascade

@@ -8,6 +8,13 @@
 
 namespace cascade {
 
+/// From now on modules flush denormal numbers wherever the program does (WasmOptions::is_exact).
+void make_modules_exact();
+
 std::unique_ptr<Backend> make_module_backend();
+
+/// For kernels that run once: the interpreter or, as it flushes results only, modules that are
+/// exact.
+std::unique_ptr<Backend> make_starting_backend();
 
 }  // namespace cascade

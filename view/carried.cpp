@@ -13,7 +13,7 @@
 namespace cascade {
 
 Result<Carried> carried_by(const Script& script, const Simulation& simulation) {
-    Carried carried{script.name, script.text, overrides_to_json(script.overrides), {}};
+    Carried carried{script.name, script.text, false, overrides_to_json(script.overrides), {}};
     const GrantedFiles files(script.folder, script.overrides.reads);
     for (const std::string& name : input_file_names(script)) {
         auto bytes = files.read(name, std::max(largest_npy_file, largest_picture_file));

@@ -16,6 +16,7 @@ inline constexpr const char* carried_model_name = "//model";
 
 struct Carried {
     std::string name, text;
+    bool is_exact = false;  ///< Steps flush denormal numbers wherever the program does.
     std::string overrides;  ///< As pictures carry them (run/script/embedded_script.h).
     /// By the names that the script has for them: NumPy arrays as they are, pictures as their
     /// pixels (picture/pixel_file.h), and the model with its cells (run/domain/carried_model.h).

@@ -44,6 +44,7 @@ std::string print(const Carried& carried) {
     const nlohmann::json json = {{"name", carried.name},
                                  {"text", carried.text},
                                  {"overrides", carried.overrides},
+                                 {"is_exact", carried.is_exact},
                                  {"files", files}};
     std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) {

@@ -30,7 +30,7 @@ async function linked(): Promise<Carried | undefined> {
     const packed = new URLSearchParams(location.hash.slice(1)).get("script");
     if (!packed) return undefined;
     const text = new TextDecoder().decode(await unpacked(packed.replaceAll("-", "+").replaceAll("_", "/"), largest_link));
-    return { name: "linked.cascade", text, overrides: "", files: [] };
+    return { name: "linked.cascade", text, overrides: "", is_exact: false, files: [] };
 }
 
 async function carried(): Promise<Carried> {

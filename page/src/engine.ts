@@ -5,6 +5,7 @@ export interface Carried {
     name: string;
     text: string;
     overrides: string;
+    is_exact: boolean;  ///< Have the bits of the program even where numbers are denormal, which is slow.
     files: [name: string, bytes: Uint8Array][];
 }
 
@@ -14,7 +15,7 @@ interface Exports {
     _initialize(): void;
     allocate(size: number): number;
     carry(name: number, name_size: number, bytes: number, size: number): void;
-    begin(...texts: number[]): number;
+    begin(...texts_and_flag: number[]): number;
     receive(message: number, size: number): void;
     turn(): number;
 }
@@ -45,8 +46,8 @@ export class Engine {
     carry([name, bytes]: [string, Uint8Array]) { this.exports.carry(...this.put(name), ...this.put(bytes)); }
 
     /// If the run cannot start, the host is told why, and the one before goes on.
-    begin({ name, text, overrides }: Carried): boolean {
-        return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides)) !== 0;
+    begin({ name, text, overrides, is_exact }: Carried): boolean {
+        return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides), Number(is_exact)) !== 0;
     }
 
     receive(message: string) { this.exports.receive(...this.put(message)); }

@@ -2,7 +2,6 @@
 #include "run/simulation/kernel_maker.h"
 
 #include "core/check.h"
-#include "ir/interpreter.h"
 
 #include <utility>
 
@@ -11,14 +10,13 @@ namespace cascade {
 KernelMaker::KernelMaker(const Grid& grid, std::shared_ptr<TieredBackend> stepper,
                          bool starts_interpreted, TimeAccount* account)
     : grid_(grid),
-      interpreter_(make_interpreter()),
       stepper_(std::move(stepper)),
       starts_interpreted_(starts_interpreted),
       account_(account) {}
 
 Compile KernelMaker::interpreted_on(const Grid& grid) const {
     return [this, stencil = grid.stencil()](const CellKernel& kernel) {
-        auto compiled = interpreter_->compile(kernel, stencil);
+        auto compiled = stepper_->interpreter().compile(kernel, stencil);
         CHECK(compiled, "the interpreter compiles every kernel");
         return *compiled;
     };

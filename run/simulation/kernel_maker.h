@@ -48,7 +48,6 @@ private:
     }
 
     Grid grid_;
-    std::unique_ptr<Backend> interpreter_;
     std::shared_ptr<TieredBackend> stepper_;
     bool starts_interpreted_;
     TimeAccount* account_;

@@ -1,7 +1,7 @@
 // Without threads a kernel is compiled when it is asked for, which takes a browser milliseconds.
 #include "ir/tiered_backend.h"
 
-#include "ir/interpreter.h"
+#include "tab/module_backend.h"
 
 namespace cascade {
 
@@ -30,7 +30,7 @@ private:
 }  // namespace
 
 TieredBackend::TieredBackend(std::unique_ptr<Backend> native)
-    : native_(std::move(native)), interpreter_(make_interpreter()) {}
+    : native_(std::move(native)), interpreter_(make_starting_backend()) {}
 TieredBackend::~TieredBackend() = default;
 
 std::string_view TieredBackend::name() const { return native_->name(); }

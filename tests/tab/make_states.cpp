@@ -1,7 +1,9 @@
 // Runs the scripts of tests/tab_agreement_test.sh natively, with denormal numbers kept as a browser
 // keeps them, and writes what a page needs to run them too, and the bits that it must get.
 //
-//   tab_states FILE
+//   tab_states kept|exact FILE
+//
+// `exact`: with denormal numbers flushed, as the program does and exact pages do.
 #include "core/base64.h"
 #include "core/check.h"
 #include "core/floating_point.h"
@@ -71,12 +73,15 @@ Json state_of(Script script) {
             {"files", files},        {"species", species},    {"steps", turns.run().place().steps}};
 }
 
-void write_states(const std::filesystem::path& path) {
+void write_states(const std::filesystem::path& path, bool is_exact) {
     Json all = Json::array();
     const auto add = [&](Script script) {
         CHECK(script.program, "test: the script is right");
         if (script.program->stages.empty()) return;
-        if (auto state = state_of(std::move(script)); !state.is_null()) all.push_back(state);
+        auto state = state_of(std::move(script));
+        if (state.is_null()) return;
+        state["is_exact"] = is_exact;
+        all.push_back(std::move(state));
     };
     Overrides overrides;
     overrides.steps = most_steps;
@@ -104,7 +109,8 @@ void write_states(const std::filesystem::path& path) {
 }  // namespace cascade::testing
 
 int main(int argc, char** argv) {
-    CHECK(argc == 2, "test: tab_states FILE");
-    cascade::keep_denormals();
-    cascade::testing::write_states(argv[1]);
+    CHECK(argc == 3, "test: tab_states kept|exact FILE");
+    const bool is_exact = std::string(argv[1]) == "exact";
+    if (!is_exact) cascade::keep_denormals();
+    cascade::testing::write_states(argv[2], is_exact);
 }

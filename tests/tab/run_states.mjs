@@ -32,7 +32,7 @@ function hashOf(words) {
 }
 
 /// The hashes of the species after the run, or why there are none.
-async function run({name, text, overrides, files, species}) {
+async function run({name, text, overrides, is_exact, files, species}) {
   await start();
   const page = globalThis.self;
   return new Promise((resolve) => {
@@ -62,7 +62,7 @@ async function run({name, text, overrides, files, species}) {
         resolve({fault: JSON.stringify(answer.messages)});
       }
     };
-    const carried = {name, text, overrides, files: files.map(([file, bytes]) => [file, Buffer.from(bytes, 'base64')])};
+    const carried = {name, text, overrides, is_exact, files: files.map(([file, bytes]) => [file, Buffer.from(bytes, 'base64')])};
     page.onmessage({data: {engine, carried}});
   });
 }
