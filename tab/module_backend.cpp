@@ -15,6 +15,9 @@ namespace {
 
 bool are_modules_exact = false;
 
+/// Kernels of texts before are kept for texts that need them again, until there are this many.
+constexpr std::size_t most_kept = 256;
+
 // The arguments that all kernels have: fields, masks, uniforms, results, columns, stride, rows.
 using Shared = void(const void*, const void*, const void*, const void*, std::int32_t, std::int32_t,
                     std::int32_t, std::int32_t, std::int32_t);
@@ -103,6 +106,10 @@ public:
     Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) override {
         auto module = wasm_module(kernel, stencil, {are_modules_exact});
         if (!module) return tl::unexpected(module.error());
+        if (kernels_.size() >= most_kept) {
+            std::erase_if(kernels_,
+                          [](const auto& kernel) { return kernel.second.use_count() <= 1; });
+        }
         const std::string key(module->begin(), module->end());
         KernelPointer& known = kernels_[{key, stencil_number(stencil)}];
         if (known != nullptr) return known;
