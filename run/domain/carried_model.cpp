@@ -46,7 +46,7 @@ public:
         if (!is_sound_) return values;
         values.resize(static_cast<std::size_t>(count));
         const std::string_view bytes = take(count * sizeof(T));
-        std::memcpy(values.data(), bytes.data(), bytes.size());
+        if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
         return values;
     }
     std::string text() { return std::string(take(number())); }
@@ -127,7 +127,7 @@ Result<CarriedModel> parse_carried_model(std::string_view bytes) {
         }
     }
     auto cells = parse_cells(reader.rest(), mesh, {});
-    if (!cells) return damaged();
+    if (!cells || cells->places.empty()) return damaged();
     model.cells = *std::move(cells);
     return model;
 }

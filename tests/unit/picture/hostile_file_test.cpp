@@ -2,10 +2,12 @@
 // where these tests bite.
 #include "picture/image.h"
 #include "picture/npy.h"
+#include "picture/pixel_file.h"
 #include "tests/unit/picture/png_chunks.h"
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 namespace cascade {
@@ -85,6 +87,49 @@ TEST(HostileNpy, ShakenDictionaries) {
         file += static_cast<char>(changed.size() & 0xff);
         file += static_cast<char>(changed.size() >> 8);
         expect_sound_npy(file + changed);
+    }
+}
+
+std::string valid_pixels() { return print_pixel_file({3, 2, {0, 0.1F, 0.2F, 0.3F, 0.4F, 0.5F}}); }
+
+void expect_sound_pixels(const std::string& bytes) {
+    const Result<GreyPicture> picture = parse_pixel_file(bytes);
+    if (!picture) {
+        EXPECT_FALSE(picture.error().message.empty());
+        return;
+    }
+    EXPECT_EQ(static_cast<std::size_t>(picture->width * picture->height), picture->values.size());
+    EXPECT_LE(picture->values.size() * sizeof(float), bytes.size());
+}
+
+TEST(HostilePixels, ComeBackOrAreRefused) {
+    const std::string file = valid_pixels();
+    const auto picture = parse_pixel_file(file);
+    ASSERT_TRUE(picture) << picture.error().message;
+    EXPECT_EQ(picture->width, 3);
+    EXPECT_EQ(picture->height, 2);
+    EXPECT_EQ(print_pixel_file(*picture), file);
+    for (std::size_t size = 0; size < file.size(); ++size) {
+        EXPECT_FALSE(parse_pixel_file(file.substr(0, size))) << size;
+    }
+    EXPECT_FALSE(parse_pixel_file(file + "0"));
+    EXPECT_FALSE(parse_pixel_file(file + "0000"));
+    flip_every_bit(file, expect_sound_pixels);
+    std::mt19937 random(6);
+    for (int round = 0; round < 20'000; ++round) expect_sound_pixels(shaken(file, random));
+}
+
+TEST(HostilePixels, AbsurdSidesAreRefused) {
+    const std::string file = valid_pixels();
+    const std::int64_t sides[] = {-6, -1, 0, 1, 6, 7, std::int64_t{1} << 32, INT64_MIN, INT64_MAX};
+    for (const std::int64_t width : sides) {
+        for (const std::int64_t height : sides) {
+            std::string changed = file;
+            std::memcpy(changed.data() + 8, &width, sizeof width);
+            std::memcpy(changed.data() + 16, &height, sizeof height);
+            const bool fits = (width == 1 && height == 6) || (width == 6 && height == 1);
+            EXPECT_EQ(parse_pixel_file(changed).has_value(), fits) << width << " " << height;
+        }
     }
 }
 
