@@ -72,6 +72,20 @@ private:
     bool is_sound_ = true;
 };
 
+/// Are corners points, and does every edge lead to one that leads back?
+bool is_sound(const SurfaceMesh& mesh) {
+    for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            const TriangleEdge& edge = mesh.across[k][corner];
+            if (mesh.triangles[k][corner] >= mesh.points.size()) return false;
+            if (!edge.exists()) continue;
+            if (edge.triangle >= mesh.triangles.size() || edge.edge > 2) return false;
+            if (mesh.across[edge.triangle][edge.edge] != TriangleEdge{k, corner}) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 std::string print_carried_model(const ModelCells& model) {
@@ -117,15 +131,7 @@ Result<CarriedModel> parse_carried_model(std::string_view bytes) {
         !is_list_of(mesh.texture.size()) || !is_list_of(mesh.faces.size())) {
         return damaged();
     }
-    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const TriangleEdge& edge = mesh.across[k][corner];
-            if (mesh.triangles[k][corner] >= mesh.points.size() ||
-                (edge.exists() && (edge.triangle >= mesh.triangles.size() || edge.edge > 2))) {
-                return damaged();
-            }
-        }
-    }
+    if (!is_sound(mesh)) return damaged();
     auto cells = parse_cells(reader.rest(), mesh, {});
     if (!cells || cells->places.empty()) return damaged();
     model.cells = *std::move(cells);

@@ -49,17 +49,38 @@ const CacheSizes& CacheSizes::here() {
     return sizes;
 }
 
+namespace {
+
+constexpr std::size_t cache_line = 64;
+std::size_t bytes_of_planes = 0;
+
+}  // namespace
+
+/// The line before a plane holds its size.
 void* allocate_plane(std::size_t bytes) {
-    constexpr std::size_t cache_line = 64;
-    const std::size_t rounded = (bytes + cache_line - 1) / cache_line * cache_line;
-    void* const plane = std::aligned_alloc(cache_line, std::max(rounded, cache_line));
-    if (plane == nullptr) lack_memory();
-    return std::memset(plane, 0, rounded);
+    const std::size_t size = cache_line + (bytes + cache_line - 1) / cache_line * cache_line;
+    char* const block = static_cast<char*>(std::aligned_alloc(cache_line, size));
+    if (block == nullptr) lack_memory();
+    std::memset(block, 0, size);
+    std::memcpy(block, &size, sizeof size);
+    bytes_of_planes += size;
+    return block + cache_line;
 }
 
-void free_plane(void* plane) { std::free(plane); }
+void free_plane(void* plane) {
+    if (plane == nullptr) return;
+    char* const block = static_cast<char*>(plane) - cache_line;
+    std::size_t size = 0;
+    std::memcpy(&size, block, sizeof size);
+    bytes_of_planes -= size;
+    std::free(block);
+}
 
-/// Addresses have 32 bits, and browsers give a module at most 4 GiB.
-std::uint64_t available_memory(const std::filesystem::path&) { return std::uint64_t{3} << 30; }
+/// Addresses have 32 bits, so browsers give a module at most 4 GiB, of which blocks that were freed
+/// may leave gaps. 1 if nothing is left, since 0 means that the amount is unknown.
+std::uint64_t available_memory(const std::filesystem::path&) {
+    constexpr std::uint64_t most = std::uint64_t{3} << 30;
+    return most - std::min<std::uint64_t>(most - 1, bytes_of_planes);
+}
 
 }  // namespace cascade

@@ -89,10 +89,7 @@ TEST_F(CarriedModelTest, AbsurdLengthsAreNotBelieved) {
         for (std::size_t at = 8; at + sizeof length <= all.size(); ++at) {
             std::string changed = all;
             std::memcpy(changed.data() + at, &length, sizeof length);
-            const auto carried = parse_carried_model(changed);
-            if (carried) {
-                EXPECT_LE(carried->mesh.points.size(), all.size());
-            }
+            expect_sound(changed);
         }
     }
 }
