@@ -60,6 +60,15 @@ MODEL
 "$CASCADE" export - <dots.cascade >said || fail "a script of standard input was not exported"
 grep -q '^cascade\.html (' said || fail "a script of standard input became: $(cat said)"
 
+"$CASCADE" run sphere.cascade --set grow.iterations=80 --palette zebra -o ball.png --quiet || fail "the model was not drawn"
+cat >volume.cascade <<'SCRIPT'
+domain { grid: 20, 16, 12; boundary: noflux }
+system heat { u: disc(0.3, 0.4, 0.25, 0.2) + 0.3 * x; u' = 0.1 * lap(u) }
+stage grow: heat { iterations: 10 }
+SCRIPT
+"$CASCADE" export volume.cascade >/dev/null || fail "the page of a volume was not written"
+"$CASCADE" run volume.cascade --palette leopard -o volume.png --quiet || fail "the slice was not drawn"
+
 # Bad input: one message, and nothing is left.
 refused() {
     local wanted=$1
