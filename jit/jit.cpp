@@ -2,6 +2,7 @@
 #include "jit/jit.h"
 
 #include "core/check.h"
+#include "ir/kernel_calls.h"
 #include "jit/code_cache.h"
 #include "jit/field_pairs.h"
 #include "jit/generator.h"
@@ -17,9 +18,6 @@
 
 namespace cascade {
 namespace {
-
-/// Do kernels fill columns of the halo? In space rows of other slices take most of the time.
-bool fills_columns(Stencil stencil) { return stencil.x && !stencil.z && !stencil.links; }
 
 template <typename Number>
 class NativeKernel final : public Kernel {
@@ -54,34 +52,26 @@ public:
         CHECK(stencil_.z == (layout.depth > 1), "a kernel runs on grids of its stencil");
         if (stencil_.z) return run_slices(arguments, rows, columns);
         if (stencil_.links) return run_linked(arguments, rows, columns);
-        const bool is_whole = columns.begin == 0 && columns.end == layout.width;
-        const HaloColumns none{-1, -1};
-        const HaloColumns copied = is_whole ? arguments.columns.value_or(none) : none;
+        const HaloColumns copied = columns_to_fill(arguments, columns);
         function_->template as<GridFunction<Number>>()(
             arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
             arguments.results.data(), columns.begin, columns.end, layout.stride, rows.begin,
             rows.end, arguments.is_near, copied.left, copied.right);
     }
 
-    bool fills_columns() const override { return cascade::fills_columns(stencil_); }
+    bool fills_columns() const override { return kernels_fill_columns(stencil_); }
 
 private:
     /// One call for each slice that has some of the rows.
     void run_slices(const KernelArgumentsOf<Number>& arguments, RowRange rows,
                     ColumnRange columns) const {
         const PlaneLayout& layout = arguments.layout;
-        while (!rows.empty()) {
-            const std::int64_t slice = rows.begin / layout.height;
-            const std::int64_t end = std::min(rows.end, (slice + 1) * layout.height);
-            // Numbers of rows in memory count those of the halo, too.
-            const std::int64_t halo_rows = slice * (layout.slice_rows() - layout.height);
+        for_each_slice(layout, rows, [&](RowRange part, std::int64_t slice) {
             function_->template as<VolumeFunction<Number>>()(
                 arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
-                arguments.results.data(), columns.begin, columns.end, layout.stride,
-                rows.begin + halo_rows, end + halo_rows, arguments.is_near, layout.slice_rows(),
-                slice);
-            rows.begin = end;
-        }
+                arguments.results.data(), columns.begin, columns.end, layout.stride, part.begin,
+                part.end, arguments.is_near, layout.slice_rows(), slice);
+        });
     }
 
     void run_linked(const KernelArgumentsOf<Number>& arguments, RowRange rows,
@@ -182,7 +172,7 @@ public:
 private:
     KernelShape shape_of(const CellKernel& kernel, Stencil stencil) const {
         KernelShape shape = shape_for(kernel, stencil, lanes_);
-        shape.fills_columns = fills_columns(stencil);
+        shape.fills_columns = kernels_fill_columns(stencil);
         return shape;
     }
 

@@ -1,4 +1,5 @@
-// The engine of a page that has no server: a live run behind the messages of spec/page.md.
+// The engine of a page without a server: it runs a session and answers the messages of
+// spec/page.md.
 //
 // Exported functions, all for the one thread of a browser's worker:
 //

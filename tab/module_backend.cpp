@@ -2,6 +2,7 @@
 #include "tab/module_backend.h"
 
 #include "ir/interpreter.h"
+#include "ir/kernel_calls.h"
 #include "tab/host.h"
 #include "wasm/kernel_module.h"
 
@@ -74,25 +75,16 @@ public:
                  static_cast<const void*>(links.weights), static_cast<const void*>(x),
                  static_cast<const void*>(y), static_cast<const void*>(z));
         } else if (stencil_.z) {
-            const std::int64_t height = layout.height, in_memory = layout.slice_rows();
-            for (RowRange rows = cells.rows; !rows.empty();) {
-                const std::int64_t slice = rows.begin / height;
-                const std::int64_t end = std::min(rows.end, (slice + 1) * height);
-                const std::int64_t halo_rows = slice * (in_memory - height);
-                call(function_.as<VolumeFunction>(),
-                     RowRange{rows.begin + halo_rows, end + halo_rows}, word(in_memory),
-                     word(slice));
-                rows.begin = end;
-            }
+            for_each_slice(layout, cells.rows, [&](RowRange rows, std::int64_t slice) {
+                call(function_.as<VolumeFunction>(), rows, word(layout.slice_rows()), word(slice));
+            });
         } else {
-            const bool is_whole = columns.begin == 0 && columns.end == layout.width;
-            const HaloColumns none{-1, -1};
-            const HaloColumns filled = is_whole ? given.columns.value_or(none) : none;
+            const HaloColumns filled = columns_to_fill(given, columns);
             call(function_.as<PlaneFunction>(), cells.rows, word(filled.left), word(filled.right));
         }
     }
 
-    bool fills_columns() const override { return stencil_.x && !stencil_.z && !stencil_.links; }
+    bool fills_columns() const override { return kernels_fill_columns(stencil_); }
 
 private:
     Stencil stencil_;

@@ -20,7 +20,7 @@ constexpr std::int64_t most_steps = std::int64_t{1} << 53;  ///< Exact in the nu
 constexpr std::int64_t largest_scale = 64;
 constexpr std::int64_t most_stages = 1'000'000;
 
-/// Reads the fields of a message. fault() describes the first wrong one.
+/// Reads the fields of a message; fault() says what is wrong with the first wrong one.
 class FieldReader {
 public:
     explicit FieldReader(const Json& object) : object_(object) {}

@@ -45,7 +45,7 @@ export class Engine {
 
     carry([name, bytes]: [string, Uint8Array]) { this.exports.carry(...this.put(name), ...this.put(bytes)); }
 
-    /// If the run cannot start, the host is told why, and the one before goes on.
+    /// If the run cannot start, the host is told why, and the previous run goes on.
     begin({ name, text, overrides, is_exact }: Carried): boolean {
         return this.exports.begin(...this.put(name), ...this.put(text), ...this.put(overrides), Number(is_exact)) !== 0;
     }

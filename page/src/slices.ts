@@ -33,7 +33,7 @@ export class Slices {
         this.number.title = `slice ${slice.number + 1} of ${this.count}`;
     }
 
-    /// By so many slices.
+    /// Moves by this number of slices.
     move(count: number) {
         if (this.box.hidden) return;
         this.number.valueAsNumber += count;

@@ -37,7 +37,7 @@ export class Stages {
         return item;
     }
 
-    /// Keeps a picture of what is seen now: some times a second, and of the last moment.
+    /// Keeps a picture of what is seen now: a few times a second, and at the last moment.
     keep_picture({ stage, is_going_on }: Snapshot, pattern: HTMLCanvasElement) {
         const now = performance.now();
         const is_due = stage !== this.drawn || !is_going_on || now - this.drawn_at > milliseconds_between_pictures;

@@ -22,7 +22,7 @@ constexpr std::size_t most_triangles = std::size_t{1} << 20;
 /// The longest edge in cell spacings: the filter, whose radius is two, is nearly linear along it.
 constexpr double longest_edge = 0.75;
 
-/// At least so many quadrilaterals along a side of a function's surface give a smooth outline.
+/// The least number of quadrilaterals along a side of a function's surface, for a smooth outline.
 constexpr double least_facets = 160;
 
 Vector3 single(const Vector3d& a) {

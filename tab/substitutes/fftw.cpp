@@ -25,7 +25,7 @@ using std::numbers::pi;
 
 enum class Transform : std::uint8_t { real, forward, backward, to_half, from_half };
 
-/// One line of numbers after another, in steps of so many elements.
+/// The number of elements from one number of a line to the next, and from one line to the next.
 struct Lines {
     int stride, distance;
 };

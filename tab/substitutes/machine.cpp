@@ -1,7 +1,6 @@
 // What the machine offers: in a tab one thread, memory without pages, no file system, and
 // arithmetic that keeps denormal numbers.
 #include "core/cache_sizes.h"
-#include "core/check.h"
 #include "core/enough_memory.h"
 #include "core/floating_point.h"
 #include "core/parallel.h"
@@ -14,14 +13,6 @@
 #include <cstring>
 
 namespace cascade {
-
-RowRange split_rows(std::int64_t rows, int index, int count) {
-    CHECK(rows >= 0 && 0 <= index && index < count, "a part of the rows that exists");
-    const std::int64_t each = rows / count;
-    const std::int64_t rest = rows % count;  // The first `rest` parts have one row more.
-    const std::int64_t begin = index * each + std::min<std::int64_t>(index, rest);
-    return {begin, begin + each + (index < rest ? 1 : 0)};
-}
 
 int hardware_threads() { return 1; }
 

@@ -1,0 +1,40 @@
+// How a backend divides the rows of a patch into calls of a kernel's function.
+#pragma once
+
+#include "core/grid.h"
+#include "core/patch.h"
+#include "ir/backend.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace cascade {
+
+/// Do kernels fill columns of the halo? In space rows of other slices take most of the time.
+constexpr bool kernels_fill_columns(Stencil stencil) {
+    return stencil.x && !stencil.z && !stencil.links;
+}
+
+/// What a call copies to the columns −1 and `width` of its rows: {-1, -1}, nothing, unless it
+/// computes whole rows and is told what.
+template <typename Number>
+HaloColumns columns_to_fill(const KernelArgumentsOf<Number>& arguments, ColumnRange columns) {
+    const bool is_whole = columns.begin == 0 && columns.end == arguments.layout.width;
+    const HaloColumns none{-1, -1};
+    return is_whole ? arguments.columns.value_or(none) : none;
+}
+
+/// Calls `call(rows, slice)` for each slice that has some of the rows. Its rows are numbered as
+/// they lie in memory, those of the halo included.
+template <typename Call>
+void for_each_slice(const PlaneLayout& layout, RowRange rows, const Call& call) {
+    while (!rows.empty()) {
+        const std::int64_t slice = rows.begin / layout.height;
+        const std::int64_t end = std::min(rows.end, (slice + 1) * layout.height);
+        const std::int64_t halo_rows = slice * (layout.slice_rows() - layout.height);
+        call(RowRange{rows.begin + halo_rows, end + halo_rows}, slice);
+        rows.begin = end;
+    }
+}
+
+}  // namespace cascade
