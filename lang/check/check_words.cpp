@@ -167,7 +167,9 @@ void mark_reads(Workspace& work, const Formula& formula, SystemId system) {
     for (const Node& node : formula.nodes) {
         if (const auto* own = node.as<ItemId>()) work.items_read[system][*own] = true;
         if (const auto* id = node.as<DefinitionId>()) work.definitions_read[system][*id] = true;
-        if (const auto* earlier = node.as<StageItem>()) {
+        const auto* const sensed = node.as<SensedItem>();
+        const auto* const earlier = sensed != nullptr ? &sensed->item : node.as<StageItem>();
+        if (earlier != nullptr) {
             const SystemId other = work.program.stages[earlier->stage].system;
             if (other != unknown_system) work.items_read[other][earlier->item] = true;
         }

@@ -14,6 +14,7 @@ namespace {
 void note_reads(const Formula& formula, std::vector<bool>& is_read) {
     for (const Node& node : formula.nodes) {
         if (const auto* earlier = node.as<StageItem>()) is_read[earlier->stage] = true;
+        if (const auto* sensed = node.as<SensedItem>()) is_read[sensed->item.stage] = true;
     }
 }
 

@@ -27,6 +27,7 @@ std::string KernelAssembly::name_of(const std::variant<Sources...>& source) cons
     };
     const Overloaded name{
         [&](StageItem each) { return name_of(each); },
+        [&](SensedItem each) { return name_of(each.item) + " (sensed)"; },
         [&](SweepInput each) {
             return fmt::format("{} (input {})", name_of(StageItem{stage_, each.item}), each.input);
         },

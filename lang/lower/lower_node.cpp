@@ -57,6 +57,7 @@ Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
             return {assembly.item({in.graph.stage(), item}, in.at)};
         },
         [&](StageItem item) -> Value { return {assembly.item(item, in.at)}; },
+        [&](SensedItem sensed) -> Value { return {assembly.field(sensed, in.at)}; },
         [&](Builtin builtin) -> Value { return {CellPlace(assembly, in.at).builtin(builtin)}; },
         [&](InsideMask) -> Value { return {assembly.inside(in.at)}; },
         [&](Call) { return lower_call(assembly, in); },
@@ -74,7 +75,8 @@ PlaneSource plane_source(const PlanGraph& graph, NodeId id) {
         [&](ItemId item) -> PlaneSource {
             return StageItem{graph.stage(), item};
         },
-        [&](StageItem item) -> PlaneSource { return item; },
+        [](StageItem item) -> PlaneSource { return item; },
+        [](SensedItem sensed) -> PlaneSource { return sensed; },
         [](MetricPlane plane) -> PlaneSource { return plane; },
         [](ModelPlane plane) -> PlaneSource { return plane; },
         [](SurfaceValueId id_of_value) -> PlaneSource { return id_of_value; },

@@ -134,8 +134,8 @@ bool PlanGraph::is_plane(NodeId id) const {
         return *item != program().system_of(stage()).frozen_item();
     }
     if (node.is<Call>()) return reads_file(node.function);
-    return node.is<StageItem>() || node.is<MetricPlane>() || node.is<ModelPlane>() ||
-           node.is<SurfaceValueId>();
+    return node.is<StageItem>() || node.is<SensedItem>() || node.is<MetricPlane>() ||
+           node.is<ModelPlane>() || node.is<SurfaceValueId>();
 }
 
 const std::string& PlanGraph::name(NodeId id) const {

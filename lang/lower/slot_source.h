@@ -45,8 +45,9 @@ enum class TimeValue : std::uint8_t {
 inline constexpr std::array<std::string_view, 4> time_value_names{"step", "draw", "t", "time step"};
 
 /// Of a field slot.
-using PlaneSource = std::variant<StageItem, SweepInput, NamedPlane, SurfaceValueId, MetricPlane,
-                                 ModelPlane, Neighbourhood, StepInvariantId, TemporaryId>;
+using PlaneSource =
+    std::variant<StageItem, SensedItem, SweepInput, NamedPlane, SurfaceValueId, MetricPlane,
+                 ModelPlane, Neighbourhood, StepInvariantId, TemporaryId>;
 /// Of a uniform slot.
 using UniformSource =
     std::variant<StageItem, StepInvariantId, AggregateId, TimeValue, CoefficientId>;

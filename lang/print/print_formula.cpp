@@ -99,6 +99,11 @@ private:
         }
     }
 
+    std::string of_stage(StageItem each) const {
+        return fmt::format("{}.{}", program_.stages[each.stage].name,
+                           program_.system_of(each.stage).item_name(each.item));
+    }
+
     std::string leaf(const Node& node) const {
         const auto of = [](const auto& names, auto key) {
             return std::string(names[static_cast<std::size_t>(key)]);
@@ -109,10 +114,8 @@ private:
             [&](ItemId item) {
                 return fmt::format(fmt::runtime(stage_ ? "[{}]" : "{}"), system_.item_name(item));
             },
-            [&](StageItem each) {
-                return fmt::format("{}.{}", program_.stages[each.stage].name,
-                                   program_.system_of(each.stage).item_name(each.item));
-            },
+            [&](StageItem each) { return of_stage(each); },
+            [&](SensedItem each) { return of_stage(each.item); },
             [&](SurfaceValueId id) { return text_of(program_.literals->surface_value(id)); },
             [&](DefinitionId id) { return system_.definitions[id].name; },
             [&](Rate rate) { return system_.quantities[rate.species].name + "'"; },

@@ -16,9 +16,13 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
 
 /// What distinguishes nodes of the same kind. Equal numbers have equal bits: −0 is not 0.
 std::uint64_t word_of(const NodeKind& kind) {
+    const auto of_item = [](StageItem each) {
+        return std::uint64_t{each.stage} << 32 | each.item.index();
+    };
     const Overloaded word{
         [](double number) { return std::bit_cast<std::uint64_t>(number); },
-        [](StageItem each) { return std::uint64_t{each.stage} << 32 | each.item.index(); },
+        of_item,
+        [&](SensedItem each) { return of_item(each.item); },
         [](Rate rate) { return std::uint64_t{rate.species.index()}; },
         [](Call call) { return std::uint64_t{call.octaves}; },
         [](InsideMask) { return std::uint64_t{0}; },

@@ -50,13 +50,17 @@ enum class ModelPlane : std::uint8_t {
     // Computed when they are first read (run/domain/surface_values.h).
     curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
     curvature_gauss,                                ///< In 1 / unit².
+    // Of cells that crawl only, in lengths of scripts.
+    off,      ///< The signed distance from the surface, positive on the side of the normal.
+    feature,  ///< The square root of the area of the nearest triangle.
 };
 // clang-format on
-inline constexpr std::size_t model_plane_count = 16;
+inline constexpr std::size_t model_plane_count = 18;
 // clang-format off
 inline constexpr std::array<std::string_view, model_plane_count> model_names{
     "(number)", "(area)", "(x)", "(y)", "(z)", "(sx)", "(sy)", "(sz)", "(nx)", "(ny)", "(nz)",
-    "(curvature)", "(curvature_mean)", "(curvature_high)", "(curvature_low)", "(curvature_gauss)"};
+    "(curvature)", "(curvature_mean)", "(curvature_high)", "(curvature_low)", "(curvature_gauss)",
+    "(off)", "(feature)"};
 // clang-format on
 /// Is the plane only made for formulas that read it?
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
@@ -73,6 +77,12 @@ struct StageItem {
     std::uint32_t stage = 0;
     ItemId item;
     bool operator==(const StageItem&) const = default;
+};
+
+/// An item of an earlier stage of fields, at the place of a cell that crawls.
+struct SensedItem {
+    StageItem item;
+    bool operator==(const SensedItem&) const = default;
 };
 
 /// The rate of a species.
@@ -94,8 +104,8 @@ struct Call {
 
 /// What a node is. An ItemId is an item of this stage, a StageItem one of an earlier stage. Only
 /// lowering makes nodes of the last three kinds.
-using NodeKind = std::variant<double, TextId, ItemId, StageItem, Builtin, DefinitionId, Rate, Call,
-                              SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
+using NodeKind = std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, DefinitionId,
+                              Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
 
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
@@ -262,6 +272,18 @@ struct SpeciesSide {
     SideSetting setting;
 };
 
+/// What makes a system one of cells that crawl.
+struct CellRules {
+    ItemId place;  ///< The first of three components.
+    ItemId frame;  ///< The first of four, of a quaternion w, x, y, z.
+    ItemId radius, age;
+    Formula divide, die;  ///< Conditions, numbers; empty: never.
+    Formula along;        ///< A vector; empty: a random direction in the tangent plane.
+    IdVector<ItemId, Formula> restarts;  ///< Values after a division; empty: inherited.
+    double reach = 1.2;         ///< Cells touch at up to this multiple of the sum of their radii.
+    std::vector<Formula> near;  ///< The distances of `over near(d)`: the same for all cells.
+};
+
 struct System {
     std::string name;
     Span span;
@@ -277,6 +299,7 @@ struct System {
     std::vector<Invariant> invariants;
     std::vector<SpeciesSide> sides;  ///< Later ones replace earlier ones.
     Settings settings;
+    std::optional<CellRules> cells;  ///< Of a `cells` block.
 
     // A stage's items are its quantities, then `frozen`, then `speed`.
     ItemId frozen_item() const { return quantities.next(); }
@@ -293,6 +316,14 @@ struct System {
     std::uint32_t species_count() const { return static_cast<std::uint32_t>(species().size()); }
 };
 
+/// The cells with which a stage of cells starts.
+struct Founders {
+    std::int64_t count = 0;      ///< Of those at random places; 0 if places are given.
+    Formula chance;              ///< Of keeping a random place, from 0 to 1; empty: all.
+    std::vector<double> places;  ///< Three coordinates of scripts for each.
+    Span span;
+};
+
 struct Stage {
     std::string name;  ///< As written, or stage1, stage2, … by position.
     Span span;
@@ -306,6 +337,9 @@ struct Stage {
     StageTime time;
     /// By species, in their order; empty if the boundary holds at all sides.
     IdVector<SpeciesId, std::array<SideSetting, side_count>> sides;
+    // Of a stage of cells that crawl.
+    std::optional<Founders> founders;  ///< Empty: the cells of the stage of cells before it.
+    Formula remove;  ///< Cells where it is not 0 are removed at the start; empty: none.
 };
 
 /// A surface in space on which the grid lies.

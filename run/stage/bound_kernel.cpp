@@ -22,6 +22,7 @@ const Field& plane_of(const PlaneSource& source, const BindingContext& context) 
         },
         [&](Neighbourhood) { return &context.mask->neighbourhood; },
         [&](StepInvariantId id) { return &(*context.step_invariants)[id].plane; },
+        [](SensedItem) -> const Field* { CHECK(false, "cells of fields stay where they are"); },
         [](auto) -> const Field* { CHECK(false, "registers and temporaries are no fields"); },
     };
     return *std::visit(plane, source);
