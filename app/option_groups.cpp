@@ -63,8 +63,8 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         [&](auto grid) { overrides.grid = grid; })
         ->group(group);
     add_value(app, "--mesh", "MODEL",
-              "Grow on this model: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box "
-              "or creature",
+              "Grow on this model: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box, "
+              "knot or creature",
               any_text,
               [&](const std::string& model) {
                   overrides.model = model;

@@ -3,6 +3,7 @@
 #include "mesh/shapes.h"
 
 #include "mesh/edge_pairs.h"
+#include "mesh/lattice_mesh.h"
 
 #include <fmt/format.h>
 
@@ -145,41 +146,6 @@ private:
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges_;
 };
 
-/// Rectangle (i, j) of a lattice as two triangles; adjacent rectangles are cut along different
-/// diagonals, which avoids a preferred direction.
-template <typename Corner>
-void cut_rectangle(std::size_t i, std::size_t j, const Corner& corner) {
-    const std::array<std::pair<std::size_t, std::size_t>, 4> ring = {
-        {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
-    const std::size_t first = (i + j) % 2;
-    for (const std::size_t k : {first + 1, first + 2}) {
-        for (const std::size_t c : {first, k, k + 1}) corner(ring[c % 4].first, ring[c % 4].second);
-    }
-}
-
-/// Assembles triangles from a sequence of corners.
-struct TriangleList {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::array<TexturePlace, 3>> texture;
-
-    void add(std::uint32_t point, double u, double v) {
-        if (count == 0) {
-            triangles.emplace_back();
-            texture.emplace_back();
-        }
-        triangles.back()[count] = point;
-        texture.back()[count] = {static_cast<float>(u), static_cast<float>(v)};
-        count = (count + 1) % 3;
-    }
-    std::size_t count = 0;  ///< Corners of the current triangle.
-};
-
-SurfaceMesh mesh_of(std::vector<Vector3d> points, TriangleList list) {
-    SurfaceMesh mesh = mesh_of(std::move(points), std::move(list.triangles));
-    mesh.texture = std::move(list.texture);
-    return mesh;
-}
-
 /// Indices of a point in the lattice of a box.
 using Step = std::array<std::uint32_t, 3>;
 
@@ -297,22 +263,13 @@ Result<SurfaceMesh> torus_mesh(double ring_radius, double tube_radius, double ed
                  rows = cuts(tau * tube_radius, edge, 3);
     if (const auto fine = check_count(2 * columns * rows); !fine)
         return tl::unexpected(fine.error());
-    const auto n = static_cast<std::uint32_t>(columns), m = static_cast<std::uint32_t>(rows);
-    std::vector<Vector3d> points;
-    TriangleList list;
-    for (std::uint32_t j = 0; j < m; ++j) {
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const double around = tau * i / columns, tube = tau * j / rows;
-            const double out = ring_radius - tube_radius * std::cos(tube);
-            points.push_back(
-                {-out * std::sin(around), -tube_radius * std::sin(tube), -out * std::cos(around)});
-            cut_rectangle(i, j, [&](std::size_t column, std::size_t row) {
-                list.add(static_cast<std::uint32_t>(row % m * n + column % n),
-                         static_cast<double>(column) / columns, static_cast<double>(row) / rows);
-            });
-        }
-    }
-    return mesh_of(std::move(points), std::move(list));
+    return ring_lattice(static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows),
+                        [&](std::uint32_t i, std::uint32_t j) {
+                            const double around = tau * i / columns, tube = tau * j / rows;
+                            const double out = ring_radius - tube_radius * std::cos(tube);
+                            return Vector3d{-out * std::sin(around), -tube_radius * std::sin(tube),
+                                            -out * std::cos(around)};
+                        });
 }
 
 Result<SurfaceMesh> box_mesh(Vector3d sides, double edge) {

@@ -22,15 +22,19 @@ constexpr double most_cells = 268435456;  // 2^28: elements of a plane are index
 struct ShapeName {
     std::string_view word;
     ModelShape shape;
-    std::size_t sizes;  ///< The most numbers in brackets.
+    std::size_t sizes;           ///< The most numbers in brackets.
+    std::string_view arguments;  ///< In messages.
     std::string_view example;
 };
-constexpr std::array<ShapeName, 5> shape_names{{
-    {"sphere", ModelShape::sphere, 0, "sphere"},
-    {"torus", ModelShape::torus, 2, "torus(1, 0.4)"},
-    {"box", ModelShape::box, 3, "box(1, 1, 2)"},
-    {"creature", ModelShape::creature, 0, "creature"},
-    {"implicit", ModelShape::implicit, 1, "implicit(1 - x^2 - y^2 - z^2)"},
+constexpr std::array<ShapeName, 6> shape_names{{
+    {"sphere", ModelShape::sphere, 0, "", "sphere"},
+    {"torus", ModelShape::torus, 2, "its two radii", "torus(1, 0.4)"},
+    {"box", ModelShape::box, 3, "its three sides", "box(1, 1, 2)"},
+    {"knot", ModelShape::knot, 1, "the radius of its tube", "knot(0.4)"},
+    {"creature", ModelShape::creature, 0, "", "creature"},
+    {"implicit", ModelShape::implicit, 1,
+     "an expression of x, y and z, and perhaps half the side of its box",
+     "implicit(1 - x^2 - y^2 - z^2)"},
 }};
 
 const ShapeName* shape_of(std::string_view word) {
@@ -170,17 +174,11 @@ private:
         const bool is_implicit = name.shape == ModelShape::implicit;
         const bool has_box = is_implicit && arguments.size() == 2;
         if (arguments.size() != name.sizes && !has_box && (is_implicit || !arguments.empty())) {
-            work_.diagnostics.error(
-                value.span,
-                name.sizes == 0
-                    ? fmt::format("'{}' stands alone", name.word)
-                    : fmt::format(
-                          "{} takes {} in brackets", name.word,
-                          is_implicit
-                              ? "an expression of x, y and z, and perhaps half the side of its box"
-                          : name.sizes == 2 ? "its two radii"
-                                            : "its three sides"),
-                fmt::format("surface: {}", name.example));
+            work_.diagnostics.error(value.span,
+                                    name.sizes == 0 ? fmt::format("'{}' stands alone", name.word)
+                                                    : fmt::format("{} takes {} in brackets",
+                                                                  name.word, name.arguments),
+                                    fmt::format("surface: {}", name.example));
             return;
         }
         ModelSettings model;
@@ -207,6 +205,11 @@ private:
             model.sizes[1] >= model.sizes[0]) {
             work_.diagnostics.error(value.span, "the tube of a torus is thinner than its ring",
                                     "surface: torus(1, 0.4)");
+            return;
+        }
+        if (model.shape == ModelShape::knot && !model.sizes.empty() && model.sizes[0] > 0.55) {
+            work_.diagnostics.error(value.span, "the tube of a knot has a radius of at most 0.55",
+                                    "surface: knot(0.4)");
             return;
         }
         model_ = std::move(model);

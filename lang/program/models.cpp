@@ -82,8 +82,8 @@ Grid rows_of_cells(std::int64_t cells) {
 }
 
 std::optional<ModelShape> shape_named(std::string_view word) {
-    for (const ModelShape shape :
-         {ModelShape::sphere, ModelShape::torus, ModelShape::box, ModelShape::creature}) {
+    for (const ModelShape shape : {ModelShape::sphere, ModelShape::torus, ModelShape::box,
+                                   ModelShape::knot, ModelShape::creature}) {
         if (word == word_of(shape)) return shape;
     }
     return std::nullopt;
@@ -95,6 +95,7 @@ std::string_view word_of(ModelShape shape) {
         case ModelShape::sphere: return "sphere";
         case ModelShape::torus: return "torus";
         case ModelShape::box: return "box";
+        case ModelShape::knot: return "knot";
         case ModelShape::creature: return "creature";
         case ModelShape::implicit: return "implicit";
     }

@@ -357,7 +357,7 @@ struct MaskSettings {
 };
 
 /// The source of a surface over which cells are spread.
-enum class ModelShape : std::uint8_t { file, sphere, torus, box, creature, implicit };
+enum class ModelShape : std::uint8_t { file, sphere, torus, box, knot, creature, implicit };
 
 /// What the cells are.
 enum class ModelCellKind : std::uint8_t {
@@ -387,7 +387,7 @@ struct DirectionSettings {
 struct ModelSettings {
     ModelShape shape = ModelShape::file;
     std::string path;                 ///< For a file.
-    std::vector<double> sizes;        ///< Of a torus (two radii) or a box (three sides).
+    std::vector<double> sizes;        ///< Of a torus (two radii), a box (three sides) or a knot.
     std::optional<Formula> implicit;  ///< The surface is where this is 0.
     ModelCellKind cells = ModelCellKind::spread;
     std::int64_t count = 16384;  ///< Of spread cells.

@@ -11,6 +11,7 @@
 #include "lang/program/models.h"
 #include "mesh/creature.h"
 #include "mesh/implicit_surface.h"
+#include "mesh/knot.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
 #include "mesh/normals.h"
@@ -94,6 +95,8 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& 
             mesh = box_mesh(sides, edge * std::max({sides.x, sides.y, sides.z}));
             break;
         }
+        // The knot is 6 long.
+        case ModelShape::knot: mesh = knot_mesh(size(0, 0.4), 3 * edge); break;
         case ModelShape::creature: mesh = creature_mesh(0.025, cancel); break;
         case ModelShape::implicit: mesh = implicit_mesh(settings, cancel); break;
     }

@@ -1,4 +1,5 @@
 // Shapes whose areas, volumes and forms are known.
+#include "mesh/knot.h"
 #include "mesh/shapes.h"
 
 #include "unit/mesh/measures.h"
@@ -133,6 +134,24 @@ TEST(Shapes, WhatIsNoShapeIsRefused) {
     EXPECT_THAT(fault(torus_mesh(1, nan, 0.1)), HasSubstr("the tube's radius nan"));
     EXPECT_THAT(fault(box_mesh({1, 0, 1}, 0.1)), HasSubstr("the side 0"));
     EXPECT_THAT(fault(box_mesh({1e50, 1, 1}, 1)), HasSubstr("triangles"));
+}
+
+TEST(Shapes, AKnotIsATubeAroundACurve) {
+    // Pappus: a tube has the area and the volume of a straight one of the curve's length.
+    constexpr double along = 28.82629;
+    for (const double radius : {0.2, 0.5}) {
+        const SurfaceMesh knot = shape(knot_mesh(radius, 0.05));
+        EXPECT_EQ(facts_of(knot).euler_characteristic, 0);
+        EXPECT_NEAR(knot.total_area(), 2 * pi * radius * along, 0.004 * knot.total_area());
+        EXPECT_NEAR(test::volume_of(knot), pi * radius * radius * along,
+                    0.15 * radius * radius * along);
+        EXPECT_GT(test::smallest_angle(knot), 15);
+    }
+    EXPECT_FALSE(knot_mesh(0.6, 0.05));
+    EXPECT_FALSE(knot_mesh(0, 0.05));
+    EXPECT_FALSE(knot_mesh(0.3, 0));
+    EXPECT_FALSE(knot_mesh(0.3, 1e-9));
+    EXPECT_FALSE(knot_mesh(NAN, 0.05));
 }
 
 }  // namespace
