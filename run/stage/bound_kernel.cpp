@@ -32,6 +32,7 @@ namespace {
 
 /// The number of cells that means are taken over; 0: all.
 std::int64_t cells_inside(const BindingContext& context) {
+    if (context.tissue) return context.tissue->count;
     if (context.grid.linked) return static_cast<std::int64_t>(context.model->count());
     return context.mask ? context.mask->cells : 0;
 }
@@ -45,8 +46,9 @@ bool reads_gradients(const Pass& pass) {
     });
 }
 
-/// The links of a model as a plan reads them; null on grids.
+/// The links of cells as a plan reads them; null on grids.
 const Links* links_of(const BindingContext& context, const StepPlan& plan) {
+    if (context.tissue) return context.tissue->links;
     if (!context.grid.linked) return nullptr;
     const bool reads = std::any_of(plan.passes.begin(), plan.passes.end(), reads_gradients);
     return reads ? &context.model->links_with_gradients() : &context.model->links;
@@ -71,6 +73,7 @@ public:
             problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
         }
         temporary_needs_halo_.assign(plan_.temporaries, false);
+        senses_ = context_.tissue && reads_what_is_sensed();
         for (const Pass& pass : plan_.passes) find_halos(pass);
     }
 
@@ -88,6 +91,7 @@ public:
         problem_.links = links_of(context_, plan_);
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
+        if (senses_) problem_.passes.push_back(sense());
         for (const Pass& pass : plan_.passes) {
             problem_.passes.push_back(bind_pass(pass));
             problem_.passes.back().kernel = compile(pass.bound.kernel);
@@ -103,7 +107,44 @@ private:
         return system_ != nullptr && item.stage == stage_ && system_->is_species(item.item);
     }
 
+    /// The temporary that holds what cells sense, or nothing for other sources.
+    std::optional<TemporaryId> sensed(const PlaneSource& source) const {
+        if (!context_.tissue) return std::nullopt;
+        const auto& all = context_.tissue->sensed;
+        const auto found = std::find(all.begin(), all.end(), source);
+        if (found == all.end()) return std::nullopt;
+        return TemporaryId(plan_.temporaries + static_cast<std::uint32_t>(found - all.begin()));
+    }
+
+    bool reads_what_is_sensed() const {
+        return std::any_of(plan_.passes.begin(), plan_.passes.end(), [this](const Pass& pass) {
+            return std::any_of(pass.bound.fields.begin(), pass.bound.fields.end(),
+                               [this](const PlaneSource& source) {
+                                   return sensed(source).has_value();
+                               });
+        });
+    }
+
+    /// The pass before all others, since places change with every evaluation of the rates.
+    StepProblem::Pass sense() {
+        const TissueBinding& tissue = *context_.tissue;
+        StepProblem::Pass pass;
+        pass.kernel = tissue.sense;
+        for (const StageItem item : tissue.place) pass.fields.push_back(bind_plane(item));
+        for (const PlaneSource& source : tissue.sensed) {
+            StepProblem::Result result;
+            result.plane = *sensed(source);
+            pass.results.push_back(result);
+        }
+        problem_.temporaries += static_cast<std::uint32_t>(tissue.sensed.size());
+        return pass;
+    }
+
     PlaneRef bind_plane(const PlaneSource& source) const {
+        if (const auto temporary = sensed(source)) return *temporary;
+        if (context_.tissue && source == PlaneSource(ModelPlane::number)) {
+            return context_.tissue->numbers;
+        }
         const auto& species_of = context_.states[stage_].species_of_item;
         if (const auto* const temporary = std::get_if<TemporaryId>(&source)) return *temporary;
         if (const auto* const input = std::get_if<SweepInput>(&source)) {
@@ -237,6 +278,7 @@ private:
     const SweepForm* form_;  ///< Of a sweep; null for a plan outside of a scheme.
     const Sweep* sweep_;
     std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
+    bool senses_ = false;          ///< Do passes read what cells sense at their places?
     StepProblem problem_;
     IdVector<TemporaryId, bool> temporary_needs_halo_;
     IdVector<RegisterId, bool> halo_registers_;
@@ -325,11 +367,15 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         add(plans[sweep.form], &scheme.forms[sweep.form], &sweep, moments_of_outputs(scheme, n));
     }
     const IdVector<RegisterId, bool> with_halo = halo_registers(scheme);
+    std::size_t first_passes = 0;  // Of the first sweep.
     for (std::size_t n = 0; n < binders.size(); ++n) {
         binders[n].species_needs_halo() = whole.species_needs_halo;
         binders[n].set_halo_registers(with_halo);
         StepProblem part = binders[n].bind(compile);
-        if (whole.links == nullptr || part.links != &context.model->links) whole.links = part.links;
+        if (n == 0) first_passes = part.passes.size();
+        // Links with weights of gradients serve the plans that do not read these, too.
+        if (whole.links == nullptr || !context.model || part.links != &context.model->links)
+            whole.links = part.links;
         whole.temporaries = std::max(whole.temporaries, part.temporaries);
         whole.aggregates = std::max(whole.aggregates, part.aggregates);
         if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
@@ -338,7 +384,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     if (scheme.rate_registers) {
         const StepPlan& first = plans[scheme.sweeps[0].form];
         if (rates_go_on(first)) {
-            whole.first_rate_passes = first.passes.size();
+            whole.first_rate_passes = first_passes;
             whole.rate_registers = scheme.rate_registers;
         }
     }

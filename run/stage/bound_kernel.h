@@ -12,6 +12,7 @@
 #include "solvers/advance.h"
 #include "solvers/scheme.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -27,6 +28,17 @@ struct StepInvariant {
 };
 using StepInvariants = IdVector<StepInvariantId, StepInvariant>;
 
+/// What a stage of cells that crawl reads instead of the planes and links of a model.
+struct TissueBinding {
+    std::int64_t count = 0;          ///< Cells, without the padding of the last row.
+    const Links* links = nullptr;    ///< Their present neighbours.
+    const Field* numbers = nullptr;  ///< ModelPlane::number: their numbers, in order of birth.
+    /// Computes what cells sense at their places: one result for each of `sensed`.
+    KernelPointer sense;
+    std::vector<PlaneSource> sensed;
+    std::array<StageItem, 3> place;  ///< The fields of that kernel.
+};
+
 /// Where slots get their values.
 struct BindingContext {
     std::span<const StageState> states;
@@ -40,6 +52,7 @@ struct BindingContext {
     const DomainMask* mask = nullptr;                 ///< Null if all cells belong to the domain.
     SurfaceValues* surface_values = nullptr;          ///< For a model.
     const StepInvariants* step_invariants = nullptr;  ///< For the steps that are bound.
+    const TissueBinding* tissue = nullptr;            ///< For a stage of cells that crawl.
 };
 
 /// The plane of a slot whose values lie in one, other than a temporary.
