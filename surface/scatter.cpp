@@ -3,6 +3,7 @@
 #include "surface/scatter.h"
 
 #include "core/hash.h"
+#include "core/morton.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,18 +24,8 @@ std::array<double, 3> place_in_triangle(double s, double t) {
     return {1 - root, (1 - s) * root, s * root};
 }
 
-/// Spreads the lower 21 bits to every third bit.
-std::uint64_t every_third(std::uint64_t bits) {
-    bits &= 0x1fffff;
-    bits = (bits | bits << 32) & 0x001f00000000ffff;
-    bits = (bits | bits << 16) & 0x001f0000ff0000ff;
-    bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-    bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-    return (bits | bits << 2) & 0x1249249249249249;
-}
-
 /// The triangles, component after component, each in the order of a Morton curve through the cube
-/// around the surface (G. M. Morton, "A computer oriented geodetic data base", IBM, 1966).
+/// around the surface.
 std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
                                     const std::vector<std::uint32_t>& components) {
     const auto [low, high] = mesh.box();
@@ -47,9 +38,9 @@ std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
             (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
         const Vector3d at = (middle - low) * scale;
         keys.push_back({components[t],
-                        every_third(static_cast<std::uint64_t>(std::max(0.0, at.x))) |
-                            every_third(static_cast<std::uint64_t>(std::max(0.0, at.y))) << 1 |
-                            every_third(static_cast<std::uint64_t>(std::max(0.0, at.z))) << 2,
+                        morton_place(static_cast<std::uint64_t>(std::max(0.0, at.x)),
+                                     static_cast<std::uint64_t>(std::max(0.0, at.y)),
+                                     static_cast<std::uint64_t>(std::max(0.0, at.z))),
                         t});
     }
     std::sort(keys.begin(), keys.end());

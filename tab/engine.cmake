@@ -38,7 +38,7 @@ target_compile_options(cascade_options INTERFACE -msimd128 -fno-exceptions -fno-
 
 cascade_room(core)
 target_compile_definitions(cascade_core PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
-foreach(room ir lang wasm solvers picture measure mesh surface render export run view)
+foreach(room ir lang wasm solvers picture measure mesh surface tissue render export run view)
   cascade_room(${room})
 endforeach()
 include(lang/systems/embed.cmake)

@@ -1,0 +1,233 @@
+// Boxes for each octave of radii. A cell looks for those of its own octave and of larger ones, so
+// boxes are never much smaller than the distance that is searched; the larger ones are told of the
+// pairs that smaller cells have found.
+#include "tissue/neighbours.h"
+
+#include "core/check.h"
+#include "core/morton.h"
+#include "tissue/cell_boxes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace cascade {
+namespace {
+
+/// Cells this far apart in memory do not share a near cache.
+constexpr std::uint32_t far_in_memory = 2048;
+constexpr std::size_t most_levels = 32;
+
+/// Neighbours of different octaves.
+struct Pair {
+    std::uint32_t larger = 0, smaller = 0;
+};
+
+/// The cells of each octave in boxes.
+class Search {
+public:
+    Search(const CellPlaces& cells, const NeighbourRule& rule, double skin) {
+        double widest = 0;
+        for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {
+            const double radius = cells.radii[cell];
+            entries_.push_back({cells.places[cell], rule.reach * radius,
+                                slack_of(rule, skin, radius), cell, cells.ranks[cell]});
+            widest = std::max(widest, width_of(entries_.back(), rule));
+        }
+        if (widest == 0) return;
+        std::vector<std::vector<BoxedCell>> octaves(most_levels);
+        levels_.resize(entries_.size());
+        for (const BoxedCell& entry : entries_) {
+            const double width = width_of(entry, rule);
+            const int octave = width > 0 ? std::ilogb(widest / width) : most_levels;
+            const auto level = std::min(static_cast<std::size_t>(octave), most_levels - 1);
+            levels_[entry.cell] = static_cast<std::uint8_t>(level);
+            octaves[level].push_back(entry);
+        }
+        for (std::size_t level = 0; level < most_levels; ++level) {
+            if (octaves[level].empty()) continue;
+            boxes_.emplace_back(std::move(octaves[level]), rule);
+            level_of_boxes_.push_back(static_cast<std::uint8_t>(level));
+        }
+    }
+
+    std::size_t count() const { return entries_.size(); }
+    bool finds_nothing() const { return boxes_.empty(); }
+
+    /// The keys of a cell's neighbours: first of those in larger octaves, whose number is returned,
+    /// then of those in its own.
+    std::size_t find(std::uint32_t cell, NeighbourKeys& found) const {
+        found.clear();
+        std::size_t larger = 0;
+        for (std::size_t k = 0; k < boxes_.size() && level_of_boxes_[k] <= levels_[cell]; ++k) {
+            if (level_of_boxes_[k] == levels_[cell]) larger = found.count();
+            boxes_[k].find(entries_[cell], found);
+        }
+        return larger;
+    }
+
+    /// The number of links, estimated from some of the cells.
+    double estimated_links() const {
+        const std::size_t stride = (count() + 63) / 64;
+        std::size_t links = 0, looked_at = 0;
+        NeighbourKeys found;
+        for (std::size_t cell = 0; cell < count(); cell += stride, ++looked_at) {
+            const std::size_t larger = find(static_cast<std::uint32_t>(cell), found);
+            links += found.count() + larger;
+        }
+        return static_cast<double>(links) * static_cast<double>(count()) /
+               static_cast<double>(std::max<std::size_t>(looked_at, 1));
+    }
+
+private:
+    static double width_of(const BoxedCell& entry, const NeighbourRule& rule) {
+        return std::max(entry.reach, rule.near / 2) + entry.slack;
+    }
+
+    std::vector<BoxedCell> entries_;  ///< By cell.
+    std::vector<std::uint8_t> levels_;
+    std::vector<CellBoxes> boxes_;  ///< From the largest cells to the smallest.
+    std::vector<std::uint8_t> level_of_boxes_;
+};
+
+/// The lists of a thread's cells.
+struct Part {
+    std::vector<std::size_t> counts;
+    std::vector<std::uint32_t> neighbours;
+    std::vector<Pair> pairs;  ///< With larger cells, which do not know of them yet.
+    std::size_t far_links = 0;
+};
+
+void search_part(const Search& search, RowRange cells, std::atomic<std::int64_t>& left,
+                 Part& part) {
+    part.neighbours.reserve(static_cast<std::size_t>(16 * (cells.end - cells.begin)));
+    NeighbourKeys found;
+    for (std::int64_t k = cells.begin; k < cells.end; ++k) {
+        if (left.load(std::memory_order_relaxed) < 0) return;
+        const auto cell = static_cast<std::uint32_t>(k);
+        const std::size_t larger = search.find(cell, found);
+        for (const std::uint64_t key : found.all().first(larger)) {
+            part.pairs.push_back({static_cast<std::uint32_t>(key), cell});
+        }
+        found.sort();
+        for (const std::uint64_t key : found.all()) {
+            const auto other = static_cast<std::uint32_t>(key);
+            part.neighbours.push_back(other);
+            part.far_links += (other > cell ? other - cell : cell - other) > far_in_memory ? 1 : 0;
+        }
+        part.counts.push_back(found.count());
+        left.fetch_sub(static_cast<std::int64_t>(found.count() + larger),
+                       std::memory_order_relaxed);
+    }
+}
+
+/// Adds to the lists of large cells the small ones that have found them.
+void add_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> ranks,
+               NeighbourLists& lists) {
+    std::vector<std::size_t> ends(lists.ends.size(), 0);
+    for (const Pair& pair : pairs) ++ends[pair.larger];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<std::uint32_t> smaller(pairs.size());
+    for (std::size_t k = pairs.size(); k-- > 0;)
+        smaller[--ends[pairs[k].larger]] = pairs[k].smaller;
+    NeighbourLists whole;
+    whole.far_links = lists.far_links;
+    whole.neighbours.reserve(lists.neighbours.size() + pairs.size());
+    NeighbourKeys keys;
+    for (std::size_t cell = 0; cell < lists.ends.size(); ++cell) {
+        const std::size_t last = cell + 1 < ends.size() ? ends[cell + 1] : smaller.size();
+        keys.clear();
+        for (std::size_t k = cell == 0 ? 0 : lists.ends[cell - 1]; k < lists.ends[cell]; ++k) {
+            keys.add(neighbour_key(ranks[lists.neighbours[k]], lists.neighbours[k]));
+        }
+        for (std::size_t k = ends[cell]; k < last; ++k) {
+            keys.add(neighbour_key(ranks[smaller[k]], smaller[k]));
+        }
+        keys.sort();
+        for (const std::uint64_t key : keys.all()) {
+            whole.neighbours.push_back(static_cast<std::uint32_t>(key));
+        }
+        whole.ends.push_back(whole.neighbours.size());
+    }
+    lists = std::move(whole);
+}
+
+tl::unexpected<Failure> too_many(std::size_t cells, double links, double most_links) {
+    return failure(
+        fmt::format("{} cells would have about {:.0f} neighbours each: {:.2g} links, and "
+                    "there is memory for {:.2g}",
+                    cells, links / static_cast<double>(cells), links, most_links),
+        "smaller radii, or a smaller distance in near(…), make fewer neighbours");
+}
+
+}  // namespace
+
+Result<NeighbourLists> find_neighbours(const CellPlaces& cells, const NeighbourRule& rule,
+                                       double skin, double most_links, Team& team) {
+    CHECK(cells.places.size() == cells.radii.size() && cells.places.size() == cells.ranks.size(),
+          "each cell has a radius and a rank");
+    NeighbourLists lists;
+    const Search search(cells, rule, skin);
+    if (search.finds_nothing()) {
+        lists.ends.assign(search.count(), 0);
+        return lists;
+    }
+    const double estimate = search.estimated_links();
+    if (estimate > most_links) return too_many(search.count(), estimate, most_links);
+    std::atomic<std::int64_t> left = static_cast<std::int64_t>(std::min(most_links, 1e18));
+    std::vector<Part> parts(static_cast<std::size_t>(team.size()));
+    team.run([&](int thread) {
+        const auto count = static_cast<std::int64_t>(search.count());
+        search_part(search, split_rows(count, thread, team.size()), left,
+                    parts[static_cast<std::size_t>(thread)]);
+    });
+    if (left < 0) return too_many(search.count(), std::max(estimate, most_links), most_links);
+    std::vector<Pair> pairs;
+    lists.ends.reserve(search.count());
+    std::size_t end = 0;
+    for (Part& part : parts) {
+        for (const std::size_t count : part.counts) lists.ends.push_back(end += count);
+        if (lists.neighbours.empty()) {
+            lists.neighbours = std::move(part.neighbours);
+        } else {
+            lists.neighbours.insert(lists.neighbours.end(), part.neighbours.begin(),
+                                    part.neighbours.end());
+        }
+        pairs.insert(pairs.end(), part.pairs.begin(), part.pairs.end());
+        lists.far_links += part.far_links;
+    }
+    if (!pairs.empty()) add_pairs(pairs, cells.ranks, lists);
+    return lists;
+}
+
+std::vector<std::uint32_t> order_along_curve(const CellPlaces& cells) {
+    std::vector<std::uint32_t> order(cells.places.size());
+    std::iota(order.begin(), order.end(), std::uint32_t{0});
+    if (order.empty()) return order;
+    Vector3d low = cells.places[0], high = low;
+    for (const Vector3d& p : cells.places) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    // Cells on a surface fill n² of n³ boxes.
+    const double boxes = std::min(2097151.0, 2 * std::sqrt(static_cast<double>(order.size())));
+    const double scale = size > 0 ? boxes / size : 0;
+    std::vector<std::uint64_t> places;
+    places.reserve(order.size());
+    for (const Vector3d& p : cells.places) {
+        const Vector3d at = (p - low) * scale;
+        places.push_back(morton_place(static_cast<std::uint64_t>(at.x),
+                                      static_cast<std::uint64_t>(at.y),
+                                      static_cast<std::uint64_t>(at.z)));
+    }
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return places[a] != places[b] ? places[a] < places[b] : cells.ranks[a] < cells.ranks[b];
+    });
+    return order;
+}
+
+}  // namespace cascade

@@ -1,0 +1,60 @@
+// The neighbours of each cell: all cells that it may touch or sense until the next rebuild.
+//
+// A list may hold more pairs than those that touch: they contribute exactly +0 to every sum, so no
+// result depends on when lists are rebuilt.
+#pragma once
+
+#include "core/links.h"
+#include "core/parallel.h"
+#include "core/result.h"
+#include "core/vector3.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// Which cells are neighbours.
+struct NeighbourRule {
+    double reach = 1.2;  ///< Cells touch at less than this multiple of the sum of their radii;
+    double near = 0;     ///< and all that are nearer than this are neighbours, too.
+    /// By axis: the length after which the tissue repeats; 0: it does not. The nearest image
+    /// counts.
+    std::array<double, 3> period{};
+};
+
+/// How far each cell may go, in script lengths, before a list built with this `skin` can miss a
+/// pair: `skin` times its radius, or times half the distance `near` if that is larger.
+inline double slack_of(const NeighbourRule& rule, double skin, double radius) {
+    return skin * std::max(radius, rule.near / 2);
+}
+
+/// Cells as a search sees them, in the order of memory.
+struct CellPlaces {
+    std::span<const Vector3d> places;
+    std::span<const double> radii;         ///< At least 0.
+    std::span<const std::uint32_t> ranks;  ///< Their order by number: 0, 1, …
+};
+
+/// The lists of all cells.
+struct NeighbourLists {
+    std::vector<std::size_t> ends;          ///< Those of cell k end before ends[k].
+    std::vector<std::uint32_t> neighbours;  ///< Cells, in ascending order of their numbers.
+    /// The number of links between cells that are far apart in memory, as far as caches see it.
+    std::size_t far_links = 0;
+};
+
+/// Finds all pairs that are nearer than the rule says plus the slack of both, with a grid for each
+/// octave of radii, so that few big cells among many small ones cost little. Places and radii must
+/// be finite. Takes O(cells + links). The same on any number of threads. Fails if there would be
+/// more than `most_links`, as a rule before memory is taken for them. Throws std::bad_alloc.
+Result<NeighbourLists> find_neighbours(const CellPlaces& cells, const NeighbourRule& rule,
+                                       double skin, double most_links, Team& team);
+
+/// The cells in the order of a Morton curve through boxes that hold a few of them each, so that
+/// neighbours are near each other in memory; those of one box by rank.
+std::vector<std::uint32_t> order_along_curve(const CellPlaces& cells);
+
+}  // namespace cascade

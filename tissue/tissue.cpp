@@ -1,0 +1,197 @@
+// Moves the cells of all planes together.
+#include "tissue/tissue.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <type_traits>
+
+namespace cascade {
+namespace {
+
+/// Calls `use(address, first cell, number of cells)` for each row up to `cells` cells.
+template <typename Number>
+void for_each_row(Plane<Number>& plane, std::size_t cells, const auto& use) {
+    const auto width = static_cast<std::size_t>(plane.layout().width);
+    for (std::size_t first = 0; first < cells; first += width) {
+        use(plane.row(static_cast<std::int64_t>(first / width)), first,
+            std::min(width, cells - first));
+    }
+}
+
+std::size_t capacity_of(const PlaneLayout& layout) {
+    return static_cast<std::size_t>(layout.width * layout.height);
+}
+
+/// Writes the value of each cell, and that of the last cell into all places after it.
+template <typename Number>
+void write(Plane<Number>& plane, std::span<const Number> values) {
+    for_each_row(plane, capacity_of(plane.layout()), [&](Number* row, auto first, auto count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            row[i] = values.empty() ? Number{} : values[std::min(first + i, values.size() - 1)];
+        }
+    });
+}
+
+template <typename Number>
+std::vector<Number> read(const Plane<Number>& plane, std::span<const std::uint32_t> cells) {
+    const auto width = static_cast<std::uint32_t>(plane.layout().width);
+    std::vector<Number> values;
+    values.reserve(cells.size());
+    for (const std::uint32_t cell : cells) values.push_back(plane.row(cell / width)[cell % width]);
+    return values;
+}
+
+Field field_of(const std::vector<double>& values, const PlaneLayout& layout, Precision precision) {
+    Field field(layout, precision);
+    with_number(precision, [&](auto zero) {
+        using Number = decltype(zero);
+        const std::vector<Number> rounded(values.begin(), values.end());
+        write<Number>(field.plane<Number>(), rounded);
+    });
+    return field;
+}
+
+std::vector<std::vector<double>> numbers_in(const std::vector<Field>& fields,
+                                            std::span<const std::uint32_t> cells) {
+    std::vector<std::vector<double>> result;
+    for (const Field& field : fields) {
+        field.visit([&](const auto& plane) {
+            const auto values = read(plane, cells);
+            result.emplace_back(values.begin(), values.end());
+        });
+    }
+    return result;
+}
+
+void rearrange_field(Field& field, const PlaneLayout& layout,
+                     std::span<const std::uint32_t> sources) {
+    field.visit([&]<typename Number>(Plane<Number>& plane) {
+        const std::vector<Number> values = read(plane, sources);
+        if (plane.layout() != layout) plane = Plane<Number>(layout);
+        write<Number>(plane, values);
+    });
+}
+
+template <typename Value>
+std::vector<Value> gathered(const std::vector<Value>& from,
+                            std::span<const std::uint32_t> sources) {
+    std::vector<Value> to;
+    to.reserve(sources.size());
+    for (const std::uint32_t source : sources) to.push_back(from[source]);
+    return to;
+}
+
+}  // namespace
+
+Tissue::Tissue(const TissueRecord& record, Precision precision)
+    : triangles(record.triangles),
+      next_number(record.next_number),
+      births(record.births),
+      deaths(record.deaths),
+      time(record.time),
+      precision_(precision),
+      numbers_(record.numbers) {
+    choose_layout(numbers_.size());
+    triangles.resize(numbers_.size(), no_triangle);
+    for (const std::vector<double>& values : record.species) {
+        CHECK(values.size() == count(), "a value for each cell");
+        species.push_back(field_of(values, layout_, precision_));
+    }
+    for (const std::vector<double>& values : record.stiffest) {
+        CHECK(values.size() == count(), "a value for each cell");
+        stiffest.push_back(field_of(values, layout_, precision_));
+    }
+    number_cells();
+}
+
+TissueRecord Tissue::record() const {
+    TissueRecord result;
+    for (const std::uint32_t cell : by_number_) {
+        result.numbers.push_back(numbers_[cell]);
+        result.triangles.push_back(triangles[cell]);
+    }
+    result.species = numbers_in(species, by_number_);
+    result.stiffest = numbers_in(stiffest, by_number_);
+    result.next_number = next_number;
+    result.births = births;
+    result.deaths = deaths;
+    result.time = time;
+    return result;
+}
+
+/// Few cells lie in short rows, so that there are few places that repeat the last one.
+void Tissue::choose_layout(std::size_t cells) {
+    const std::size_t wanted = cells + cells / 8 + 1;
+    const std::size_t width = wanted <= 256 ? 16 : 64;
+    grid_ = Grid{};
+    grid_.width = static_cast<std::int64_t>(width);
+    grid_.height = static_cast<std::int64_t>((wanted + width - 1) / width);
+    grid_.linked = true;
+    layout_ = PlaneLayout(grid_);
+}
+
+void Tissue::number_cells() {
+    by_number_.resize(count());
+    std::iota(by_number_.begin(), by_number_.end(), std::uint32_t{0});
+    std::sort(by_number_.begin(), by_number_.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return numbers_[a] < numbers_[b]; });
+    ranks_.resize(count());
+    for (std::uint32_t rank = 0; rank < by_number_.size(); ++rank) ranks_[by_number_[rank]] = rank;
+    if (number_plane_.empty() || number_plane_.layout() != layout_) {
+        number_plane_ = Field(layout_, precision_);
+        inside_ = Mask(layout_);
+    }
+    number_plane_.visit([&]<typename Number>(Plane<Number>& plane) {
+        using Word = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;
+        std::vector<Number> words;
+        for (const std::uint32_t number : numbers_) {
+            words.push_back(std::bit_cast<Number>(static_cast<Word>(number)));
+        }
+        write<Number>(plane, words);
+    });
+    for_each_row(inside_, capacity_of(layout_), [&](std::uint8_t* row, auto first, auto places) {
+        for (std::size_t i = 0; i < places; ++i) row[i] = first + i < count() ? 1 : 0;
+    });
+}
+
+bool Tissue::rearrange(std::span<const std::uint32_t> sources, std::size_t first_born) {
+    const PlaneLayout before = layout_;
+    const std::size_t room = capacity_of(layout_);
+    if (sources.size() > room || sources.size() < room / 4) choose_layout(sources.size());
+    for (Field& field : species) rearrange_field(field, layout_, sources);
+    for (Field& field : stiffest) rearrange_field(field, layout_, sources);
+    triangles = gathered(triangles, sources);
+    numbers_ = gathered(numbers_, sources);
+    for (std::size_t k = first_born; k < numbers_.size(); ++k) numbers_[k] = next_number++;
+    number_cells();
+    return layout_ != before;
+}
+
+void Tissue::pad() {
+    if (count() == 0) return;
+    const auto last = element(count() - 1);
+    for (Field& field : species) {
+        field.visit([&](auto& plane) {
+            const auto value = plane.origin()[last];
+            for (std::size_t k = count(); k < capacity_of(layout_); ++k) {
+                plane.origin()[element(k)] = value;
+            }
+        });
+    }
+}
+
+double Tissue::value(std::size_t species_index, std::size_t cell) const {
+    return species[species_index].visit(
+        [&](const auto& plane) { return static_cast<double>(plane.origin()[element(cell)]); });
+}
+
+void Tissue::set(std::size_t species_index, std::size_t cell, double value) {
+    species[species_index].visit([&]<typename Number>(Plane<Number>& plane) {
+        plane.origin()[element(cell)] = static_cast<Number>(value);
+    });
+}
+
+}  // namespace cascade

@@ -1,0 +1,112 @@
+// A tissue: cells that crawl, divide and die, and the planes that hold their values.
+//
+// Each cell has a number of birth, which never changes. Cells lie in memory in any order; every sum
+// over cells and every list of neighbours follows the numbers, so that no result depends on memory.
+#pragma once
+
+#include "core/grid.h"
+#include "core/plane.h"
+#include "core/precision.h"
+#include "solvers/step_control.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// How far a stage of a tissue has come: all that steps go on from besides the cells.
+struct TissueTime {
+    double t = 0;
+    std::int64_t steps = 0;
+    StepControl::State control;
+    /// The bound of the eigenvalues of the rates' Jacobian, in 1 / time, and the steps after which
+    /// it was estimated; −1: not yet.
+    double stiffness = 0;
+    std::int64_t estimated_at = -1;
+    double last_event = 0;  ///< The time of the last division or death.
+    // Since `watched_from`:
+    std::int64_t watched_births = 0, watched_deaths = 0;
+    double watched_from = 0;
+    std::int64_t watched_cells = 0;  ///< The number of cells then.
+};
+
+/// A tissue as plain data, cell after cell in ascending order of their numbers. A run that goes on
+/// from it gets the same bits as one that was not interrupted.
+struct TissueRecord {
+    std::vector<std::uint32_t> numbers;
+    std::vector<std::vector<double>> species;   ///< By species, then by cell.
+    std::vector<std::vector<double>> stiffest;  ///< Likewise: the direction of fastest change.
+    std::vector<std::uint32_t> triangles;       ///< Of the surface, nearest to each cell.
+    std::uint32_t next_number = 0;
+    std::int64_t births = 0, deaths = 0;
+    TissueTime time;
+};
+
+/// The cells in memory. Cell k is in column k mod width of row k / width; the places after the last
+/// cell repeat it. There is room for an eighth more cells than there were when the planes were
+/// made, so that births seldom move planes.
+class Tissue {
+public:
+    static constexpr std::uint32_t no_triangle = 0xffffffff;
+
+    /// Throws std::bad_alloc.
+    Tissue(const TissueRecord& record, Precision precision);
+    TissueRecord record() const;
+
+    std::size_t count() const { return numbers_.size(); }
+    Precision precision() const { return precision_; }
+    const Grid& grid() const { return grid_; }
+    const PlaneLayout& layout() const { return layout_; }
+    /// Elements from cell 0 to this one.
+    std::int64_t element(std::size_t cell) const {
+        const auto k = static_cast<std::int64_t>(cell);
+        return layout_.row_start(k / layout_.width) + k % layout_.width;
+    }
+
+    /// By species; lent to the steps while these go on.
+    std::vector<Field> species;
+    /// The direction in which the rates change fastest; empty until it is
+    /// known.
+    std::vector<Field> stiffest;
+    /// By cell: the triangle nearest to it at the last complete step, or no_triangle.
+    std::vector<std::uint32_t> triangles;
+    std::uint32_t next_number = 0;
+    std::int64_t births = 0, deaths = 0;
+    TissueTime time;
+
+    /// By cell in memory.
+    std::span<const std::uint32_t> numbers() const { return numbers_; }
+    /// The cells in ascending order of their numbers.
+    std::span<const std::uint32_t> by_number() const { return by_number_; }
+    /// By cell in memory: its place in by_number().
+    std::span<const std::uint32_t> ranks() const { return ranks_; }
+    /// The numbers as words in a plane, for kernels that draw random numbers.
+    const Field& number_plane() const { return number_plane_; }
+    /// 1 for cells, 0 for the places that repeat the last one.
+    const Mask& inside() const { return inside_; }
+
+    /// Puts a copy of cell sources[k] at place k, for all k; cells that are not among the sources
+    /// disappear. Cells from `first_born` on get the next numbers. Returns whether the layout has
+    /// changed; otherwise all planes stay where they are. Throws std::bad_alloc.
+    bool rearrange(std::span<const std::uint32_t> sources, std::size_t first_born);
+    /// Copies the values of the last cell into the places after it.
+    void pad();
+
+    double value(std::size_t species_index, std::size_t cell) const;
+    void set(std::size_t species_index, std::size_t cell, double value);
+
+private:
+    void choose_layout(std::size_t cells);
+    void number_cells();
+
+    Precision precision_;
+    Grid grid_;
+    PlaneLayout layout_;
+    std::vector<std::uint32_t> numbers_, by_number_, ranks_;
+    Field number_plane_;
+    Mask inside_;
+};
+
+}  // namespace cascade
