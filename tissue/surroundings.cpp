@@ -1,0 +1,100 @@
+// Surfaces and boxes.
+#include "tissue/surroundings.h"
+
+#include "mesh/normals.h"
+#include "surface/curvature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cascade {
+namespace {
+
+NearPlace near_nothing(Vector3d point) {
+    NearPlace near;
+    near.position = point;
+    if (!is_finite(point)) near.off = std::numeric_limits<double>::quiet_NaN();
+    return near;
+}
+
+class AroundSurface : public Surroundings {
+public:
+    explicit AroundSurface(const SurfaceMesh& mesh)
+        : mesh_(mesh), follower_(mesh), normals_(sphere_normals(mesh)) {}
+
+    NearPlace near(Vector3d point, std::uint32_t triangle) const override {
+        NearPlace near = near_nothing(point);
+        near.place.triangle = triangle;
+        const auto found = follower_.find(point, triangle);
+        if (!found) return near;
+        near.place = found->place;
+        near.position = found->position;
+        near.normal = normal_at(mesh_, normals_, near.place);
+        near.is_beyond = found->is_border;
+        const Vector3d apart = point - near.position;
+        const double height = dot(apart, near.normal);
+        near.off = near.is_beyond ? height : std::copysign(length(apart), height);
+        return near;
+    }
+    Vector3d held_inside(Vector3d point, const NearPlace& near) const override {
+        return near.is_beyond ? near.position + near.normal * near.off : point;
+    }
+    const SurfaceMesh* mesh() const override { return &mesh_; }
+    Vector3d extent() const override {
+        const SurfaceMesh::Box box = mesh_.box();
+        return box.high - box.low;
+    }
+
+private:
+    const SurfaceMesh& mesh_;
+    PlaceFollower follower_;
+    std::vector<Vector3d> normals_;
+};
+
+double held(double at, double extent, bool is_periodic) {
+    if (extent <= 0 || (at >= 0 && at < extent)) return at;
+    if (!is_periodic) return std::clamp(at, 0.0, extent);
+    const double within = at - extent * std::floor(at / extent);
+    return within < extent ? within : 0;
+}
+
+class InBox : public Surroundings {
+public:
+    InBox(Vector3d extent, std::array<bool, 3> is_periodic)
+        : extent_(extent), is_periodic_(is_periodic) {}
+
+    NearPlace near(Vector3d point, std::uint32_t) const override {
+        NearPlace near = near_nothing(point);
+        if (extent_.z > 0 || !is_finite(point)) return near;
+        near.position.z = 0;
+        near.off = point.z;
+        return near;
+    }
+    Vector3d held_inside(Vector3d point, const NearPlace&) const override {
+        return {held(point.x, extent_.x, is_periodic_[0]),
+                held(point.y, extent_.y, is_periodic_[1]),
+                held(point.z, extent_.z, is_periodic_[2])};
+    }
+    std::array<double, 3> period() const override {
+        return {is_periodic_[0] ? extent_.x : 0, is_periodic_[1] ? extent_.y : 0,
+                is_periodic_[2] ? extent_.z : 0};
+    }
+    Vector3d extent() const override { return extent_; }
+
+private:
+    Vector3d extent_;
+    std::array<bool, 3> is_periodic_;
+};
+
+}  // namespace
+
+std::unique_ptr<Surroundings> around_surface(const SurfaceMesh& mesh) {
+    return std::make_unique<AroundSurface>(mesh);
+}
+
+std::unique_ptr<Surroundings> in_box(Vector3d extent, std::array<bool, 3> is_periodic) {
+    return std::make_unique<InBox>(extent, is_periodic);
+}
+
+}  // namespace cascade
