@@ -78,16 +78,25 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
     formula_.nodes.back().kind = work_.program.literals->id_of(value);
 }
 
-/// mean(e over domain). Aggregates over an index have been expanded before.
+/// mean(e over domain), of touching cells, of near ones. Aggregates over an index have been
+/// expanded before.
 void ExpressionChecker::visit(const ast::Over& over) {
-    const auto function = function_named(fmt::format("{} over domain", over.function.text));
-    if (!function || over.index.text != "domain") {
+    const auto function = function_over(over.function.text, over.index.text);
+    if (!function) {
+        const bool is_domain = over.index.text == "domain";
         return error(over.function.span,
-                     fmt::format("{} cannot be taken over the domain", over.function.text),
+                     fmt::format("{} cannot be taken over {}", over.function.text,
+                                 is_domain ? "the domain" : "neighbours"),
                      "mean, sum, min and max can");
     }
     if (!belongs_here(*function, over.function.span)) return;
-    apply(*function, {part_of(over.operand)}, 1);
+    if (over.index.text == "near" && !over.distance) {
+        return error(over.index.span, "'near' takes a distance",
+                     fmt::format("{}(e over near(0.1))", over.function.text));
+    }
+    const NodeId operand = part_of(over.operand);
+    if (!over.distance) return apply(*function, {operand}, 1);
+    apply(*function, {operand, part_of(*over.distance)}, 2);
 }
 
 void ExpressionChecker::visit(const ast::Indexed&) {
@@ -127,7 +136,7 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
         std::vector<std::string> names = own;
         for (std::size_t i = 0; i < function_count; ++i) {
             const FunctionInfo& row = info(static_cast<Function>(i));
-            if (!row.is_operator && !row.is_aggregate) names.emplace_back(row.spelling);
+            if (row.is_named) names.emplace_back(row.spelling);
         }
         hint = did_you_mean(work, name.text, names);
     }
@@ -166,9 +175,19 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     if (context == Context::bound && varies) {
         return refuse("a bound is made of numbers and parameters only");
     }
+    if (row.domains == Domains::crawling && !in_cells()) {
+        return refuse("it belongs in a system of cells that crawl");
+    }
+    if (in_cells() && !includes(row.domains, Domains::crawling) && !needs_model(function)) {
+        return refuse(
+            "cells that crawl are no grid; lap(e) and sums over neighbours have a meaning");
+    }
     switch (row.places) {
         case Contexts::any:
         case Contexts::cells: return true;
+        case Contexts::steps:
+            return at_step || context == Context::picture ||
+                   refuse("cells have no neighbours before the stage starts");
         case Contexts::rates:
             return at_step || refuse("it belongs in rates and definitions of a system");
         case Contexts::values: return at_start || refuse("it belongs in values (name: …)");
@@ -202,7 +221,7 @@ void ExpressionChecker::need(NodeId part, ValueType type) {
     if (type == ValueType::text) {
         return error(operand.span, "a text in quotes is expected here");
     }
-    const TypeWords words = words_of(operand.type);
+    const TypeWords words = words_of(operand.type, in_cells());
     error(operand.span, fmt::format("{} is not a number", words.name), std::string(words.hint));
 }
 
@@ -217,6 +236,8 @@ void ExpressionChecker::check_types(const Node& node) {
             return check_choice(formula_.nodes.back(), operands[is_if ? 1 : 0],
                                 operands[is_if ? 2 : 1]);
         }
+        case FunctionKind::geometry: return check_geometry(formula_.nodes.back());
+        case FunctionKind::link: return check_link(formula_.nodes.back());
         case FunctionKind::text: return need(operands[0], ValueType::text);
         case FunctionKind::pattern: check_lattice(formula_.nodes.back()); break;
         case FunctionKind::colour:
@@ -230,11 +251,12 @@ void ExpressionChecker::check_types(const Node& node) {
 
 void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
     const ValueType type = formula_.nodes[a].type;
-    const bool is_chosen = type == ValueType::number || type == ValueType::colour;
+    const bool is_chosen = type == ValueType::number || type == ValueType::colour ||
+                           (type == ValueType::vector && in_cells());
     if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().has_error) {
         return error(formula_.nodes[b].span,
-                     fmt::format("{} chooses between two numbers or two colours",
-                                 info(node.function).spelling));
+                     fmt::format("{} chooses between two numbers{} or two colours",
+                                 info(node.function).spelling, in_cells() ? ", two vectors" : ""));
     }
     node.type = type;
 }

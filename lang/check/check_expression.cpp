@@ -18,9 +18,10 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
         std::visit([this](const auto& kind) { visit(kind); }, expr(part).node);
         has_error = has_error || parts_.back().has_error;
     }
+    const NodeId root(expanded_ != nullptr ? expanded_->root : count - 1);
+    has_error = has_error || (in_cells() && !has_places(root));
     work_.call = std::nullopt;
     if (has_error) return std::nullopt;
-    const NodeId root(expanded_ != nullptr ? expanded_->root : count - 1);
     CheckedExpression checked;
     checked.formula = expanded_ != nullptr ? formula_of(formula_.nodes, root) : std::move(formula_);
     if (parts_[root].constant) checked.constant = parts_[root].value;
@@ -67,6 +68,10 @@ void ExpressionChecker::visit(const ast::Name& name) {
     const Span span = formula_.nodes.back().span;
     if (wants_text_[NodeId(parts_.size() - 1)]) {
         return error(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
+    }
+    // In a function's body; a parameter of the system that calls it is not meant.
+    if (work_.call && cell_value_named(name.name) && !in_cells()) {
+        return error(span, fmt::format("'{}' is known to cells that crawl only", name.name));
     }
     take(resolve_bare(work_, scope_, name.name, span));
 }
@@ -118,9 +123,18 @@ std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script
                                               ast::Expression expression, const Scope& scope) {
     auto checked = check_expression(work, script, expression, scope);
     if (!checked || checked->type() == ValueType::number) return checked;
-    const TypeWords words = words_of(checked->type());
+    const TypeWords words = words_of(checked->type(), is_of_cells(work, scope));
     work.diagnostics.error(checked->formula.nodes.back().span,
                            fmt::format("{} is not a number", words.name), std::string(words.hint));
+    return std::nullopt;
+}
+
+std::optional<CheckedExpression> check_vector(Workspace& work, const ast::Script& script,
+                                              ast::Expression expression, const Scope& scope) {
+    auto checked = check_expression(work, script, expression, scope);
+    if (!checked || checked->type() == ValueType::vector) return checked;
+    work.diagnostics.error(checked->formula.nodes.back().span, "a vector is needed here",
+                           vectors_are);
     return std::nullopt;
 }
 

@@ -35,11 +35,17 @@ std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script&
 std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
+/// The same for an expression that must be a vector of a system of cells.
+std::optional<CheckedExpression> check_vector(Workspace& work, const ast::Script& script,
+                                              ast::Expression expression, const Scope& scope);
+
 /// The name of a type in messages, and a hint where a number is expected instead.
 struct TypeWords {
     std::string_view name, hint;
 };
-TypeWords words_of(ValueType type);
+TypeWords words_of(ValueType type, bool in_cells);
+/// The hint where a vector of a system of cells is expected.
+inline constexpr const char* vectors_are = "such as p, normal or vector(1, 0, 0)";
 
 /// The most levels of nested operators; each level takes a pass over the grid.
 inline constexpr std::uint32_t most_nested_operators = 32;
@@ -63,7 +69,8 @@ std::uint32_t check_nesting(Workspace& work, const Formula& formula, const Depth
             for (const NodeId operand : node.reads()) {
                 deepest = std::max(deepest, depth[operand]);
             }
-            const bool adds = differentiates(node.function) || info(node.function).is_aggregate;
+            const bool adds = differentiates(node.function) || is_over_neighbours(node.function) ||
+                              info(node.function).is_aggregate;
             if (adds && deepest++ == most_nested_operators) {
                 work.diagnostics.error(node.span, "operators are nested too deeply",
                                        fmt::format("at most {} levels", most_nested_operators));

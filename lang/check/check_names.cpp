@@ -137,6 +137,7 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
         hint = fmt::format("add {}: 0.1, for example", name);
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
     if (name == "steady") hint = "write steady(0.1)";
+    if (cell_value_named(name)) hint = fmt::format("'{}' is known to cells that crawl only", name);
     std::string note = fmt::format("{} has {}", system.name, names);
     if (scope.context == Context::value && scope.stage) {
         note = fmt::format("[name] reads this stage ({}: {})", system.name, names);
@@ -283,6 +284,10 @@ std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
 
 std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::string_view name,
                                  Span span) {
+    const auto of_cell = cell_value_named(name);
+    if (of_cell && !is_constant(scope) && is_of_cells(work, scope)) {
+        return resolve_cell_value(work, scope, *of_cell, span);
+    }
     if (reserved(name) == Reserved::builtin) return resolve_builtin(work, scope, name, span);
     if (is_constant(scope)) {
         report_reserved(work, scope, name, span);

@@ -112,6 +112,13 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span);
 
+/// True where names are those of a system of cells that crawl.
+bool is_of_cells(const Workspace& work, const Scope& scope);
+/// The node of such a value in a system of cells, not in constants; reports an error if it has none
+/// here.
+std::optional<Node> resolve_cell_value(Workspace& work, const Scope& scope, CellValue value,
+                                       Span span);
+
 /// True if a part of the system could not be read.
 bool is_incomplete(const Workspace& work, SystemId system);
 

@@ -1,19 +1,22 @@
 // Operators of derivatives, and the vectors and tensors that some of them take.
 //
-// A vector is a flux: grad(e), vector(ex, ey), or the result of numbers, tensors, + and - applied
-// to vectors. div turns it into a number.
+// In a system of fields a vector is a flux: grad(e), vector(ex, ey), or the result of numbers,
+// tensors, + and - applied to vectors. div turns it into a number. In a system of cells it is a
+// place or a direction in space; arithmetic is the same.
 #include "lang/check/expression_checker.h"
 
 #include <fmt/format.h>
 
 namespace cascade::checking {
 
-TypeWords words_of(ValueType type) {
+TypeWords words_of(ValueType type, bool in_cells) {
     switch (type) {
         case ValueType::number: return {"a number", ""};
         case ValueType::colour: return {"a colour", ""};
         case ValueType::text: return {"a text", ""};
-        case ValueType::vector: return {"a vector", "div(…) makes a number of it"};
+        case ValueType::vector:
+            return {"a vector", in_cells ? "dot(a, b) and length(v) make a number of it"
+                                         : "div(…) makes a number of it"};
         case ValueType::tensor:
             return {"a tensor", "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"};
     }
@@ -37,7 +40,7 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     const ValueType right = type_of(1);
     if (!is_geometric(left) && !is_geometric(right)) return false;
     const Span span = node.span;
-    const auto words = [](ValueType type) { return words_of(type).name; };
+    const auto words = [&](ValueType type) { return words_of(type, in_cells()).name; };
     bool fits = false;
     std::string message, hint;
     switch (node.function) {
@@ -48,6 +51,8 @@ bool ExpressionChecker::check_vectors(const Node& node) {
             message = fmt::format("{} cannot be multiplied by {}", words(left), words(right));
             if (left == ValueType::vector && right == ValueType::tensor) {
                 hint = "the tensor stands before the vector";
+            } else if (in_cells()) {
+                hint = "dot(a, b) and cross(a, b) are products of two vectors";
             } else {
                 hint = "a number or a tensor can multiply a vector";
             }
@@ -73,6 +78,18 @@ bool ExpressionChecker::check_vectors(const Node& node) {
         error(span, std::move(message), std::move(hint));
     }
     return true;
+}
+
+void ExpressionChecker::need_vector(NodeId part) {
+    const Node& operand = formula_.nodes[part];
+    if (operand.type == ValueType::vector || parts_.back().has_error) return;
+    error(operand.span, "a vector is needed here", vectors_are);
+}
+
+void ExpressionChecker::check_geometry(Node& node) {
+    for (const NodeId operand : node.reads()) need_vector(operand);
+    const bool is_vector = node.function == Function::cross || node.function == Function::unit;
+    if (is_vector) node.type = ValueType::vector;
 }
 
 /// Reports the derivative of a constant, which is probably a mistake.

@@ -211,8 +211,10 @@ void Expander::enter(ast::ExprId part) {
 }
 
 void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
-    if (over.index.text == "domain") {
+    const bool is_neighbours = over.index.text == "touching" || over.index.text == "near";
+    if (over.index.text == "domain" || (is_neighbours && is_of_cells(work_, scope_))) {
         push(TaskKind::finish, part);
+        if (over.distance) push(TaskKind::visit, *over.distance);
         return push(TaskKind::visit, over.operand);
     }
     const Index* index = find_index(work_, scope_, over.index.text);
@@ -223,7 +225,8 @@ void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
     }
     if (index == nullptr) {
         return error(over.index.span, fmt::format("there is no index '{}'", over.index.text),
-                     "an index is declared in a system: i: 1..3");
+                     is_neighbours ? "cells that crawl have neighbours; fields have none"
+                                   : "an index is declared in a system: i: 1..3");
     }
     if (!is_reduction(over.function.text)) {
         return error(over.function.span,
@@ -279,7 +282,8 @@ void Expander::finish(const Task& task) {
         return emit(here.span, ast::Binary{binary->op, left, right});
     }
     if (const auto* over = std::get_if<ast::Over>(&here.node)) {
-        return emit(here.span, ast::Over{over->function, take(), over->index});
+        const auto distance = over->distance ? std::optional(take()) : std::nullopt;
+        return emit(here.span, ast::Over{over->function, take(), over->index, distance});
     }
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return finish_call(here, *call);
     finish_member(here, std::get<ast::Indexed>(here.node), static_cast<std::size_t>(task.value));

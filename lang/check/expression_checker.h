@@ -2,7 +2,7 @@
 //
 // check_expression.cpp walks the nodes and resolves names and strings; check_call.cpp checks calls:
 // arguments, contexts, types and constants; check_operators.cpp checks operators of derivatives,
-// vectors and tensors.
+// vectors and tensors; check_links.cpp what cells that crawl read of their neighbours.
 #pragma once
 
 #include "lang/check/check_expression.h"
@@ -52,6 +52,9 @@ private:
         parts_.back().has_error = true;
     }
 
+    /// In a system of cells that crawl, whose vectors are three numbers?
+    bool in_cells() const { return is_of_cells(work_, scope_); }
+
     void find_text_places();
     void visit(const ast::Number& number);
     void visit(const ast::Text& text);
@@ -79,6 +82,10 @@ private:
     void warn(Span span, std::string message, std::string hint);
     void check_lattice(Node& node);
     bool check_vectors(const Node& node);
+    void check_geometry(Node& node);
+    void check_link(Node& node);
+    bool has_places(NodeId root);
+    void need_vector(NodeId part);
     void check_operator(const Node& node);
     bool is_same_everywhere(NodeId part);
     void need(NodeId part, ValueType type);

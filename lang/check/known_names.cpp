@@ -56,11 +56,14 @@ std::vector<KnownName> names_of_language() {
     std::vector<KnownName> names;
     for (std::size_t k = 0; k < function_count; ++k) {
         const FunctionInfo& row = info(static_cast<Function>(k));
-        if (row.is_operator || row.is_aggregate) continue;
+        if (!row.is_named) continue;
         names.push_back({std::string(row.spelling), NameKind::function, std::string(row.meaning)});
     }
     for (const std::string_view name : builtin_names) {
         names.push_back({std::string(name), NameKind::value, ""});
+    }
+    for (const std::string_view name : cell_value_names) {
+        names.push_back({std::string(name), NameKind::value, "of cells that crawl"});
     }
     for (std::size_t k = 0; k < setting_count; ++k) {
         const auto setting = static_cast<Setting>(k);

@@ -97,7 +97,8 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
         } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {
             check_call(index, *call, part.span);
         } else if (const auto* over = std::get_if<ast::Over>(&part.node)) {
-            if (over->index.text != "domain") {
+            const std::string_view what = over->index.text;
+            if (what != "domain" && what != "touching" && what != "near") {
                 error(function, over->index.span,
                       fmt::format("a function has no index '{}'", over->index.text),
                       "give it the members or their sum as arguments");
@@ -118,7 +119,7 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
 void FunctionTableMaker::check_name(UserFunction& function, std::string_view name, Span span) {
     if (function.parameters.contains(name)) return;
     const Reserved kind = reserved(name);
-    if (kind == Reserved::builtin) return;
+    if (kind == Reserved::builtin || cell_value_named(name)) return;
     std::vector<std::string> names;
     for (const ast::Word& each : function.definition->parameters) names.emplace_back(each.text);
     std::string hint = did_you_mean(work_, name, names);

@@ -76,7 +76,9 @@ private:
         begin(node.function.text, {first, first + node.argument_count});
     }
     void print_head(const ast::Over& node) {
-        begin(fmt::format("{} over {}", node.function.text, node.index.text), {node.operand});
+        std::vector<ast::ExprId> operands{node.operand};
+        if (node.distance) operands.push_back(*node.distance);
+        begin(fmt::format("{} over {}", node.function.text, node.index.text), std::move(operands));
     }
     void print_head(const ast::Indexed& node) { begin("member", {node.base, node.index}); }
     void print_head(const ast::Garbage&) { text_ += "<unreadable>"; }

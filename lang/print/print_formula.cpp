@@ -81,16 +81,20 @@ private:
     }
 
     void write_call(const Node& node) {
-        if (info(node.function).is_aggregate) {
-            const std::string_view spelling = info(node.function).spelling;
-            const std::size_t name = spelling.find(' ');
+        const std::string_view spelling = info(node.function).spelling;
+        if (const std::size_t name = spelling.find(' '); name != std::string_view::npos) {
             text_ += fmt::format("{}(", spelling.substr(0, name));
             push(std::string_view(")"));
+            if (node.operand_count == 2) {
+                push(std::string_view(")"));
+                push(Part{node.operands[1], 0});
+                push(std::string_view("("));
+            }
             push(spelling.substr(name));
             push(Part{node.operands[0], 0});
             return;
         }
-        text_ += info(node.function).spelling;
+        text_ += spelling;
         text_ += "(";
         push(std::string_view(")"));
         for (std::size_t i = node.operand_count; i > 0; --i) {
@@ -120,6 +124,7 @@ private:
             [&](DefinitionId id) { return system_.definitions[id].name; },
             [&](Rate rate) { return system_.quantities[rate.species].name + "'"; },
             [&](Builtin builtin) { return of(builtin_names, builtin); },
+            [&](CellValue value) { return of(cell_value_names, value); },
             [&](MetricPlane plane) { return of(metric_names, plane); },
             [&](ModelPlane plane) { return of(model_names, plane); },
             [](InsideMask) { return std::string("(inside)"); },

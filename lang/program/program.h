@@ -102,11 +102,16 @@ struct Call {
     bool operator==(const Call&) const = default;
 };
 
-/// What a node is. An ItemId is an item of this stage, a StageItem one of an earlier stage. Only
-/// lowering makes nodes of the last three kinds.
-using NodeKind = std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, DefinitionId,
-                              Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
+/// What a node is. An ItemId is an item of this stage, a StageItem one of an earlier stage; of a
+/// vector they are the first of its three components. Only lowering makes nodes of the last three
+/// kinds.
+using NodeKind =
+    std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, CellValue, DefinitionId,
+                 Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
 
+/// In a system of fields a vector is a flux, known at the faces of cells, and div makes a number of
+/// it. In a system of cells that crawl it is three numbers, a place or a direction in space.
+/// No formula has both.
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
 /// The position of a node in its formula or graph.

@@ -38,8 +38,9 @@ struct Unary { Function op; ExprId operand; };
 struct Binary { Function op; ExprId left, right; };
 /// The arguments are Script::arguments[first_argument …], in order.
 struct Call { Word function; std::uint32_t first_argument, argument_count; };
-/// sum(operand over index); `index` is the word `domain` or an index of the system.
-struct Over { Word function; ExprId operand; Word index; };
+/// sum(operand over index); `index` is the word `domain`, `touching` or `near`, or an index of the
+/// system. Of near(d) the distance stands after the nodes of the operand.
+struct Over { Word function; ExprId operand; Word index; std::optional<ExprId> distance; };
 /// u[index], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed, Qualified or
 /// RateOf of the family, directly before the nodes of the index.
 struct Indexed { ExprId base, index; };

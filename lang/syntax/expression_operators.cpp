@@ -30,6 +30,9 @@ std::optional<Function> binary_of(TokenKind kind) {
     }
 }
 
+constexpr const char* form_of_near = "such as sum(e over near(0.1))";
+constexpr const char* form_of_over = "write sum(e over i) or mean(e over domain)";
+
 }  // namespace
 
 ExpressionParser::Progress ExpressionParser::read_operator() {
@@ -114,33 +117,56 @@ ExpressionParser::Progress ExpressionParser::read_over() {
     reduce_above(0);
     const Token over = cursor_.peek();
     const Pending open = pending_.back();
-    const std::string form = "write sum(e over i) or mean(e over domain)";
     if (open.kind != PendingKind::call) {
-        return fail(over.span, "'over' stands inside a function's brackets", form);
+        return fail(over.span, "'over' stands inside a function's brackets", form_of_over);
     }
     if (open.argument_count > 0) {
-        return fail(over.span, "'over' stands after one expression only", form);
+        return fail(over.span, "'over' stands after one expression only", form_of_over);
     }
     cursor_.take();
     cursor_.skip_newlines_in_brackets();
     if (!cursor_.at(TokenKind::name)) {
         if (cursor_.at(TokenKind::garbage)) return fail_silently();
-        return fail(over.span, "'over' names an index or the domain", form);
+        return fail(over.span, "'over' names an index or the domain", form_of_over);
     }
     const ast::Word index = cursor_.word(cursor_.take());
+    if (index.text == "near" && cursor_.at(TokenKind::open_round)) {
+        push_bracket(PendingKind::near, cursor_.take(), index.span);
+        return Progress::going_on;
+    }
+    return close_over(index, std::nullopt);
+}
+
+/// The cursor is at the bracket that closes near(d), and the distance is complete.
+ExpressionParser::Progress ExpressionParser::close_near() {
+    cursor_.take();
+    const ast::Word near{pending_.back().detail, cursor_.text(pending_.back().detail)};
+    pending_.pop_back();
+    --open_brackets_;
+    const ast::ExprId distance = operands_.back().id;
+    operands_.pop_back();
+    return close_over(near, distance);
+}
+
+/// The cursor is after what `over` names; then a bracket closes the sum.
+ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
+                                                        std::optional<ast::ExprId> distance) {
     cursor_.skip_newlines_in_brackets();
     if (!cursor_.at(TokenKind::close_round)) {
         if (cursor_.at(TokenKind::garbage)) return fail_silently();
-        return fail(index.span,
-                    fmt::format("a ')' is missing after 'over {}'", shortened(index.text)), form);
+        return fail(over.span,
+                    fmt::format("a ')' is missing after 'over {}{}'", shortened(over.text),
+                                distance ? "(…)" : ""),
+                    form_of_over);
     }
     const Token close = cursor_.take();
+    const Span name = pending_.back().detail;
     pending_.pop_back();
     --open_brackets_;
     const Operand operand = operands_.back();
     operands_.pop_back();
-    push_operand(join(open.detail, close.span),
-                 ast::Over{{open.detail, cursor_.text(open.detail)}, operand.id, index});
+    push_operand(join(name, close.span),
+                 ast::Over{{name, cursor_.text(name)}, operand.id, over, distance});
     return Progress::going_on;
 }
 
@@ -164,6 +190,7 @@ ExpressionParser::Progress ExpressionParser::read_close_round() {
                        "write ')' there",
                        {{close.span, "the ']' is here"}}});
     }
+    if (open.kind == PendingKind::near) return close_near();
     cursor_.take();
     pending_.pop_back();
     --open_brackets_;
@@ -191,6 +218,9 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     Pending& open = pending_.back();
     if (open.kind == PendingKind::index) {
         return fail(cursor_.peek().span, "a family has one index", "write u[i]");
+    }
+    if (open.kind == PendingKind::near) {
+        return fail(cursor_.peek().span, "'near' takes one distance", form_of_near);
     }
     if (open.kind == PendingKind::group) {
         return fail(cursor_.peek().span, "',' separates the arguments of a function",

@@ -29,7 +29,7 @@ public:
     ast::Expression parse(const std::string& owner, std::string_view end_word = "");
 
 private:
-    enum class PendingKind : std::uint8_t { binary, unary, group, call, index };
+    enum class PendingKind : std::uint8_t { binary, unary, group, call, index, near };
     /// A comparison whose left side is a comparison, such as the second of `0 < a < 4`.
     enum class Chain : std::uint8_t { none, to_report, reported };
     enum class Progress : std::uint8_t { going_on, finished, failed };
@@ -40,13 +40,13 @@ private:
         Chain chain = Chain::none;
         Function op{};
         Token token;                       ///< The operator or the bracket.
-        Span detail;                       ///< Name of a call; middle operand of a chain.
+        Span detail;                       ///< Name of a call or `near`; middle operand of a chain.
         std::uint32_t argument_count = 0;  ///< Of a call: complete arguments so far.
         bool is_own = false;               ///< Of an index: the inner bracket of [u[i]].
         int precedence() const { return info(op).precedence; }
         bool is_bracket() const {
             return kind == PendingKind::group || kind == PendingKind::call ||
-                   kind == PendingKind::index;
+                   kind == PendingKind::index || kind == PendingKind::near;
         }
     };
     /// A complete operand; `outer` is its place including brackets.
@@ -69,6 +69,8 @@ private:
     Progress close_index();
     Progress read_comma();
     Progress read_over();
+    Progress close_near();
+    Progress close_over(const ast::Word& over, std::optional<ast::ExprId> distance);
     bool begins_index() const;
     Progress unexpected_operator(bool on_new_line);
     Progress missing_operator(bool on_new_line);

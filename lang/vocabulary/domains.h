@@ -12,7 +12,10 @@ enum class Domains : std::uint8_t {
     model = 4,
     straight = plane | model,  ///< Axes are straight.
     bent = surface | model,
-    all = plane | surface | model,
+    fields = plane | surface | model,  ///< Cells have a place for ever.
+    crawling = 8,                      ///< Cells move: those of a `cells` system, on any domain.
+    components = grid | crawling,      ///< Vectors have components.
+    all = fields | crawling,
 };
 constexpr bool includes(Domains set, Domains one) {
     return (static_cast<unsigned>(set) & static_cast<unsigned>(one)) != 0;

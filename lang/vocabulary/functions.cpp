@@ -38,9 +38,25 @@ const FunctionInfo& info(Function function) {
 std::optional<Function> function_named(std::string_view name) {
     for (std::size_t i = 0; i < function_count; ++i) {
         const FunctionInfo& row = function_table[i];
-        if (!row.is_operator && row.spelling == name) return static_cast<Function>(i);
+        if (row.is_named && row.spelling == name) return static_cast<Function>(i);
     }
     return std::nullopt;
+}
+
+std::optional<Function> function_over(std::string_view name, std::string_view over) {
+    for (std::size_t i = 0; i < function_count; ++i) {
+        std::string_view rest = function_table[i].spelling;
+        if (!rest.starts_with(name)) continue;
+        rest.remove_prefix(name.size());
+        if (rest.starts_with(" over ") && rest.substr(6) == over) return static_cast<Function>(i);
+    }
+    return std::nullopt;
+}
+
+std::optional<CellValue> cell_value_named(std::string_view name) {
+    const auto found = std::ranges::find(cell_value_names, name);
+    if (found == cell_value_names.end()) return std::nullopt;
+    return static_cast<CellValue>(found - cell_value_names.begin());
 }
 
 std::optional<Builtin> builtin_named(std::string_view name) {

@@ -26,11 +26,12 @@ inline constexpr std::size_t function_count = 0
 // clang-format off
 enum class FunctionKind : std::uint8_t {
     logic, comparison, arithmetic, elementary, choice,
-    derivative, stencil, flux, draw, pattern, shape, text, landmarks, aggregate, colour,
+    derivative, stencil, flux, link, draw, pattern, shape, text, landmarks,
+    geometry, aggregate, colour,
 };
 // clang-format on
 enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
-enum class Contexts : std::uint8_t { any, cells, rates, values, noisy, picture };
+enum class Contexts : std::uint8_t { any, cells, rates, steps, values, noisy, picture };
 
 /// The number of arguments of a function: a number, one of two, or groups of values.
 struct Arity {
@@ -70,6 +71,8 @@ struct FunctionInfo {
 
     bool is_operator = precedence < of_a_name;  ///< Spelled between or before its operands.
     bool is_aggregate = kind == FunctionKind::aggregate;
+    /// Called by its name, f(…); not an operator, `sum over domain`, or one that lowering makes.
+    bool is_named = !is_operator && spelling.find_first_of(" (") == std::string_view::npos;
 
     static constexpr int of_a_name = 9;
 };
@@ -77,11 +80,18 @@ const FunctionInfo& info(Function function);
 
 /// The function that is called by a name; nothing for operators and unknown names.
 std::optional<Function> function_named(std::string_view name);
+/// The function that sums (sum, mean, min, max) over `domain`, `touching` or `near`; nothing for
+/// other words.
+std::optional<Function> function_over(std::string_view name, std::string_view over);
 
 /// True if it makes a number of numbers only; those are the rows of elementary.def.
 inline bool is_elementary(Function function) { return info(function).kind <= FunctionKind::choice; }
 inline bool is_comparison(Function function) {
     return info(function).kind == FunctionKind::comparison;
+}
+/// True if it sums values of neighbours, or finds their mean, least or greatest.
+inline bool is_over_neighbours(Function function) {
+    return function >= Function::touching_sum && function <= Function::near_max;
 }
 /// True if it draws random numbers.
 inline bool is_random(Function function) {
@@ -142,5 +152,32 @@ inline constexpr std::array<std::string_view, builtin_count> builtin_names{
 std::optional<Builtin> builtin_named(std::string_view name);
 /// True for values that vary by cell on models only; on a plane they are constant.
 constexpr bool is_of_model(Builtin builtin) { return builtin >= Builtin::nx; }
+
+/// Values that only cells that crawl have. Other systems may declare their names.
+// clang-format off
+enum class CellValue : std::uint8_t {
+    off, feature, normal,  ///< Of the surface at the cell.
+    ex, ey, ez,            ///< The axes of the cell's frame, of length 1.
+    // Of a link to a neighbour:
+    distance,   ///< Between the centres.
+    direction,  ///< The unit vector from the cell to the neighbour; 0 if both are in one place.
+    gap,        ///< distance − (r + r'): below 0 where the cells overlap.
+    overlap,    ///< max(−gap, 0).
+    contact,    ///< 1 up to the distance r + r', falling linearly to 0 at `reach` times that.
+};
+// clang-format on
+/// Their spellings, by CellValue.
+inline constexpr std::array<std::string_view, 11> cell_value_names{
+    "off",      "feature",   "normal", "ex",      "ey",     "ez",
+    "distance", "direction", "gap",    "overlap", "contact"};
+std::optional<CellValue> cell_value_named(std::string_view name);
+constexpr bool is_vector(CellValue value) {
+    return (value >= CellValue::normal && value <= CellValue::ez) || value == CellValue::direction;
+}
+constexpr bool is_of_frame(CellValue value) {
+    return value >= CellValue::ex && value <= CellValue::ez;
+}
+/// True for values of a link, which are known inside of sums over neighbours only.
+constexpr bool is_of_link(CellValue value) { return value >= CellValue::distance; }
 
 }  // namespace cascade

@@ -142,6 +142,7 @@ std::string_view word_of(Contexts places) {
         case Contexts::any: return "any";
         case Contexts::cells: return "cells";
         case Contexts::rates: return "rates";
+        case Contexts::steps: return "steps";
         case Contexts::values: return "values";
         case Contexts::noisy: return "noisy";
         case Contexts::picture: return "picture";
@@ -150,13 +151,13 @@ std::string_view word_of(Contexts places) {
 }
 
 /// How functions.md begins the row of a function: `a + b`, `not a`, `-a`, `name(`,
-/// `name(e over domain)`.
+/// `name(e over domain)`, `name(e over near(d))`.
 std::string beginning_of_row(Function function) {
     const FunctionInfo& row = info(function);
     const std::string spelling(row.spelling);
-    if (row.is_aggregate) {
-        const std::size_t name = spelling.find(' ');
-        return "`" + spelling.substr(0, name) + "(e" + spelling.substr(name) + ")`";
+    if (const std::size_t name = spelling.find(' '); name != std::string::npos) {
+        const std::string end = row.arity.most == 2 ? "(d))`" : ")`";
+        return "`" + spelling.substr(0, name) + "(e" + spelling.substr(name) + end;
     }
     if (!row.is_operator) return "`" + spelling + "(";
     if (row.arity.most == 2) return "`a " + spelling + " b`";
@@ -174,8 +175,11 @@ std::string words_of(Arity arity) {
 TEST(FunctionsPage, HasARowForEveryFunction) {
     auto rows = table_rows(read_text(spec_folder / "functions.md"));
     std::erase_if(rows, [](const auto& row) { return row.size() < 4 || row[0][0] != '`'; });
+    std::size_t of_language = 0;
     for (std::size_t k = 0; k < function_count; ++k) {
         const auto function = static_cast<Function>(k);
+        if (info(function).spelling.starts_with('(')) continue;  // Made by lowering.
+        ++of_language;
         const std::string beginning = beginning_of_row(function);
         const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& cells) {
             return cells[0].starts_with(beginning);
@@ -184,7 +188,7 @@ TEST(FunctionsPage, HasARowForEveryFunction) {
         EXPECT_EQ((*row)[1], words_of(info(function).arity)) << beginning;
         EXPECT_EQ((*row)[2], word_of(info(function).places)) << beginning;
     }
-    EXPECT_EQ(rows.size(), function_count) << "a row is for no function";
+    EXPECT_EQ(rows.size(), of_language) << "a row is for no function";
 }
 
 std::string_view word_of(SettingBlock block) {
@@ -201,6 +205,9 @@ std::string_view word_of(Domains domains) {
         case Domains::straight: return "straight";
         case Domains::bent: return "bent";
         case Domains::all: return "all";
+        case Domains::fields:
+        case Domains::crawling:
+        case Domains::components: break;  // Of functions only.
     }
     return "";
 }
