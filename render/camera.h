@@ -1,7 +1,7 @@
 // A camera that frames a mesh automatically.
 #pragma once
 
-#include "render/triangle_mesh.h"
+#include "mesh/triangle_mesh.h"
 
 #include <cstdint>
 

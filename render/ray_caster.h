@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/camera.h"
-#include "render/triangle_mesh.h"
+#include "mesh/triangle_mesh.h"
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesh/surface_mesh.h"
-#include "render/triangle_mesh.h"
+#include "mesh/triangle_mesh.h"
 
 namespace cascade {
 

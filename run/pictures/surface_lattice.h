@@ -1,7 +1,7 @@
 // A surface of two parameters as a mesh, and the cells around a place on it.
 #pragma once
 
-#include "render/triangle_mesh.h"
+#include "mesh/triangle_mesh.h"
 #include "surface/parameter_surface.h"
 
 #include <cstdint>

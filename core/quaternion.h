@@ -1,0 +1,36 @@
+// Rotations of space as quaternions of length 1.
+#pragma once
+
+#include "core/vector3.h"
+
+namespace cascade {
+
+/// w + x i + y j + z k; q and −q are the same rotation.
+struct Quaternion {
+    double w = 1, x = 0, y = 0, z = 0;
+    friend bool operator==(const Quaternion&, const Quaternion&) = default;
+};
+
+/// The vector turned by a quaternion of length 1.
+inline Vector3d turned(const Quaternion& q, Vector3d v) {
+    const Vector3d axis{q.x, q.y, q.z};
+    const Vector3d twice = cross(axis, v) * 2;
+    return v + twice * q.w + cross(axis, twice);
+}
+
+/// The rotation that takes the axes x, y and z to three directions, which are orthonormal and
+/// right-handed: S. W. Shepperd, "Quaternion from Rotation Matrix", Journal of Guidance and Control
+/// 1(3), 1978. Of the two, the one whose largest component is positive.
+inline Quaternion quaternion_of(Vector3d x, Vector3d y, Vector3d z) {
+    const double trace = x.x + y.y + z.z;
+    const double most = std::max({trace, x.x, y.y, z.z});
+    Quaternion q;
+    if (most == trace) q = {1 + trace, y.z - z.y, z.x - x.z, x.y - y.x};
+    else if (most == x.x) q = {y.z - z.y, 1 + x.x - y.y - z.z, x.y + y.x, z.x + x.z};
+    else if (most == y.y) q = {z.x - x.z, x.y + y.x, 1 + y.y - x.x - z.z, y.z + z.y};
+    else q = {x.y - y.x, z.x + x.z, y.z + z.y, 1 + z.z - x.x - y.y};
+    const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return {q.w / size, q.x / size, q.y / size, q.z / size};
+}
+
+}  // namespace cascade

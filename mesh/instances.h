@@ -1,0 +1,56 @@
+// Copies of small meshes in space: the scales, thorns or hairs of a body.
+#pragma once
+
+#include "core/palette.h"
+#include "core/quaternion.h"
+#include "mesh/triangle_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+/// Where a copy stands, and its looks. A point p of the mesh comes to place + turn(scale · p).
+struct Placement {
+    std::uint32_t mesh = 0;  ///< Which of the meshes.
+    Vector3d place;
+    Quaternion turn;          ///< Of length 1.
+    Vector3d scale{1, 1, 1};  ///< Factors along the mesh's own axes, larger than 0.
+    Colour colour{1, 1, 1};   ///< sRGB, 0 … 1.
+};
+
+/// The body that they stand on is no part of it: what draws or writes both takes it separately.
+struct Instances {
+    std::vector<TriangleMesh> meshes;  ///< The variants; each has triangles.
+    std::vector<Placement> placements;
+
+    /// Of all copies together.
+    std::uint64_t triangle_count() const;
+};
+
+/// Moves everything by the map p ↦ (p − middle) × scale, such as that of DrawnMesh.
+void move_instances(Instances& instances, Vector3d middle, double scale);
+
+/// The map of a placement in binary32, for the points and normals of its mesh.
+class PlacementMap {
+public:
+    explicit PlacementMap(const Placement& placement);
+
+    Vector3 point(Vector3 p) const { return x_ * p.x + y_ * p.y + z_ * p.z + place_; }
+    /// Of length 1. Normals change with the inverse factors.
+    Vector3 normal(Vector3 n) const {
+        return unit(x_ * (n.x * factors_.x) + y_ * (n.y * factors_.y) + z_ * (n.z * factors_.z));
+    }
+
+    /// The images of the axes' unit vectors and of the origin.
+    Vector3 x() const { return x_; }
+    Vector3 y() const { return y_; }
+    Vector3 z() const { return z_; }
+    Vector3 place() const { return place_; }
+
+private:
+    Vector3 x_, y_, z_, place_;
+    Vector3 factors_;  ///< Inverse squares of the scale, since the axes have its lengths.
+};
+
+}  // namespace cascade

@@ -1,0 +1,35 @@
+// Triangles with smooth normals in binary32: what is drawn, and what is copied.
+#pragma once
+
+#include "core/vector3.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+struct TriangleMesh {
+    std::vector<Vector3> positions;
+    std::vector<Vector3> normals;                         ///< One per position, of length 1.
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise from outside.
+    /// The part of the colour's light, 0 … 1, that the surface reflects at each position; empty:
+    /// all of it everywhere.
+    std::vector<float> shades;
+};
+
+/// Sets each position's normal to the direction of the area-weighted sum of its triangles' normals.
+void smooth_normals(TriangleMesh& mesh);
+
+/// Adds the triangles of a mesh to another. Positions without a shade have the shade 1.
+void append(const TriangleMesh& added, TriangleMesh& mesh);
+
+/// The bounding box of a mesh.
+struct Box {
+    Vector3 low, high;
+    Vector3 centre() const { return (low + high) * 0.5F; }
+    void add(Vector3 p);
+};
+Box bounds(const TriangleMesh& mesh);
+
+}  // namespace cascade
