@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-constexpr float margin = 1.12F;      ///< Free space around the mesh.
+constexpr float margin = 1.12F;      ///< Free space around the scene.
 constexpr float half_field = 0.22F;  ///< Tangent of half the field of view: 12.4 degrees.
 
 /// Cosine and sine of an angle in degrees, computed in binary64 for equal bits on every processor.
@@ -22,7 +22,7 @@ struct Turn {
     }
 };
 
-/// The range of the mesh along one axis of the picture. From the eye every vertex must be between
+/// The range of the scene along one axis of the picture. From the eye every vertex must be between
 /// the slopes −half and half, which gives a lower bound of the eye's distance that grows with the
 /// vertex's offset and nearness.
 struct Extent {
@@ -47,8 +47,7 @@ struct Extent {
 
 }  // namespace
 
-Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
-               std::int64_t height) {
+Camera::Camera(const Scene& scene, const View& view, std::int64_t width, std::int64_t height) {
     const Turn around(view.azimuth);
     const Turn above(view.elevation);
     // The axis towards the viewer at azimuth 0, and the one to the viewer's right.
@@ -69,9 +68,9 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
     Extent x, y;
     Vector3 middle;
     if (view.is_turning) {
-        middle = bounds(mesh).centre();
-        for (const Vector3& p : mesh.positions) {
-            // Under rotation, a point of the mesh describes a circle around the axis.
+        middle = bounds(scene).centre();
+        scene.visit([&](const Vector3& p) {
+            // Under rotation, a point of the scene describes a circle around the axis.
             const float rise = dot(p - middle, view.up);
             const float radius = length(p - middle - view.up * rise);
             const float back = rise * above.sine;
@@ -82,12 +81,12 @@ Camera::Camera(const TriangleMesh& mesh, const View& view, std::int64_t width,
             x.add(-swing, back, half_x);
             y.add_circle(rise * above.cosine, back, -radius * above.sine, radius * above.cosine,
                          half_y);
-        }
+        });
     } else {
-        for (const Vector3& p : mesh.positions) {
+        scene.visit([&](const Vector3& p) {
             x.add(dot(p, right_), dot(p, backward_), half_x);
             y.add(dot(p, up_), dot(p, backward_), half_y);
-        }
+        });
     }
     const float distance = std::max(x.distance(half_x), y.distance(half_y));
     eye_ = middle + right_ * x.offset() + up_ * y.offset() + backward_ * distance;

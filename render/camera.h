@@ -1,7 +1,7 @@
-// A camera that frames a mesh automatically.
+// A camera that frames a scene automatically.
 #pragma once
 
-#include "mesh/triangle_mesh.h"
+#include "render/scene.h"
 
 #include <cstdint>
 
@@ -12,8 +12,8 @@ struct View {
     float azimuth = 30;    ///< Degrees around the upward axis, from the front to the right.
     float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
     Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
-    /// Frames the mesh for all azimuths at once, rotating around the centre of its box, so that its
-    /// position and size are constant in a series of pictures from all around.
+    /// Frames the scene for all azimuths at once, rotating around the centre of its box, so that
+    /// its position and size are constant in a series of pictures from all around.
     bool is_turning = false;
 };
 
@@ -24,8 +24,8 @@ struct Ray {
 
 class Camera {
 public:
-    /// Looks at `mesh` so that it fills a picture of width × height pixels except for a margin.
-    Camera(const TriangleMesh& mesh, const View& view, std::int64_t width, std::int64_t height);
+    /// Looks at the scene so that it fills a picture of width × height pixels except for a margin.
+    Camera(const Scene& scene, const View& view, std::int64_t width, std::int64_t height);
 
     /// The ray through a point of the picture, in pixels from its upper left corner.
     Ray ray(float x, float y) const;

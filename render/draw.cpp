@@ -5,23 +5,21 @@
 //   sends all its rays, each of which tests both lights.
 // - Where only their colours differ, the pixel sends all its rays, but tests the lights as if they
 //   agreed.
+// - Where there are copies and edges all around, as in fur, no outline stands out: a pixel keeps to
+//   its first rays, and takes the visible parts of the lights from the pixels around, too.
 // - Where a light is partly hidden around a pixel, the pixel tests it more often.
 // - The visible part of the sky varies slowly along a surface. Pixels away from edges use the mean
 //   over their neighbours on the same surface.
-// Sample positions are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable
-// Effectiveness of Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So
-// a pixel depends neither on its tile nor on the thread.
 #include "render/draw.h"
 
-#include "core/hash.h"
 #include "picture/srgb.h"
+#include "render/samples.h"
 #include "render/tracer.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace cascade {
@@ -30,10 +28,10 @@ namespace {
 
 constexpr std::int64_t tile_side = 64;  ///< Pixels.
 constexpr std::int64_t filter_reach =
-    2;                         ///< Pixels on each side whose answers about the sky count.
-constexpr int first_rays = 4;  ///< Of every pixel.
+    2;  ///< Pixels on each side whose answers about the sky count.
 // How often each ray asks for a light that is partly hidden.
 constexpr std::uint32_t sun_rounds = 16;
+constexpr std::uint32_t sun_rounds_of_copies = 4;  ///< Shadows on small things are small.
 constexpr std::uint32_t sky_rounds = 2;
 constexpr std::uint32_t edge_rounds = 2;  ///< For both lights, at an edge.
 /// Two hits whose normals have a smaller cosine are not on one piece of a surface.
@@ -41,45 +39,6 @@ constexpr float least_cosine = 0.9F;
 // Contrasts of light above which all rays are sent.
 constexpr float contrast_in_pixel = 0.12F;  ///< Between the first rays of a pixel.
 constexpr float contrast_beside = 0.3F;     ///< Between a pixel and its neighbours.
-
-float to_fraction(std::uint32_t word) {
-    return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
-}
-
-/// A point of the unit square.
-struct Point {
-    float x = 0, y = 0;
-};
-
-/// Point `k` of a low-discrepancy sequence in the square, shifted by two hashed words: multiples of
-/// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32.
-Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
-    return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u)};
-}
-
-/// Where a pixel's first rays go: a turned grid. Their mean place is the middle of the pixel, so
-/// that a constant slope comes out exactly.
-Point first_point(std::uint32_t k, std::uint32_t count) {
-    constexpr std::array<Point, first_rays> turned = {
-        {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
-    return count == first_rays ? turned[k] : Point{0.5F, 0.5F};
-}
-
-/// Maps the unit square to the unit disc, preserving ratios of areas: P. Shirley and K. Chiu, "A
-/// Low Distortion Map Between Disk and Square", 1997. Sine and cosine are polynomials, because
-/// those of libraries differ between processors.
-DiscPoint on_disc(Point square) {
-    const float a = 2 * square.x - 1, b = 2 * square.y - 1;
-    const bool is_wide = std::abs(a) > std::abs(b);
-    const float radius = is_wide ? a : b;
-    if (radius == 0) return {};
-    const float t = std::numbers::pi_v<float> / 4 * ((is_wide ? b : a) / radius);
-    const float s = t * t;
-    const float sine = t * (1 - s / 6 * (1 - s / 20 * (1 - s / 42)));
-    const float cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30));
-    return is_wide ? DiscPoint{radius * cosine, radius * sine}
-                   : DiscPoint{radius * sine, radius * cosine};
-}
 
 /// The results of visibility tests of a light.
 struct Tally {
@@ -110,16 +69,6 @@ float contrast(const Colour& a, const Colour& b) {
     float most = 0;
     for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(a[c] - b[c]));
     return most;
-}
-
-/// The hashed words that shift the sample positions of a pixel.
-struct Shifts {
-    std::array<std::uint32_t, 4> of_rays_and_sun{}, of_sky{};
-};
-
-Shifts shifts_of(std::int64_t x, std::int64_t y) {
-    const auto hash = pcg4d({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0});
-    return {hash, pcg4d(hash)};
 }
 
 /// A pixel after its first rays.
@@ -153,10 +102,13 @@ public:
         visit(filter_reach, [&](Pixel& pixel) {
             look_beside(pixel);
             pixel.more_sky = pixel.sky;
-            if (!pixel.is_edge && around(pixel, &Pixel::sky).is_partial()) ask_sky(pixel);
+            const bool is_smooth = !pixel.is_edge && !pixel.seen[0].is_copy;
+            if (is_smooth && around(pixel, &Pixel::sky).is_partial()) ask_sky(pixel);
         });
         visit(0, [&](const Pixel& pixel) {
-            Colour light = pixel.is_edge ? edge_light(pixel) : even_light(pixel);
+            Colour light = is_in_thicket(pixel) ? thicket_light(pixel)
+                           : pixel.is_edge      ? edge_light(pixel)
+                                                : even_light(pixel);
             for (float& channel : light) channel = stored_of(channel);
             image.at(pixel.x, pixel.y) = light;
         });
@@ -288,7 +240,8 @@ private:
         if (pixel.seen[0].kind == Seen::Kind::background) return pixel.light;
         Tally sun = pixel.sun;
         if (around(pixel, &Pixel::sun).is_partial()) {
-            for (std::uint32_t number = first_tests_; number < sun_rounds * first_; ++number) {
+            const std::uint32_t rounds = pixel.seen[0].is_copy ? sun_rounds_of_copies : sun_rounds;
+            for (std::uint32_t number = first_tests_; number < rounds * first_; ++number) {
                 sun += asked_sun(pixel.seen[number % first_], number, pixel);
             }
         }
@@ -307,6 +260,40 @@ private:
             add(each.of_sky, part * sky.share(), light);
         }
         return light;
+    }
+
+    /// Whether this pixel shows nothing but copies, and a sixth of those around have edges.
+    bool is_in_thicket(const Pixel& pixel) {
+        bool is_one = first_ == first_rays;
+        for (const Seen& seen : pixel.seen) is_one = is_one && seen.is_copy;
+        if (!is_one) return false;
+        int count = 0, edges = 0;
+        visit_around(pixel, filter_reach, [&](const Pixel& other) {
+            ++count;
+            if (other.is_edge) ++edges;
+        });
+        return 6 * edges >= count;
+    }
+
+    /// Of the first rays, with the shares of the lights that are seen from here and around.
+    Colour thicket_light(const Pixel& pixel) {
+        Tally sun, sky;
+        visit_around(pixel, 1, [&](const Pixel& other) {
+            if (!other.seen[0].is_copy) return;
+            sun += other.sun;
+            sky += other.sky;
+        });
+        for (std::uint32_t k = 0; k < first_; ++k) {
+            const Seen& seen = pixel.seen[k];
+            if (k % 2 == 0) sky += asked_sky(seen, first_ + k, pixel);
+            else sun += asked_sun(seen, first_ + k, pixel);
+        }
+        Colour sum{0, 0, 0};
+        for (const Seen& seen : pixel.seen) {
+            add(seen.of_sun, sun.share() / first_rays, sum);
+            add(seen.of_sky, sky.share() / first_rays, sum);
+        }
+        return sum;
     }
 
     /// Of all rays that a pixel may have.
@@ -341,9 +328,9 @@ private:
             }
         };
         ask_all();
-        const bool is_partial = tally.is_partial();
-        for (std::uint32_t round = 1; is_partial && round < edge_rounds; ++round) ask_all();
-        add(found, is_partial ? 1.0F / edge_rounds : 1.0F, sum);
+        const std::uint32_t rounds = tally.is_partial() && !all_[0].is_copy ? edge_rounds : 1;
+        for (std::uint32_t round = 1; round < rounds; ++round) ask_all();
+        add(found, 1 / static_cast<float>(rounds), sum);
     }
 
     const Tracer& tracer_;
@@ -358,9 +345,9 @@ private:
 
 }  // namespace
 
-Image draw(const TriangleMesh& mesh, const RayCaster& caster, const SurfaceLook& look,
-           const DrawOptions& options, Team& team) {
-    const Tracer tracer(mesh, look, options, caster);
+Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options,
+           Team& team) {
+    const Tracer tracer(caster, look, options);
     Image image(options.width, options.height);
     const std::int64_t columns = (options.width + tile_side - 1) / tile_side;
     const std::int64_t rows = (options.height + tile_side - 1) / tile_side;
@@ -382,7 +369,7 @@ Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOpti
         for (float& channel : result.light) channel = light_of(channel);
         return result;
     };
-    return draw(mesh, caster, look, options, team);
+    return draw(caster, look, options, team);
 }
 
 }  // namespace cascade

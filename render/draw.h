@@ -1,4 +1,4 @@
-// Rendering of a surface with smooth shading, soft shadows and a ground plane.
+// Rendering of a scene with smooth shading, soft shadows and a ground plane.
 #pragma once
 
 #include "core/parallel.h"
@@ -20,7 +20,7 @@ struct Sight {
     float width = 0;    ///< Width of the ray's part of the pixel at the hit, across the ray.
 };
 
-/// The appearance of the surface at a point.
+/// The appearance of the body at a point. Copies have their own colours.
 struct Look {
     Colour light{};  ///< Reflected fractions of red, green and blue light, 0 … 1 (light_of).
     Vector3 tilt;    ///< Added to the outward unit normal.
@@ -37,12 +37,13 @@ struct DrawOptions {
 };
 
 /// Renders by ray tracing. The picture is the same on any number of threads and on every processor.
-/// Both sides of a surface are drawn. Throws std::bad_alloc.
-Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
+/// Both sides of a surface are drawn. `look` is that of the body, and may be empty if there is
+/// none. Throws std::bad_alloc.
+Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options,
            Team& team);
 
-/// The same with a full description of the appearance. `caster` must be that of the mesh.
-Image draw(const TriangleMesh& mesh, const RayCaster& caster, const SurfaceLook& look,
-           const DrawOptions& options, Team& team);
+/// The same for a body with colours.
+Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
+           Team& team);
 
 }  // namespace cascade

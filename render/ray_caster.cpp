@@ -1,4 +1,7 @@
 // Embree with one instruction set and one building thread, so that all machines draw the same.
+//
+// The body is a geometry of the root, and so is each copy: an instance, which refers to the tree of
+// its mesh and has a transformation. So a mesh is stored once, however many copies there are.
 #include "render/ray_caster.h"
 
 #include "core/check.h"
@@ -6,8 +9,12 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <cmath>
 #include <new>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace cascade {
 
@@ -16,7 +23,7 @@ namespace {
 /// Its functions, by the names that Embree gives them without `rtc`.
 struct Embree {
     LateLibrary library{CASCADE_EMBREE_LIBRARY};
-    decltype(&rtcAttachGeometry) attach_geometry = library["rtcAttachGeometry"];
+    decltype(&rtcAttachGeometryByID) attach_geometry = library["rtcAttachGeometryByID"];
     decltype(&rtcCommitGeometry) commit_geometry = library["rtcCommitGeometry"];
     decltype(&rtcCommitScene) commit_scene = library["rtcCommitScene"];
     decltype(&rtcGetDeviceError) get_device_error = library["rtcGetDeviceError"];
@@ -27,6 +34,9 @@ struct Embree {
     decltype(&rtcOccluded1) occluded = library["rtcOccluded1"];
     decltype(&rtcReleaseGeometry) release_geometry = library["rtcReleaseGeometry"];
     decltype(&rtcReleaseScene) release_scene = library["rtcReleaseScene"];
+    decltype(&rtcSetGeometryInstancedScene) set_instanced_scene =
+        library["rtcSetGeometryInstancedScene"];
+    decltype(&rtcSetGeometryTransform) set_transform = library["rtcSetGeometryTransform"];
     decltype(&rtcSetNewGeometryBuffer) set_new_geometry_buffer = library["rtcSetNewGeometryBuffer"];
     decltype(&rtcSetSceneFlags) set_scene_flags = library["rtcSetSceneFlags"];
 };
@@ -37,13 +47,6 @@ const Embree& embree() {
 }
 
 }  // namespace
-
-struct RayCaster::Scene {
-    RTCScene scene = nullptr;
-    ~Scene() {
-        if (scene) embree().release_scene(scene);
-    }
-};
 
 namespace {
 
@@ -56,25 +59,41 @@ RTCDevice the_device() {
     return device;
 }
 
-}  // namespace
+struct Release {
+    void operator()(RTCScene tree) const { embree().release_scene(tree); }
+    void operator()(RTCGeometry geometry) const { embree().release_geometry(geometry); }
+};
+using TreePointer = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
+using GeometryPointer = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
-RayCaster::RayCaster(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>()) {
-    CHECK(!mesh.triangles.empty(), "something is there to be drawn");
-    Scene& self = *scene_;
-    const RTCDevice device = the_device();
-    self.scene = embree().new_scene(device);
-    embree().set_scene_flags(self.scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = embree().new_geometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<float*>(
-        embree().set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                         3 * sizeof(float), mesh.positions.size()));
+TreePointer new_tree() {
+    TreePointer tree(embree().new_scene(the_device()));
+    if (!tree) throw std::bad_alloc();
+    embree().set_scene_flags(tree.get(), RTC_SCENE_FLAG_ROBUST);
+    return tree;
+}
+
+GeometryPointer new_geometry(RTCGeometryType type) {
+    GeometryPointer geometry(embree().new_geometry(the_device(), type));
+    if (!geometry) throw std::bad_alloc();
+    return geometry;
+}
+
+/// Gives a geometry to a tree, which keeps it.
+void attach(const GeometryPointer& geometry, const TreePointer& tree, std::size_t number) {
+    embree().commit_geometry(geometry.get());
+    embree().attach_geometry(tree.get(), geometry.get(), static_cast<unsigned>(number));
+}
+
+void attach_mesh(const TriangleMesh& mesh, const TreePointer& tree, std::size_t number) {
+    const GeometryPointer geometry = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<float*>(embree().set_new_geometry_buffer(
+        geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+        mesh.positions.size()));
     auto* triangles = static_cast<unsigned*>(
-        embree().set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+        embree().set_new_geometry_buffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                          3 * sizeof(unsigned), mesh.triangles.size()));
-    if (!positions || !triangles) {
-        embree().release_geometry(geometry);
-        throw std::bad_alloc();
-    }
+    if (!positions || !triangles) throw std::bad_alloc();
     for (const Vector3& p : mesh.positions) {
         *positions++ = p.x;
         *positions++ = p.y;
@@ -83,11 +102,46 @@ RayCaster::RayCaster(const TriangleMesh& mesh) : scene_(std::make_unique<Scene>(
     for (const auto& corners : mesh.triangles) {
         for (const std::uint32_t corner : corners) *triangles++ = corner;
     }
-    embree().commit_geometry(geometry);
-    embree().attach_geometry(self.scene, geometry);
-    embree().release_geometry(geometry);
-    embree().commit_scene(self.scene);
-    if (embree().get_device_error(device) != RTC_ERROR_NONE) throw std::bad_alloc();
+    attach(geometry, tree, number);
+}
+
+void attach_copy(const Placement& placement, const TreePointer& of_mesh, const TreePointer& tree,
+                 std::size_t number) {
+    const GeometryPointer geometry = new_geometry(RTC_GEOMETRY_TYPE_INSTANCE);
+    embree().set_instanced_scene(geometry.get(), of_mesh.get());
+    const PlacementMap map(placement);
+    const std::array<Vector3, 4> columns = {map.x(), map.y(), map.z(), map.place()};
+    embree().set_transform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    attach(geometry, tree, number);
+}
+
+void finish(const TreePointer& tree) {
+    embree().commit_scene(tree.get());
+    if (embree().get_device_error(the_device()) != RTC_ERROR_NONE) throw std::bad_alloc();
+}
+
+}  // namespace
+
+struct RayCaster::Tree {
+    TreePointer root = new_tree();
+    std::vector<TreePointer> of_meshes;
+};
+
+RayCaster::RayCaster(const Scene& scene) : scene_(scene), tree_(std::make_unique<Tree>()) {
+    const Instances& copies = scene.copies();
+    for (const TriangleMesh& mesh : copies.meshes) {
+        tree_->of_meshes.push_back(new_tree());
+        attach_mesh(mesh, tree_->of_meshes.back(), 0);
+        finish(tree_->of_meshes.back());
+    }
+    // Copies have the numbers of their placements.
+    const std::size_t count = copies.placements.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const Placement& placement = copies.placements[k];
+        attach_copy(placement, tree_->of_meshes[placement.mesh], tree_->root, k);
+    }
+    if (scene.body()) attach_mesh(*scene.body(), tree_->root, count);
+    finish(tree_->root);
 }
 
 bool RayCaster::is_available() { return true; }
@@ -116,17 +170,18 @@ std::optional<Hit> RayCaster::nearest(const Ray& ray) const {
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
     query.ray = ray_of(ray, INFINITY);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    embree().intersect(scene_->scene, &context, &query);
+    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree().intersect(tree_->root.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+    static_assert(Hit::body == RTC_INVALID_GEOMETRY_ID);
+    return Hit{query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar, query.hit.instID[0]};
 }
 
 bool RayCaster::is_blocked(const Ray& ray, float reach) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay query = ray_of(ray, reach);
-    embree().occluded(scene_->scene, &context, &query);
+    embree().occluded(tree_->root.get(), &context, &query);
     return query.tfar < 0;  // Embree marks blocked rays this way.
 }
 

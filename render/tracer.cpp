@@ -18,16 +18,27 @@ constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's s
 constexpr float shine = 0.06F;
 constexpr Colour background{1, 1, 1};
 
+/// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
+/// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
+Vector3 rounding(const Scene::Facet& facet, const std::array<float, 3>& weights, float side) {
+    Vector3 place, offset;
+    for (std::size_t k = 0; k < 3; ++k) place = place + facet.positions[k] * weights[k];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3 normal = facet.normals[k] * side;
+        const float below = std::min(0.0F, dot(place - facet.positions[k], normal));
+        offset = offset - normal * (weights[k] * below);
+    }
+    return offset;
+}
+
 }  // namespace
 
-Tracer::Tracer(const TriangleMesh& mesh, const SurfaceLook& look, const DrawOptions& options,
-               const RayCaster& caster)
-    : mesh_(mesh),
+Tracer::Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options)
+    : caster_(caster),
       look_(look),
       options_(options),
-      caster_(caster),
-      camera_(mesh, options.view, options.width, options.height),
-      box_(bounds(mesh)),
+      camera_(caster.scene(), options.view, options.width, options.height),
+      box_(bounds(caster.scene())),
       size_(length(box_.high - box_.low)) {
     sun_ = unit(camera_.backward() + camera_.up() * 0.9F - camera_.right() * 0.7F);
     sun_frame_ = frame_of(sun_);
@@ -43,21 +54,29 @@ Seen Tracer::trace(float x, float y, float width) const {
     return nothing;
 }
 
+Look Tracer::look_at(const Ray& ray, const Hit& hit, float width) const {
+    if (hit.copy == Hit::body) {
+        return look_({hit, ray.direction, width * camera_.pixel() * hit.distance});
+    }
+    return {light_of(caster_.scene().copies().placements[hit.copy].colour), {}};
+}
+
 Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
-    const auto& [a, b, c] = mesh_.triangles[hit.triangle];
-    const float w = 1 - hit.u - hit.v;
+    const Scene::Facet corners = caster_.scene().facet(hit);
+    const std::array<float, 3> weights = hit.weights();
+    const auto& normals = corners.normals;
     Vector3 normal =
-        unit(mesh_.normals[a] * w + mesh_.normals[b] * hit.u + mesh_.normals[c] * hit.v);
-    Vector3 facet = unit(
-        cross(mesh_.positions[b] - mesh_.positions[a], mesh_.positions[c] - mesh_.positions[a]));
-    const Look look = look_({hit, ray.direction, width * camera_.pixel() * hit.distance});
+        unit(normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2]);
+    Vector3 facet = corners.normal();
+    Look look = look_at(ray, hit, width);
+    for (float& channel : look.light) channel *= corners.shade;
     // Both sides are drawn: the visible one faces the viewer.
     if (dot(facet, ray.direction) > 0) facet = -facet;
     const float side = dot(normal, facet) < 0 ? -1.0F : 1.0F;
     if (look.tilt != Vector3{}) normal = unit(normal + look.tilt);
     if (side < 0) normal = -normal;
     Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
-    if (options_.round_shadows) place = place + rounding(hit, side);
+    if (options_.round_shadows) place = place + rounding(corners, weights, side);
     const Vector3 half = unit(sun_ - ray.direction);
     const float gleam = shine * steady_power(std::max(0.0F, dot(normal, half)), 40);
     const float bright = sun_light * std::max(0.0F, dot(normal, sun_));
@@ -67,26 +86,10 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
         seen.of_sky[k] = look.light[k] * sky_light;
     }
     seen.kind = Seen::Kind::surface;
+    seen.is_copy = hit.copy != Hit::body;
     seen.place = place;
     seen.normal = normal;
     return seen;
-}
-
-/// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
-/// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
-Vector3 Tracer::rounding(const Hit& hit, float side) const {
-    const auto& corners = mesh_.triangles[hit.triangle];
-    const std::array<float, 3> weights = {1 - hit.u - hit.v, hit.u, hit.v};
-    Vector3 place, offset;
-    for (std::size_t k = 0; k < 3; ++k) {
-        place = place + mesh_.positions[corners[k]] * weights[k];
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3 normal = mesh_.normals[corners[k]] * side;
-        const float below = std::min(0.0F, dot(place - mesh_.positions[corners[k]], normal));
-        offset = offset - normal * (weights[k] * below);
-    }
-    return offset;
 }
 
 /// The background, darkened by the surface's shadow.

@@ -19,6 +19,7 @@ struct DiscPoint {
 struct Seen {
     enum class Kind : std::uint8_t { background, ground, surface };
     Kind kind = Kind::background;  ///< The other two are lit by the sun and the sky.
+    bool is_copy = false;          ///< Of a small mesh.
     Colour always{0, 0, 0};
     Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
     Vector3 place, normal;
@@ -27,8 +28,7 @@ struct Seen {
 /// Refers to its arguments, which must outlive it. Safe to use from several threads at once.
 class Tracer {
 public:
-    Tracer(const TriangleMesh& mesh, const SurfaceLook& look, const DrawOptions& options,
-           const RayCaster& caster);
+    Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options);
 
     /// Traces a ray through a point of the picture, in pixels from its upper left corner. The ray
     /// samples a square of `width` pixels.
@@ -49,12 +49,11 @@ public:
 private:
     Seen surface(const Ray& ray, const Hit& hit, float width) const;
     Seen ground(const Ray& ray) const;
-    Vector3 rounding(const Hit& hit, float side) const;
+    Look look_at(const Ray& ray, const Hit& hit, float width) const;
 
-    const TriangleMesh& mesh_;
+    const RayCaster& caster_;
     const SurfaceLook& look_;
     const DrawOptions& options_;
-    const RayCaster& caster_;
     Camera camera_;
     Box box_;
     float size_;

@@ -200,7 +200,7 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team)
         });
     }
     add_levels(cells_, highest, levels, team);
-    return cascade::draw(drawn_.mesh, caster_, shader, options, team);
+    return cascade::draw(caster_, shader, options, team);
 }
 
 }  // namespace cascade

@@ -25,8 +25,8 @@ Result<void> isotropic_remesh(SurfaceMesh&, double, const BringBack&, const std:
 Result<PolygonSoup> read_gltf(std::string_view, const GrantedFiles&) { return needs_program(); }
 
 // Nothing is drawn by tracing rays where there is no ray caster.
-struct RayCaster::Scene {};
-RayCaster::RayCaster(const TriangleMesh&) {
+struct RayCaster::Tree {};
+RayCaster::RayCaster(const Scene& scene) : scene_(scene) {
     CHECK(is_available(), "pictures of surfaces are refused before they are drawn");
 }
 RayCaster::~RayCaster() = default;

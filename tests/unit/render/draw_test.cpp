@@ -184,7 +184,7 @@ TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {
         options.view = {azimuth, 0, {0, 0, 1}};
         Team team(1);
         const Image image = draw(
-            wall, RayCaster(wall),
+            RayCaster(wall),
             [&](const Sight&) {
                 return Look{{0.5F, 0.5F, 0.5F}, tilt};
             },
@@ -216,7 +216,7 @@ TEST(Draw, ASightKnowsHowWideASampleIs) {
         float least = 1, most = 0;
         Team team(1);
         draw(
-            wall, RayCaster(wall),
+            RayCaster(wall),
             [&](const Sight& sight) {
                 least = std::min(least, sight.width);
                 most = std::max(most, sight.width);

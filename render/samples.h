@@ -1,0 +1,69 @@
+// Where the samples of a pixel are, on it and on the lights.
+//
+// Sample positions are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable
+// Effectiveness of Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So
+// a pixel depends neither on its tile nor on the thread.
+#pragma once
+
+#include "core/hash.h"
+#include "render/tracer.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace cascade {
+
+inline constexpr int first_rays = 4;  ///< Of every pixel.
+
+inline float to_fraction(std::uint32_t word) {
+    return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
+}
+
+/// A point of the unit square.
+struct Point {
+    float x = 0, y = 0;
+};
+
+/// Point `k` of a low-discrepancy sequence in the square, shifted by two hashed words: multiples of
+/// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32.
+inline Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
+    return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u)};
+}
+
+/// Where a pixel's first rays go: a turned grid. Their mean place is the middle of the pixel, so
+/// that a constant slope comes out exactly.
+inline Point first_point(std::uint32_t k, std::uint32_t count) {
+    constexpr std::array<Point, first_rays> turned = {
+        {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
+    return count == first_rays ? turned[k] : Point{0.5F, 0.5F};
+}
+
+/// Maps the unit square to the unit disc, preserving ratios of areas: P. Shirley and K. Chiu, "A
+/// Low Distortion Map Between Disk and Square", 1997. Sine and cosine are polynomials, because
+/// those of libraries differ between processors.
+inline DiscPoint on_disc(Point square) {
+    const float a = 2 * square.x - 1, b = 2 * square.y - 1;
+    const bool is_wide = std::abs(a) > std::abs(b);
+    const float radius = is_wide ? a : b;
+    if (radius == 0) return {};
+    const float t = std::numbers::pi_v<float> / 4 * ((is_wide ? b : a) / radius);
+    const float s = t * t;
+    const float sine = t * (1 - s / 6 * (1 - s / 20 * (1 - s / 42)));
+    const float cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30));
+    return is_wide ? DiscPoint{radius * cosine, radius * sine}
+                   : DiscPoint{radius * sine, radius * cosine};
+}
+
+/// The hashed words that shift the sample positions of a pixel.
+struct Shifts {
+    std::array<std::uint32_t, 4> of_rays_and_sun{}, of_sky{};
+};
+
+inline Shifts shifts_of(std::int64_t x, std::int64_t y) {
+    const auto hash = pcg4d({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0});
+    return {hash, pcg4d(hash)};
+}
+
+}  // namespace cascade
