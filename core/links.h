@@ -36,10 +36,12 @@ struct LinkTable {
     const std::uint32_t* starts = nullptr;
     const std::int32_t* bases = nullptr;    ///< By entry: elements from cell (0, 0) to its base.
     const std::int16_t* offsets = nullptr;  ///< Elements from the base to the neighbour.
-    const Number* weights = nullptr;        ///< Factor of (neighbour − cell) in a Laplacian.
+    /// Factor of (neighbour − cell) in a Laplacian; null if the links have no weights.
+    const Number* weights = nullptr;
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
     std::int64_t reach = 1;  ///< The largest number of rows that a link spans; at least 1.
+    const std::uint16_t* filled = nullptr;  ///< By entry: bit k is set if lane k has a link there.
 
     /// Elements from cell (0, 0) to the neighbour to which a link leads.
     std::int64_t target(std::int64_t link) const {
@@ -55,6 +57,13 @@ struct LinkList {
     std::vector<Vector3d> gradients;  ///< Empty, or one for each link.
 };
 
+/// Links without weights between cells in the order in which they lie in memory: those of cell k
+/// end before ends[k]. For links that are made anew while cells move.
+struct PlacedLinks {
+    std::span<const std::size_t> ends;
+    std::span<const std::uint32_t> neighbours;  ///< Cells, in the order of summation.
+};
+
 /// An array aligned to 64 bytes, initially zero. Copies share it.
 template <typename T>
 class AlignedArray {
@@ -66,13 +75,14 @@ public:
     T* data() { return data_.get(); }
     const T* data() const { return data_.get(); }
     std::size_t bytes() const { return count_ * sizeof(T); }
+    bool is_shared() const { return data_.use_count() > 1; }
 
 private:
     std::size_t count_ = 0;
     std::shared_ptr<T[]> data_;
 };
 
-/// Owns a table in one precision. Copies share its arrays, which do not change.
+/// Owns a table in one precision. Copies share its arrays, which do not change but by assign().
 class Links {
 public:
     Links() = default;
@@ -82,6 +92,12 @@ public:
     /// std::bad_alloc.
     Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
           std::span<const std::uint32_t> order = {});
+
+    /// Makes these the links, without weights, in the memory of the present ones where that is
+    /// large enough and not shared with a copy. Tables of the present ones become invalid. `ends`
+    /// has at least one cell and at most those of `layout`, in which cell k is at column k mod
+    /// width of row k / width; padding cells as above. Throws std::bad_alloc.
+    void assign(const PlacedLinks& links, const PlaneLayout& layout, Precision precision);
 
     /// A copy with gradient weights, one for each link of the list given to the constructor; `ends`
     /// is that list's, and layout and order are the same. Throws std::bad_alloc.
@@ -104,12 +120,15 @@ private:
         std::array<AlignedArray<Number>, 3> gradients;
     };
 
-    void for_each_element(const Placing& placing, const auto& use, const auto& fill_up) const;
+    void add_entry(auto& slice, const auto& target);
+    void add_near_slice(const auto& slice, std::span<const std::int32_t> elements);
+    std::int16_t* add_offsets(std::size_t entries);
+    void for_each_link(const Placing& placing, const auto& use) const;
 
     std::int64_t reach_ = 1;
     std::vector<std::uint32_t> starts_;
     std::vector<std::int32_t> bases_;
-    std::vector<std::uint16_t> filled_;  ///< By entry: the lanes whose links are no padding.
+    std::vector<std::uint16_t> filled_;
     AlignedArray<std::int16_t> offsets_;
     std::variant<Weights<float>, Weights<double>> weights_;
 };
