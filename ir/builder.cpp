@@ -81,6 +81,7 @@ ValueId KernelBuilder::over_links(Op op, FieldSlot slot) {
 }
 
 ValueId KernelBuilder::link_flow(Flow flow) { return emit({Op::link_flow, {}, flow.payload()}); }
+ValueId KernelBuilder::theirs(FieldSlot slot) { return emit({Op::theirs, {}, slot.index()}); }
 ValueId KernelBuilder::mask(MaskSlot slot) { return emit({Op::mask, {}, slot.index()}); }
 ValueId KernelBuilder::uniform(UniformSlot slot) { return emit({Op::uniform, {}, slot.index()}); }
 ValueId KernelBuilder::cell_column() { return emit({Op::cell_column, {}, 0}); }
@@ -131,7 +132,7 @@ ValueId KernelBuilder::emit(Instruction instruction) {
     for (std::size_t k = 0; static_cast<int>(k) < arity; ++k) {
         CHECK(instruction.operands[k] < next(), "builder: an operand is a value of this builder");
     }
-    if (arity > 0) {
+    if (arity > 0 && !is_link_reduction(instruction.op)) {
         if (const std::optional<ValueId> known = simplify(instruction)) return *known;
     }
     std::uint64_t key = hash_of(instruction);

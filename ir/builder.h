@@ -42,6 +42,13 @@ public:
     /// A sum over a cell's links of differences of one field; only in a kernel for a surface.
     ValueId over_links(Op op, FieldSlot slot);
     ValueId link_flow(Flow flow);
+    /// The value of a field in the cell to which a link leads; only below a reduction.
+    ValueId theirs(FieldSlot slot);
+    /// Over the links of a cell; only in a kernel for linked cells. `a` may be of links or of
+    /// cells.
+    ValueId link_sum(ValueId a) { return apply(Op::link_sum, a); }
+    ValueId link_least(ValueId a) { return apply(Op::link_least, a); }
+    ValueId link_greatest(ValueId a) { return apply(Op::link_greatest, a); }
     ValueId mask(MaskSlot slot);
     ValueId uniform(UniformSlot slot);
     ValueId cell_column();

@@ -2,6 +2,7 @@
 #include "ir/cell_kernel.h"
 
 #include "core/check.h"
+#include "ir/loop_levels.h"
 
 #include <fmt/format.h>
 
@@ -128,7 +129,7 @@ bool CellKernel::reads_neighbours(FieldSlot slot) const {
     for (const Instruction& instruction : code) {
         if (instruction.op == Op::neighbour) {
             if (Neighbour::of(instruction.slot()).slot == slot) return true;
-        } else if (is_link_sum(instruction.op)) {
+        } else if (is_link_sum(instruction.op) || instruction.op == Op::theirs) {
             if (instruction.field() == slot) return true;
             const bool is_flow = instruction.op == Op::link_flow;
             if (is_flow && Flow::with(instruction.payload).factor == slot) return true;
@@ -142,8 +143,10 @@ IdVector<ValueId, bool> varying(const CellKernel& kernel) {
     varies.reserve(kernel.code.size());
     for (const Instruction& instruction : kernel.code) {
         const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
+        // Cells differ in the number of their links, too.
         bool differs =
-            arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform;
+            is_link_reduction(instruction.op) ||
+            (arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform);
         for (std::size_t k = 0; k < arity; ++k) {
             differs = differs || varies[instruction.operands[k]];
         }
@@ -170,7 +173,7 @@ IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& k
             add(readers[instruction.field()], users[id]);
         } else if (instruction.op == Op::neighbour) {
             readers[Neighbour::of(instruction.slot()).slot] = several;
-        } else if (is_link_sum(instruction.op)) {
+        } else if (is_link_sum(instruction.op) || instruction.op == Op::theirs) {
             readers[instruction.field()] = several;
             if (instruction.op == Op::link_flow) {
                 readers[Flow::with(instruction.payload).factor] = several;
@@ -223,9 +226,15 @@ std::string verify(const CellKernel& kernel) {
         const std::string wrong = verify_instruction(kernel, id);
         if (!wrong.empty()) return fmt::format("%{} {}", id.index(), wrong);
     }
+    const IdVector<ValueId, LoopLevel> levels = loop_levels_of(kernel);
     for (std::size_t k = 0; k < kernel.results.size(); ++k) {
-        if (kernel.results[k] < kernel.code.next()) continue;
-        return fmt::format("result {} is %{}, which does not exist", k, kernel.results[k].index());
+        const ValueId result = kernel.results[k];
+        const char* const wrong = result >= kernel.code.next()        ? "does not exist"
+                                  : levels[result] == LoopLevel::link ? "is of links, not of cells"
+                                                                      : nullptr;
+        if (wrong != nullptr) {
+            return fmt::format("result {} is %{}, which {}", k, result.index(), wrong);
+        }
     }
     if (kernel.result_names.size() != kernel.results.size()) {
         return fmt::format("{} results have {} names", kernel.results.size(),

@@ -113,6 +113,11 @@ constexpr bool is_link_sum(Op op) {
            op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
 }
 
+/// Whether an operation computes a value of a cell from one of each of its links.
+constexpr bool is_link_reduction(Op op) {
+    return op == Op::link_sum || op == Op::link_least || op == Op::link_greatest;
+}
+
 /// The program of one cell. `results[k]` is the value stored in output field k. Slot numbers are
 /// indices into the lists of slot names, which serve dumps and messages.
 struct CellKernel {
@@ -144,7 +149,8 @@ std::uint64_t hash(const CellKernel& kernel);
 /// The kernel as text, one value per line: `%7 = multiply %3, %5`. The format is stable.
 std::string print(const CellKernel& kernel);
 
-/// Checks that operands precede their users and that slots and results exist. Returns an empty text
+/// Checks that operands precede their users, that slots and results exist, and that no result is of
+/// link level (operations.def). Returns an empty text
 /// or the error. Tests and debug builds call it after every pass that makes a kernel.
 std::string verify(const CellKernel& kernel);
 

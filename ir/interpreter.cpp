@@ -3,11 +3,14 @@
 // Uniform values (constants, uniforms and what is computed from them) are single words, computed
 // once per run. All others are in registers of 256 words, which are reused as soon as no later
 // instruction reads them: a chain of a million operations needs two. Fields are read in place.
+// Values of links are computed for the first links of all cells of a block, then for the second
+// ones, and so on.
 #include "ir/interpreter.h"
 
 #include "core/check.h"
 #include "core/floating_point.h"
 #include "ir/block_loops.h"
+#include "ir/loop_levels.h"
 #include "ir/word_operations.h"
 
 #include <algorithm>
@@ -15,6 +18,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -42,7 +46,7 @@ struct ScalarStep {
     std::array<std::uint32_t, 3> operands{};  ///< Scalars.
 };
 
-/// An instruction that is computed once per block, into a register.
+/// An instruction that is computed once per block, or once per link of its cells, into a register.
 template <typename Number>
 struct BlockStep {
     Op op = Op::constant;
@@ -52,10 +56,24 @@ struct BlockStep {
     BlockLoop<Number> loop = nullptr;  ///< For operations that only depend on their operands.
 };
 
+/// A value of cells that is computed from one of each link, in a register.
+struct Reduction {
+    Op op = Op::link_sum;
+    std::uint32_t target = 0;
+    Location operand;
+};
+
+/// Steps that are computed once per block, or for each link if there are reductions.
+template <typename Number>
+struct Section {
+    std::vector<BlockStep<Number>> steps;
+    std::vector<Reduction> reductions;
+};
+
 template <typename Number>
 struct Plan {
     std::vector<ScalarStep> scalar_steps;  ///< Step k computes scalar k.
-    std::vector<BlockStep<Number>> block_steps;
+    std::vector<Section<Number>> sections = std::vector<Section<Number>>(1);
     std::vector<Location> results;
     std::uint32_t register_count = 0;
 };
@@ -67,12 +85,18 @@ public:
     explicit Planner(const CellKernel& kernel)
         : kernel_(kernel),
           varies_(varying(kernel)),
+          levels_(loop_levels_of(kernel)),
+          schedule_(cell_schedule_of(kernel, levels_)),
           locations_(kernel.code.size()),
           readers_(kernel.code.size()) {}
 
     Plan<Number> plan() && {
         count_readers();
-        for (const ValueId id : kernel_.code.ids()) locate(id);
+        for (const ValueId id : kernel_.code.ids()) {
+            if (levels_[id] < LoopLevel::cell) locate(id);
+        }
+        for (const LinkLoop& loop : schedule_.loops) locate_loop(loop);
+        for (const ValueId id : schedule_.after) locate(id);
         for (const ValueId id : kernel_.results) plan_.results.push_back(locations_[id]);
         return std::move(plan_);
     }
@@ -82,10 +106,22 @@ private:
         return static_cast<std::size_t>(info(kernel_.code[id].op).arity);
     }
 
-    void count_readers() {
-        for (const ValueId id : kernel_.code.ids()) {
+    void count_reads(const std::vector<ValueId>& values) {
+        for (const ValueId id : values) {
             for (std::size_t k = 0; k < arity(id); ++k) ++readers_[kernel_.code[id].operands[k]];
         }
+    }
+
+    void count_readers() {
+        for (const ValueId id : kernel_.code.ids()) {
+            if (levels_[id] < LoopLevel::cell) count_reads({id});
+        }
+        for (const LinkLoop& loop : schedule_.loops) {
+            count_reads(loop.before);
+            count_reads(loop.values);
+            count_reads(loop.reductions);
+        }
+        count_reads(schedule_.after);
         // Results are read at the end of the block, so their registers are never released.
         for (const ValueId id : kernel_.results) ++readers_[id];
     }
@@ -100,6 +136,26 @@ private:
         } else {
             locate_vector(id);
         }
+    }
+
+    /// What the loop reads of the cells is released after it, since each link reads it.
+    void locate_loop(const LinkLoop& loop) {
+        for (const ValueId id : loop.before) locate(id);
+        for (const ValueId id : loop.reductions) {
+            locations_[id] = {Location::Kind::vector, take_register()};
+        }
+        plan_.sections.emplace_back();
+        is_in_loop_ = true;
+        for (const ValueId id : loop.values) locate(id);
+        for (const ValueId id : loop.reductions) {
+            const ValueId operand = kernel_.code[id].operands[0];
+            plan_.sections.back().reductions.push_back(
+                {kernel_.code[id].op, locations_[id].index, locations_[operand]});
+            release(operand);
+        }
+        is_in_loop_ = false;
+        for (const ValueId id : std::exchange(read_in_loop_, {})) release(id);
+        plan_.sections.emplace_back();
     }
 
     void locate_scalar(ValueId id) {
@@ -129,7 +185,7 @@ private:
         for (std::size_t k = 0; k < arity(id); ++k) release(instruction.operands[k]);
         locations_[id] = {Location::Kind::vector, step.target};
         if (readers_[id] == 0) free_.push_back(step.target);
-        plan_.block_steps.push_back(step);
+        plan_.sections.back().steps.push_back(step);
     }
 
     std::uint32_t take_register() {
@@ -140,14 +196,22 @@ private:
     }
 
     void release(ValueId id) {
+        if (is_in_loop_ && levels_[id] < LoopLevel::link) {
+            read_in_loop_.push_back(id);
+            return;
+        }
         if (--readers_[id] != 0 || locations_[id].kind != Location::Kind::vector) return;
         free_.push_back(locations_[id].index);
     }
 
     const CellKernel& kernel_;
     const IdVector<ValueId, bool> varies_;
+    const IdVector<ValueId, LoopLevel> levels_;
+    const CellSchedule schedule_;
     IdVector<ValueId, Location> locations_;
     IdVector<ValueId, std::uint32_t> readers_;  ///< Remaining reads of a value.
+    bool is_in_loop_ = false;
+    std::vector<ValueId> read_in_loop_;
     std::vector<std::uint32_t> free_;
     Plan<Number> plan_;
 };
@@ -176,7 +240,7 @@ public:
             for (column_ = columns.begin; column_ < columns.end; column_ += block_cells) {
                 count_ = std::min(block_cells, columns.end - column_);
                 offset_ = layout.row_start(number) + column_;
-                for (const BlockStep<Number>& step : plan_.block_steps) compute(step);
+                for (const Section<Number>& section : plan_.sections) compute(section);
                 for (std::size_t k = 0; k < plan_.results.size(); ++k) store(k);
             }
         }
@@ -220,6 +284,68 @@ private:
         return arguments_.fields[at.slot.index()] + offset;
     }
 
+    void compute(const Section<Number>& section) {
+        if (!section.reductions.empty()) return reduce_links(section);
+        for (const BlockStep<Number>& step : section.steps) compute(step);
+    }
+
+    void reduce_links(const Section<Number>& section) {
+        constexpr Number infinity = std::numeric_limits<Number>::infinity();
+        for (const Reduction& each : section.reductions) {
+            const Number first = each.op == Op::link_sum     ? Number{0}
+                                 : each.op == Op::link_least ? infinity
+                                                             : -infinity;
+            std::fill_n(register_of(each.target), count_, first);
+        }
+        for (std::int64_t number = 0; find_links(number); ++number) {
+            for (const BlockStep<Number>& step : section.steps) compute(step);
+            for (const Reduction& each : section.reductions) reduce_links(each);
+        }
+    }
+
+    void reduce_links(const Reduction& reduction) {
+        const bool is_scalar = reduction.operand.kind == Location::Kind::scalar;
+        const Number* const a = address(reduction.operand);
+        Number* const out = register_of(reduction.target);
+        for (std::int64_t i = 0; i < count_; ++i) {
+            const auto place = static_cast<std::size_t>(i);
+            if (has_link_[place]) out[i] = reduced(reduction.op, out[i], a[is_scalar ? 0 : i]);
+        }
+    }
+
+    /// One more value of a link. NaN stays.
+    static Number reduced(Op op, Number before, Number a) {
+        const Number value = keeps_denormals() ? a : flushed(a);
+        if (op == Op::link_sum) return before + value;
+        const bool is_farther = op == Op::link_least ? before < value : before > value;
+        return std::isnan(before) || is_farther ? before : value;
+    }
+
+    /// Finds the entries of this number in the slices of the block. False: there are none.
+    bool find_links(std::int64_t number) {
+        constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
+        const LinkTable<Number>& links = arguments_.links;
+        bool has_entries = false;
+        for (std::int64_t i = 0; i < count_; ++i) {
+            const std::int64_t slice = first_slice() + i / slice_cells, lane = i % slice_cells;
+            const std::int64_t entry = links.starts[slice] + number;
+            const bool is_entry = entry < links.starts[slice + 1];
+            const auto place = static_cast<std::size_t>(i);
+            has_entries = has_entries || is_entry;
+            has_link_[place] = is_entry && (links.filled[entry] >> lane & 1) != 0;
+            targets_[place] =
+                has_link_[place] ? links.target(entry * slice_cells + lane) : offset_ + i;
+        }
+        return has_entries;
+    }
+
+    /// The slice of the block's first cell.
+    std::int64_t first_slice() const {
+        constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
+        const std::int64_t slices = (arguments_.layout.width + slice_cells - 1) / slice_cells;
+        return row_ * slices + column_ / slice_cells;
+    }
+
     void compute(const BlockStep<Number>& step) {
         Number* out = register_of(step.target);
         if (step.loop) {
@@ -240,6 +366,11 @@ private:
             case Op::gradient_x:
             case Op::gradient_y:
             case Op::gradient_z: over_links(out, step); break;
+            case Op::theirs:
+                for (std::int64_t i = 0; i < count_; ++i) {
+                    out[i] = arguments_.fields[step.payload][targets_[static_cast<std::size_t>(i)]];
+                }
+                break;
             case Op::mask: mask(out, arguments_.masks[step.payload] + offset_); break;
             case Op::cell_column:
                 for (std::int64_t i = 0; i < count_; ++i) {
@@ -329,9 +460,8 @@ private:
     void sum_over_links(Number* __restrict out, const Number* f, const Term& term) const {
         constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
         const LinkTable<Number>& links = arguments_.links;
-        const std::int64_t slices = (arguments_.layout.width + slice_cells - 1) / slice_cells;
         for (std::int64_t first = 0; first < count_; first += slice_cells) {
-            const std::int64_t slice = row_ * slices + (column_ + first) / slice_cells;
+            const std::int64_t slice = first_slice() + first / slice_cells;
             const std::int64_t cells = std::min(slice_cells, count_ - first);
             for (std::int64_t lane = 0; lane < cells; ++lane) {
                 const std::int64_t i = offset_ + first + lane;
@@ -364,11 +494,12 @@ private:
 
     /// As kernels of WebAssembly do. Zeros keep their sign, and so does what becomes one.
     void flush(Number* out) const {
-        for (std::int64_t i = 0; i < count_; ++i) {
-            if (std::abs(out[i]) < std::numeric_limits<Number>::min()) {
-                out[i] = std::copysign(Number{0}, out[i]);
-            }
-        }
+        for (std::int64_t i = 0; i < count_; ++i) out[i] = flushed(out[i]);
+    }
+
+    static Number flushed(Number value) {
+        const bool is_tiny = std::abs(value) < std::numeric_limits<Number>::min();
+        return is_tiny ? std::copysign(Number{0}, value) : value;
     }
 
     const Plan<Number>& plan_;
@@ -381,6 +512,10 @@ private:
     std::int64_t column_ = 0;  ///< Of the block's first cell.
     std::int64_t count_ = 0;   ///< Cells of the block.
     std::int64_t offset_ = 0;  ///< From cell (0, 0, 0) to the block's first cell, in elements.
+    // Of the links that are being reduced, by cell of the block.
+    std::array<bool, block_cells> has_link_{};
+    std::array<std::int64_t, block_cells>
+        targets_{};  ///< Elements; of cells without link their own.
 };
 
 template <typename Number>

@@ -1,11 +1,14 @@
 // Counts instruction by instruction; repeated loads of a neighbour, mask or link table count once.
 #include "ir/kernel_cost.h"
 
+#include "ir/loop_levels.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -38,8 +41,13 @@ public:
           is_folded_(signs_of_multiply_adds(kernel)) {}
 
     KernelCost count() {
+        const IdVector<ValueId, LoopLevel> levels = loop_levels_of(kernel_);
         for (const ValueId id : kernel_.code.ids()) {
-            if (varies_[id] && !is_folded_[id]) add(kernel_.code[id]);
+            if (levels[id] != LoopLevel::link) add(id, 1);
+        }
+        for (const LinkLoop& loop : cell_schedule_of(kernel_, levels).loops) {
+            load_places();
+            for (const ValueId id : loop.values) add(id, links_);
         }
         const auto stores = static_cast<double>(kernel_.results.size());
         cost_.stores += stores;
@@ -50,7 +58,10 @@ public:
 private:
     using Read = std::tuple<FieldSlot, int, int, int>;
 
-    void add(const Instruction& instruction) {
+    /// Adds what is computed `times` times in a cell.
+    void add(ValueId id, double times) {
+        if (!varies_[id] || is_folded_[id]) return;
+        const Instruction& instruction = kernel_.code[id];
         switch (instruction.op) {
             case Op::cell_column:
             case Op::cell_row:
@@ -68,13 +79,19 @@ private:
             case Op::gradient_x:
             case Op::gradient_y:
             case Op::gradient_z: add_link_sum({instruction.field()}, instruction.op, 3); break;
-            default: add_operation(instruction);
+            case Op::theirs: gather(instruction.field()); break;
+            case Op::link_sum:
+            case Op::link_least:
+            case Op::link_greatest: cost_.operations += links_; break;
+            default: add_operation(instruction, times);
         }
     }
 
-    void add_operation(const Instruction& instruction) {
-        cost_.operations += 1;
-        if (instruction.op == Op::divide || instruction.op == Op::square_root) cost_.divisions += 1;
+    void add_operation(const Instruction& instruction, double times) {
+        cost_.operations += times;
+        if (instruction.op == Op::divide || instruction.op == Op::square_root) {
+            cost_.divisions += times;
+        }
     }
 
     /// Along an axis of one cell the neighbour is the cell itself.
@@ -111,18 +128,25 @@ private:
         cost_.operations += operations * links_;
         for (const FieldSlot slot : slots) {
             load({slot, 0, 0, 0});
-            if (!gathered_.insert(slot).second) continue;
-            cost_.loads += links_;
-            cost_.load_bytes += links_ * word_;
+            gather(slot);
         }
-        if (!has_places_) {
-            cost_.loads += links_;
-            add_link_bytes(sizeof(std::int32_t));
-        }
-        has_places_ = true;
+        load_places();
         if (!weights_.insert(weights).second) return;
         cost_.loads += links_;
         add_link_bytes(word_);
+    }
+
+    /// Loads what a field holds in the cells to which links lead.
+    void gather(FieldSlot slot) {
+        if (!gathered_.insert(slot).second) return;
+        cost_.loads += links_;
+        cost_.load_bytes += links_ * word_;
+    }
+
+    void load_places() {
+        if (std::exchange(has_places_, true)) return;
+        cost_.loads += links_;
+        add_link_bytes(sizeof(std::int32_t));
     }
 
     void add_link_bytes(double bytes) {

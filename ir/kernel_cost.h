@@ -4,7 +4,8 @@
 // cell. Uniform values are computed once and not counted, nor are negations that a multiply-add
 // includes. A Laplacian counts the operations of its sum: in two dimensions three sums of
 // neighbours, a product and a difference. A load is a value from memory, counted once if it
-// repeats: a Laplacian has five loads, and reading the cell's own value as well adds none.
+// repeats: a Laplacian has five loads, and reading the cell's own value as well adds none. What is
+// computed for links counts once for each link and loop over them.
 #pragma once
 
 #include "core/grid.h"

@@ -2,6 +2,8 @@
 // equal numbers.
 #include "ir/kernel_parts.h"
 
+#include "ir/loop_levels.h"
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -9,7 +11,7 @@
 namespace cascade {
 namespace {
 
-// A kernel stays whole if its parts would be larger by this factor, in tenths.
+// A kernel stays whole if its parts would take longer by this factor, in tenths.
 constexpr std::size_t most_growth = 12;
 
 /// Calls `visit` with what results are computed from, each value once.
@@ -103,6 +105,21 @@ KernelPart part_of(const CellKernel& kernel, std::vector<std::size_t> results) {
     return part;
 }
 
+/// The size of a kernel by the time that it takes to run: what is computed for links counts as
+/// often as cells that crowd have neighbours.
+std::size_t time_of(const CellKernel& kernel) {
+    constexpr std::size_t links = 12;
+    constexpr std::size_t operations_of_gather = 8;
+    std::size_t time = size_of(kernel);
+    for (const LinkLoop& loop : cell_schedule_of(kernel, loop_levels_of(kernel)).loops) {
+        time += links * (loop.values.size() + loop.reductions.size());
+        for (const ValueId id : loop.values) {
+            if (kernel.code[id].op == Op::theirs) time += links * operations_of_gather;
+        }
+    }
+    return time;
+}
+
 }  // namespace
 
 std::size_t size_of(const CellKernel& kernel) {
@@ -125,17 +142,17 @@ std::vector<KernelPart> parts_of(const CellKernel& kernel) {
     }
     const std::vector<std::size_t> order = in_families(kernel);
     const KernelPart whole = part_of(kernel, order);
-    const std::size_t most_size = size_of(whole.kernel) * most_growth / 10;
+    const std::size_t most_time = time_of(whole.kernel) * most_growth / 10;
     const std::size_t parts = (count + most_results_of_a_part - 1) / most_results_of_a_part;
     std::vector<KernelPart> divided;
-    std::size_t size = 0;
+    std::size_t time = 0;
     for (std::size_t k = 0; k < parts; ++k) {
         const auto at = [&](std::size_t part) {
             return order.begin() + static_cast<std::ptrdiff_t>(part * count / parts);
         };
         divided.push_back(part_of(kernel, {at(k), at(k + 1)}));
-        size += size_of(divided.back().kernel);
-        if (size > most_size) return {whole};
+        time += time_of(divided.back().kernel);
+        if (time > most_time) return {whole};
     }
     return divided;
 }

@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// True for the operations that only depend on their operands.
+/// True for the operations that only depend on their operands in one cell or link.
 constexpr bool is_function_of_operands(Op op) { return op >= Op::add; }
 static_assert(static_cast<int>(Op::add) == static_cast<int>(Op::cell_slice) + 1,
               "the sources come first in the table");

@@ -84,6 +84,10 @@ public:
     /// The same if the operation is the identity where `partner`, the other operand, is the
     /// constant `neutral` or minus that.
     llvm::Value* operand(ValueId id, ValueId partner, double neutral);
+    /// A value as a number that is flushed already, whatever LLVM makes of what follows.
+    llvm::Value* flushed_number(ValueId id) {
+        return forms(id).may_be_denormal ? flushed(id) : number(id);
+    }
     /// A value as one branch of a choice, `other` being the other one.
     llvm::Value* branch(ValueId id, ValueId other);
 

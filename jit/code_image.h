@@ -39,8 +39,8 @@ using LinkedFunction = void(const Number* const* fields, const std::uint8_t* con
                             const std::uint32_t* starts, const std::int32_t* bases,
                             const std::int16_t* offsets, const Number* weights,
                             const Number* gradient_x, const Number* gradient_y,
-                            const Number* gradient_z, Number* pairs, std::int64_t first_of_pairs,
-                            std::int64_t end_of_pairs);
+                            const Number* gradient_z, const std::uint16_t* filled, Number* pairs,
+                            std::int64_t first_of_pairs, std::int64_t end_of_pairs);
 
 /// Code and constants of one function.
 struct CodeImage {

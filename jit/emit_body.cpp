@@ -9,6 +9,7 @@
 #include <llvm/IR/Intrinsics.h>
 
 #include <array>
+#include <vector>
 
 namespace cascade {
 namespace {
@@ -70,6 +71,7 @@ Forms BodyEmitter::emit(const Instruction& instruction) {
         case Op::gradient_x:
         case Op::gradient_y:
         case Op::gradient_z:
+        case Op::theirs:
         case Op::mask:
         case Op::uniform:
         case Op::cell_column:
@@ -102,8 +104,11 @@ Forms BodyEmitter::emit(const Instruction& instruction) {
         case Op::bits_shift_left:
         case Op::bits_shift_right:
         case Op::bits_to_number: return emit_word(instruction);
+        case Op::link_sum:
+        case Op::link_least:
+        case Op::link_greatest: break;
     }
-    CHECK(false, "an operation of the table");
+    CHECK(false, "an operation of the table, and no loop");
     return {};
 }
 
@@ -126,6 +131,10 @@ Forms BodyEmitter::emit_source(const Instruction& instruction) {
         case Op::gradient_x:
         case Op::gradient_y:
         case Op::gradient_z: value.number = sources.link_sum(instruction); break;
+        case Op::theirs:
+            value.number = sources.theirs(instruction.field());
+            value.may_be_denormal = true;
+            break;
         case Op::mask:
             value.truth = sources.mask(MaskSlot(instruction.slot()));
             value.is_boolean = value.is_choice = true;
@@ -282,12 +291,20 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
 
 }  // namespace
 
-void emit_body(BodyScope& scope, llvm::function_ref<void(ValueId)> after) {
+void emit_body(BodyScope& scope) {
     const Body& body = scope.body();
-    BodyEmitter emitter(scope);
+    std::vector<ValueId> values;
     for (const ValueId id : body.kernel.code.ids()) {
-        if (body.levels[id] != scope.level()) continue;
-        scope.define(id, emitter.emit(body.kernel.code[id]));
+        if (body.levels[id] == scope.level()) values.push_back(id);
+    }
+    emit_values(scope, values);
+}
+
+void emit_values(BodyScope& scope, llvm::ArrayRef<ValueId> values,
+                 llvm::function_ref<void(ValueId)> after) {
+    BodyEmitter emitter(scope);
+    for (const ValueId id : values) {
+        scope.define(id, emitter.emit(scope.body().kernel.code[id]));
         after(id);
     }
 }

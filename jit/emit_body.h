@@ -13,8 +13,10 @@
 namespace cascade {
 
 /// Writes all instructions of the scope's loop level, after those of the levels around it.
-/// Calls `after` after each.
-void emit_body(
-    BodyScope& scope, llvm::function_ref<void(ValueId)> after = [](ValueId) {});
+void emit_body(BodyScope& scope);
+/// Writes some of them, in this order, and calls `after` after each.
+void emit_values(
+    BodyScope& scope, llvm::ArrayRef<ValueId> values,
+    llvm::function_ref<void(ValueId)> after = [](ValueId) {});
 
 }  // namespace cascade

@@ -21,7 +21,7 @@ inline std::vector<FieldPair> field_pairs(const CellKernel& kernel) {
     if (kernel.precision != Precision::single) return {};
     std::set<FieldSlot> slots;
     for (const Instruction& instruction : kernel.code) {
-        if (!is_link_sum(instruction.op)) continue;
+        if (!is_link_sum(instruction.op) && instruction.op != Op::theirs) continue;
         const Flow flow = Flow::with(instruction.payload);
         slots.insert(flow.of);
         if (instruction.op == Op::link_flow) slots.insert(flow.factor);

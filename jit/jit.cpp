@@ -33,7 +33,8 @@ public:
           function_(std::move(function)) {
         for (const Instruction& instruction : kernel.code) {
             const Op op = instruction.op;
-            has_link_sums_ |= stencil.links && is_link_sum(op);
+            reads_links_ |= stencil.links && (is_link_sum(op) || is_link_reduction(op));
+            reads_weights_ |= stencil.links && is_link_sum(op);
             has_gradients_ |= op >= Op::gradient_x && op <= Op::gradient_z;
         }
     }
@@ -80,14 +81,15 @@ private:
         const LinkTable<Number>& links = arguments.links;
         CHECK(columns.begin == 0 && columns.end == layout.width,
               "linked cells are computed in whole rows");
-        CHECK(!has_link_sums_ || links.starts, "a kernel that sums over links is given them");
+        CHECK(!reads_links_ || links.starts, "a kernel that reduces links is given them");
+        CHECK(!reads_weights_ || links.weights, "and weights, where it asks for them");
         CHECK(!has_gradients_ || links.gradients[2], "and gradients, where it asks for them");
         const auto run = [&](RowRange part, Number* pairs, RowRange copied) {
             function_->template as<LinkedFunction<Number>>()(
                 arguments.fields.data(), arguments.masks.data(), arguments.uniforms.data(),
                 arguments.results.data(), columns.begin, columns.end, layout.stride, part.begin,
                 part.end, links.starts, links.bases, links.offsets, links.weights,
-                links.gradients[0], links.gradients[1], links.gradients[2], pairs,
+                links.gradients[0], links.gradients[1], links.gradients[2], links.filled, pairs,
                 copied.begin * layout.stride, copied.end * layout.stride);
         };
         if (pairs_ == 0) return run(rows, nullptr, {0, 0});
@@ -109,7 +111,7 @@ private:
 
     Stencil stencil_;
     std::size_t fields_, masks_, uniforms_, results_, pairs_;
-    bool has_link_sums_ = false, has_gradients_ = false;
+    bool reads_links_ = false, reads_weights_ = false, has_gradients_ = false;
     std::unique_ptr<LoadedFunction> function_;
 };
 

@@ -23,5 +23,6 @@ llvm::Value* Sources::neighbour(Neighbour) { return not_here(); }
 llvm::Value* Sources::link_sum(const Instruction&) { return not_here(); }
 llvm::Value* Sources::mask(MaskSlot) { return not_here(); }
 llvm::Value* Sources::cell_column() { return not_here(); }
+llvm::Value* Sources::theirs(FieldSlot) { return not_here(); }
 
 }  // namespace cascade

@@ -34,6 +34,8 @@ public:
     virtual llvm::Value* link_sum(const Instruction& sum);  ///< <N x float>; all but `laplacian`
     virtual llvm::Value* mask(MaskSlot slot);               ///< <N x i1>
     virtual llvm::Value* cell_column();                     ///< <N x i32>
+    // Of the links.
+    virtual llvm::Value* theirs(FieldSlot slot);  ///< <N x float>
 };
 
 }  // namespace cascade

@@ -1,6 +1,8 @@
 // The loops over rows and vectors, loads from the cells themselves, and stores.
 #include "jit/skeleton.h"
 
+#include "core/check.h"
+
 #include <deque>
 
 namespace cascade {
@@ -95,6 +97,10 @@ void CellSources::store(std::size_t result, Value* number) {
         builder_.CreateAlignedStore(number, address, alignment(frame_.vector_bytes())), result + 1);
 }
 
+void CellSources::reduce_links(BodyScope&, const LinkLoop&) {
+    CHECK(false, "only linked cells have links");
+}
+
 Value* KernelLoops::OuterSources::cell_row() {
     Value* row = row_;
     if (frame_.has_slices()) {
@@ -115,6 +121,7 @@ Value* KernelLoops::OuterSources::word(Value* count) {
 KernelLoops::KernelLoops(KernelFrame& frame)
     : frame_(frame),
       body_(body_of(frame.kernel(), frame.shape(), frame.builder())),
+      schedule_(cell_schedule_of(frame.kernel(), body_.levels)),
       sources_(frame, frame.builder(), nullptr),
       scope_(body_, LoopLevel::call, frame.builder(), sources_, nullptr) {
     emit_body(scope_);
@@ -195,7 +202,11 @@ void KernelLoops::body(CellSources& cells, Builder& builder, const CellVector& v
         cells.store(stored, scope.number(results[stored]));
         ++stored;
     };
-    emit_body(scope, [&](ValueId done) {
+    for (const LinkLoop& loop : schedule_.loops) {
+        emit_values(scope, loop.before);
+        cells.reduce_links(scope, loop);
+    }
+    emit_values(scope, schedule_.after, [&](ValueId done) {
         if (!frame_.part().is_in_order) return;
         while (stored < results.size() && results[stored] <= done) store_next();
     });

@@ -144,6 +144,8 @@ public:
     llvm::Value* mask(MaskSlot slot) override;
     llvm::Value* cell_column() override;
     void store(std::size_t result, llvm::Value* number);
+    /// Writes a loop over the links of the cells, and defines its reductions in their scope.
+    virtual void reduce_links(BodyScope& cells, const LinkLoop& loop);
 
 protected:
     // Hides from LLVM's strength reduction how an element number was computed. It would replace
@@ -206,6 +208,7 @@ private:
 
     KernelFrame& frame_;
     Body body_;
+    CellSchedule schedule_;
     OuterSources sources_;
     BodyScope scope_;
 };

@@ -4,11 +4,11 @@
 // LinkTable:
 //
 //     const uint32_t *starts, const int32_t *bases, const int16_t *offsets,
-//     const float *weights, const float *gradient_x, const float *gradient_y, const float
-//     *gradient_z
+//     const float *weights, const float *gradient_x, const float *gradient_y,
+//     const float *gradient_z, const uint16_t *filled,
 //     float *pairs, int64_t first_of_pairs, int64_t end_of_pairs
 //
-// of which those that no sum of the kernel asks for are not read. `pairs` is scratch, aligned to 64
+// of which those that the kernel does not need are not read. `pairs` is scratch, aligned to 64
 // bytes, for the elements first_of_pairs … end_of_pairs − 1 of all pairs of fields
 // (jit/field_pairs.h), two numbers each; they include all that the rows' links lead to, and begin
 // and end at multiples of PlaneLayout::row_pad.

@@ -31,7 +31,7 @@ struct Extended<void(First...), More...> {
 using PlaneFunction = Extended<Shared, std::int32_t, std::int32_t>::Type;
 using VolumeFunction = PlaneFunction;
 using LinkedFunction = Extended<Shared, const void*, const void*, const void*, const void*,
-                                const void*, const void*, const void*>::Type;
+                                const void*, const void*, const void*, const void*>::Type;
 
 /// A place in the engine's table of functions, which a pointer to a function is.
 class ModuleFunction {
@@ -73,7 +73,8 @@ public:
             call(function_.as<LinkedFunction>(), cells.rows, static_cast<const void*>(links.starts),
                  static_cast<const void*>(links.bases), static_cast<const void*>(links.offsets),
                  static_cast<const void*>(links.weights), static_cast<const void*>(x),
-                 static_cast<const void*>(y), static_cast<const void*>(z));
+                 static_cast<const void*>(y), static_cast<const void*>(z),
+                 static_cast<const void*>(links.filled));
         } else if (stencil_.z) {
             for_each_slice(layout, cells.rows, [&](RowRange rows, std::int64_t slice) {
                 call(function_.as<VolumeFunction>(), rows, word(layout.slice_rows()), word(slice));

@@ -4,13 +4,15 @@
 #include "core/check.h"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace cascade::wasm {
 namespace {
 
 /// Whether the result may be a denormal number although exact arithmetic flushes.
 bool passes_words(Op op) {
-    return op == Op::field || op == Op::neighbour || op == Op::uniform ||
+    return op == Op::field || op == Op::neighbour || op == Op::theirs || op == Op::uniform ||
            (op >= Op::cell_column && op <= Op::cell_slice) || op == Op::negate ||
            op == Op::absolute || op == Op::select ||
            (op >= Op::bits_add && op <= Op::bits_shift_right);
@@ -25,12 +27,18 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
       cells_(cells),
       is_exact_(is_exact),
       levels_(loop_levels_of(kernel_)),
+      schedule_(cell_schedule_of(kernel_, levels_)),
       readers_(kernel_.code.size()),
       values_(kernel_.code.size()) {
+    IdVector<ValueId, int> times(kernel_.code.size(), 1);  // That the value's code is written.
+    for (const ValueId id : times.ids()) times[id] = levels_[id] < LoopLevel::link;
+    for (const LinkLoop& loop : schedule_.loops) {
+        for (const ValueId id : loop.values) ++times[id];
+    }
     for (const ValueId id : kernel_.results) ++readers_[id];
     for (const ValueId id : kernel_.code.ids_backwards()) {
         if (readers_[id] == 0) continue;
-        for (const ValueId operand : operands_of(kernel_.code[id])) ++readers_[operand];
+        for (const ValueId operand : operands_of(kernel_.code[id])) readers_[operand] += times[id];
     }
 }
 
@@ -55,19 +63,79 @@ void Body::write(LoopLevel level) {
     readers_to_come_ = readers_;
     const std::vector<ValueId>& results = kernel_.results;
     std::size_t stored = 0;
-    for (const ValueId id : kernel_.code.ids()) {
-        if (levels_[id] == level && readers_[id] > 0) define(id);
-        if (level != LoopLevel::cell || !part_.is_in_order) continue;
+    if (level != LoopLevel::cell) {
+        for (const ValueId id : kernel_.code.ids()) {
+            if (levels_[id] == level) define(id);
+        }
+        return;
+    }
+    for (const LinkLoop& loop : schedule_.loops) {
+        for (const ValueId id : loop.before) define(id);
+        write_loop(loop);
+    }
+    for (const ValueId id : schedule_.after) {
+        define(id);
+        if (!part_.is_in_order) continue;
         while (stored < results.size() && results[stored] <= id) store(stored++);
     }
-    if (level != LoopLevel::cell) return;
     while (stored < results.size()) store(stored++);
 }
 
 void Body::define(ValueId id) {
+    if (readers_[id] == 0) return;
     const Instruction& instruction = kernel_.code[id];
     values_[id] = value_of(instruction);
     for (const ValueId operand : operands_of(instruction)) release(operand);
+}
+
+// The code of links is written apart from that of cells, so that what it needs of cells in another
+// form still comes before the loop.
+void Body::write_loop(const LinkLoop& loop) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const ValueId id : loop.reductions) {
+        const Op op = kernel_.code[id].op;
+        const double first = op == Op::link_sum ? 0 : op == Op::link_least ? infinity : -infinity;
+        code().get(function_.number(first));
+        values_[id] = {};
+        values_[id].number = keep();
+    }
+    cells_.begin_links();
+    level_ = LoopLevel::link;
+    for (const ValueId id : loop.values) define(id);
+    for (const ValueId id : loop.reductions) reduce(id);
+    for (const ValueId id : loop.values) give_back(id);
+    level_ = LoopLevel::cell;
+    cells_.end_links();
+    for (const ValueId id : std::exchange(read_in_loop_, {})) release(id);
+}
+
+/// Adds the value of a link to a total, or compares it with it.
+void Body::reduce(ValueId id) {
+    if (readers_[id] == 0) return;
+    const auto [op, operands, payload] = kernel_.code[id];
+    const Local total = *values_[id].number;
+    // Where there is no link, what changes no bit of the total: -0, or what it begins with.
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double none = op == Op::link_sum ? -0.0 : op == Op::link_least ? infinity : -infinity;
+    if (op == Op::link_sum) code().get(total);
+    code().get(operand(operands[0]));
+    code().get(function_.number(none));
+    code().get(cells_.is_link());
+    code().write(Whole::choose);
+    if (op == Op::link_sum) {
+        arithmetic().add();
+    } else {
+        const Local value = keep();
+        for (const Local local : {total, total, value, total, value}) code().get(local);
+        code().write(op == Op::link_least ? Lanes::less : Lanes::greater);
+        code().write(Whole::choose);
+        for (const Local local : {total, total}) code().get(local);
+        code().write(Lanes::not_equal);
+        code().write(Whole::choose);
+        function_.give_back(value, level_);
+    }
+    code().set(total);
+    release(operands[0]);
 }
 
 void Body::store(std::size_t result) {
@@ -87,10 +155,19 @@ void Body::store(std::size_t result) {
 }
 
 void Body::release(ValueId id) {
-    if (levels_[id] != LoopLevel::cell || --readers_to_come_[id] > 0) return;
+    if (levels_[id] < LoopLevel::cell) return;
+    if (levels_[id] < level_) {
+        read_in_loop_.push_back(id);
+    } else if (--readers_to_come_[id] == 0) {
+        give_back(id);
+    }
+}
+
+/// Gives back the locals of a value.
+void Body::give_back(ValueId id) {
     Value& value = values_[id];
     const auto give_back = [&](std::optional<Local> local) {
-        if (local) function_.give_back(*local);
+        if (local) function_.give_back(*local, levels_[id]);
     };
     if (!value.is_of_source) give_back(value.is_boolean ? value.truth : value.number);
     give_back(value.is_boolean ? value.number : value.truth);
@@ -164,6 +241,7 @@ std::optional<Local> Body::source(const Instruction& instruction) {
         case Op::gradient_x:
         case Op::gradient_y:
         case Op::gradient_z: return cells_.link_sum(instruction);
+        case Op::theirs: return cells_.theirs(instruction.field());
         case Op::mask: return cells_.mask(MaskSlot(instruction.slot()));
         case Op::uniform: return cells_.uniform(UniformSlot(instruction.slot()));
         case Op::cell_column: return cells_.cell_column();

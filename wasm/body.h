@@ -36,8 +36,11 @@ private:
     bool is_bound(const Instruction& instruction) const;
     std::span<const ValueId> operands_of(const Instruction& instruction) const;
     void define(ValueId id);
+    void write_loop(const LinkLoop& loop);
+    void reduce(ValueId id);
     void store(std::size_t result);
     void release(ValueId id);
+    void give_back(ValueId id);
 
     // The forms of a value. They are made at the value's own loop level.
     Local number(ValueId id);
@@ -81,8 +84,10 @@ private:
     Cells& cells_;
     bool is_exact_;
     IdVector<ValueId, LoopLevel> levels_;
+    CellSchedule schedule_;
     IdVector<ValueId, int> readers_;          ///< In the kernel.
     IdVector<ValueId, int> readers_to_come_;  ///< In the vector that is being written.
+    std::vector<ValueId> read_in_loop_;       ///< Values of cells.
     IdVector<ValueId, Value> values_;
     LoopLevel level_ = LoopLevel::call;  ///< That is being written.
 };

@@ -1,7 +1,19 @@
 // Loads from the cells themselves and beside them, masks, places, and stores.
 #include "wasm/cells.h"
 
+#include "core/check.h"
+
 namespace cascade::wasm {
+namespace {
+
+constexpr const char* only_linked = "only linked cells have links";
+
+}  // namespace
+
+void Cells::begin_links() { CHECK(false, only_linked); }
+void Cells::end_links() { CHECK(false, only_linked); }
+Local Cells::theirs(FieldSlot) { CHECK(false, only_linked); }
+Local Cells::is_link() { CHECK(false, only_linked); }
 
 void Cells::end_vector() {
     for (const Local local : kept_) function_.give_back(local);
@@ -123,7 +135,6 @@ Local Cells::uniform(UniformSlot slot) {
     return function_.keep(LoopLevel::call);
 }
 
-/// What is on top of the stack, as a word in all lanes.
 void Cells::splat_word(Code& code) {
     if (function_.precision() == Precision::binary64) code.write(Plain::extend);
     code.write(Lanes::word_splat);

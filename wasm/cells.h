@@ -45,6 +45,7 @@ enum class Parameter : std::uint32_t {
     gradient_x,
     gradient_y,
     gradient_z,
+    filled,
     linked_parameters,
 };
 constexpr Local local_of(Parameter parameter) {
@@ -87,6 +88,16 @@ public:
     /// All but `laplacian`.
     virtual Local link_sum(const Instruction& sum) = 0;
 
+    // A loop over the links of the vector. Its body is the code of links that is written between
+    // these two.
+    virtual void begin_links();
+    virtual void end_links();
+    // The local that has this for all lanes, until the end of the body.
+    /// What a field holds in the cells to which the links lead.
+    virtual Local theirs(FieldSlot slot);
+    /// The bits of lanes are set where there is a link, and clear where there is none.
+    virtual Local is_link();
+
     void store(std::size_t result, Local number);
     /// Fills the columns of the halo beside a row of a result, whose last column ends at `row_end`.
     void fill_columns(Code& code, std::size_t result, Local row_end);
@@ -116,6 +127,8 @@ protected:
     Local keep();
     /// Puts the number of columns from the row's first cell to the vector's on the stack.
     void push_column();
+    /// What is on top of the stack, as a word in all lanes.
+    void splat_word(Code& code);
 
     Function& function_;
     const CellKernel& kernel_;
@@ -137,7 +150,6 @@ private:
     }
     Local address(const RowOfPlane& row);
     Local row_offset(int dy, int dz);
-    void splat_word(Code& code);
 
     std::map<std::pair<Parameter, std::size_t>, Local> planes_;
     std::map<std::pair<int, int>, Local> row_offsets_;

@@ -21,6 +21,7 @@ public:
     explicit Code(Precision precision) : precision_(precision) {}
 
     const Bytes& bytes() const { return bytes_; }
+    void clear() { bytes_.clear(); }
 
     void write(Plain instruction) { bytes_.push_back(static_cast<std::uint8_t>(instruction)); }
     void write(Whole instruction) { write_vector(static_cast<std::uint8_t>(instruction)); }

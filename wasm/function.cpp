@@ -9,16 +9,16 @@ Local Function::declare(LocalType type) {
 }
 
 Local Function::take(LoopLevel level, LocalType type) {
-    std::vector<Local>& free = free_of(type);
-    if (level != LoopLevel::cell || free.empty()) return declare(type);
+    std::vector<Local>& free = free_of(level, type);
+    if (level < LoopLevel::cell || free.empty()) return declare(type);
     const Local local = free.back();
     free.pop_back();
     return local;
 }
 
 void Function::give_back(Local local, LoopLevel level) {
-    if (level != LoopLevel::cell) return;
-    free_of(types_[static_cast<std::uint32_t>(local) - parameters_]).push_back(local);
+    if (level < LoopLevel::cell) return;
+    free_of(level, types_[static_cast<std::uint32_t>(local) - parameters_]).push_back(local);
 }
 
 Local Function::constant(std::uint64_t word) {
@@ -34,6 +34,20 @@ Local Function::lane_numbers() {
         lane_numbers_ = keep(LoopLevel::call);
     }
     return *lane_numbers_;
+}
+
+Local Function::lane_bits() {
+    if (!lane_bits_) {
+        Code& code = at(LoopLevel::call);
+        code.vector(0);
+        for (int lane = 0; lane < lanes(); ++lane) {
+            code.integer(1 << lane);
+            if (precision_ == Precision::binary64) code.write(Plain::extend);
+            code.write(Lanes::word_replace, lane);
+        }
+        lane_bits_ = keep(LoopLevel::call);
+    }
+    return *lane_bits_;
 }
 
 Bytes Function::with_locals(const Code& code) const {

@@ -24,7 +24,7 @@ public:
     Function(Precision precision, std::uint32_t parameters)
         : precision_(precision),
           parameters_(parameters),
-          codes_{Code(precision), Code(precision), Code(precision)} {}
+          codes_{Code(precision), Code(precision), Code(precision), Code(precision)} {}
 
     Precision precision() const { return precision_; }
     WordFormat format() const { return format_of(precision_); }
@@ -37,7 +37,8 @@ public:
 
     /// A local that may be written to at this level.
     Local take(LoopLevel level, LocalType type = LocalType::vector);
-    /// Locals of cells are used again; those of outer levels keep their values for all cells.
+    /// Locals of cells are used again for cells, those of links for links, whose code is repeated
+    /// while cells keep theirs; those of outer levels keep their values for all cells.
     void give_back(Local local, LoopLevel level = LoopLevel::cell);
     /// Moves what is on top of the stack to a local.
     Local keep(LoopLevel level, LocalType type = LocalType::vector) {
@@ -52,21 +53,25 @@ public:
 
     /// A vector with the words 0, 1, 2, ….
     Local lane_numbers();
+    /// A vector with the words 1, 2, 4, ….
+    Local lane_bits();
 
     /// The function as the binary format has it: its locals, then this code.
     Bytes with_locals(const Code& code) const;
 
 private:
     Local declare(LocalType type);
-    std::vector<Local>& free_of(LocalType type) { return free_[type == LocalType::vector]; }
+    std::vector<Local>& free_of(LoopLevel level, LocalType type) {
+        return free_[level == LoopLevel::link][type == LocalType::vector];
+    }
 
     Precision precision_;
     std::uint32_t parameters_;
-    std::array<Code, 3> codes_;  ///< By loop level.
+    std::array<Code, 4> codes_;  ///< By loop level.
     std::vector<LocalType> types_;
-    std::array<std::vector<Local>, 2> free_;
+    std::array<std::array<std::vector<Local>, 2>, 2> free_;
     std::map<std::uint64_t, Local> constants_;
-    std::optional<Local> lane_numbers_;
+    std::optional<Local> lane_numbers_, lane_bits_;
 };
 
 }  // namespace cascade::wasm

@@ -52,8 +52,8 @@ struct WasmOptions {
 ///   k * slice_rows + j, where slice_rows is the height plus 2 (PlaneLayout::slice_rows()), and all
 ///   rows of a call lie in the slice `slice`.
 /// - Linked cells, which are computed in whole rows: the addresses of the arrays of a LinkTable:
-///   `starts`, `bases`, `offsets`, `weights`, and the gradient's x, y and z; those that no sum of
-///   the kernel needs may be 0.
+///   `starts`, `bases`, `offsets`, `weights`, the gradient's x, y and z, and `filled`; those that
+///   the kernel does not need may be 0.
 ///
 /// An engine that is WebAssembly itself puts `run` into its table of functions; there it is a
 /// function pointer with that many arguments of type int32_t.

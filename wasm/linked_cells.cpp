@@ -1,10 +1,11 @@
-// Sums over the links of cells (core/links.h): one loop over the entries of a slice computes all
-// sums of the kernel for all vectors of a group.
+// Loops over the links of cells (core/links.h). One over the entries of a slice computes all sums
+// of the kernel for all vectors of a group; reductions have loops of their own for each vector.
 #include "wasm/cells.h"
 
 #include "core/links.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace cascade::wasm {
@@ -34,6 +35,10 @@ public:
     void begin_group(int vectors) override;
     Local laplacian(FieldSlot slot) override { return sum({Op::laplacian, slot.index()}); }
     Local link_sum(const Instruction& instruction) override { return sum(key_of(instruction)); }
+    void begin_links() override;
+    void end_links() override;
+    Local theirs(FieldSlot slot) override;
+    Local is_link() override;
 
 private:
     using LocalBySlot = std::map<FieldSlot, Local>;
@@ -47,33 +52,47 @@ private:
     Local sum(const SumKey& key) const { return vectors_.at(vector_).sums.at(key); }
     void begin_sums(Vector& vector);
     void find_links();
-    void push_address(Parameter array, Local element, int shift);
+    Local address(Parameter array, Local element, int shift);
+    void begin_entry();
+    void end_vector_of_entry();
     void add_entry();
     void advance(Local address, int bytes);
     void find_targets();
     void push_term(const SumKey& key);
+    Local base_of(FieldSlot slot);
     Local own(FieldSlot slot) const { return vectors_.at(vector_).own.at(slot); }
     Local at_targets(FieldSlot slot);
     Local difference(FieldSlot slot);
     Local factors(Parameter array);
 
-    /// What is on top of the stack, until the end of the entry.
+    Code& links() { return function_.at(LoopLevel::link); }
+    Arithmetic arithmetic_of_links() { return {function_, LoopLevel::link, is_exact_}; }
+    /// What is on top of the stack of links, until the end of the entry.
     Local keep_in_entry(LocalType type = LocalType::vector) {
-        of_entry_.push_back(function_.keep(LoopLevel::cell, type));
+        of_entry_.push_back(function_.keep(LoopLevel::link, type));
         return of_entry_.back();
     }
-    Local keep_address() { return function_.keep(LoopLevel::cell, LocalType::integer); }
+    /// What is on top of the stack, until the end of the loop.
+    Local keep_in_loop() {
+        of_loop_.push_back(function_.keep(LoopLevel::cell, LocalType::integer));
+        return of_loop_.back();
+    }
 
     std::map<int, Vector> vectors_;  ///< By number.
-    // Addresses of what an entry has, or the end of that.
-    Local base_at_{}, bases_end_{}, offsets_at_{};
+    // What belongs to the loop: addresses of what an entry has, or the end of that.
+    std::vector<Local> of_loop_;
+    Local base_at_{}, bases_end_{}, offsets_at_{}, filled_at_{};
+    Local lane_{};  ///< Of the group's first cell in the slice.
+    Local link_{};  ///< The number of its first link.
     std::map<Parameter, Local> factors_at_;
     // What belongs to the entry.
     std::vector<Local> of_entry_;
+    Local base_{};                 ///< Bytes from cell (0, 0).
     LocalBySlot bases_of_fields_;  ///< Addresses from which offsets count.
     // What belongs to the vector in the entry.
     std::vector<Local> targets_;  ///< By lane: bytes from the base.
-    LocalBySlot fields_, differences_;
+    std::optional<Local> is_link_;
+    LocalBySlot fields_, operands_, differences_;
     std::map<Parameter, Local> factors_;
 };
 
@@ -87,19 +106,13 @@ void LinkedCells::begin_group(int vectors) {
         end_vector();
     }
     find_links();
-    code().open(Plain::block);
-    code().get(base_at_);
-    code().get(bases_end_);
-    code().write(Plain::greater_equal_unsigned);
-    code().branch_if();
-    code().open(Plain::loop);
+    for (const auto& [key, sum] : vectors_.at(0).sums) {
+        const Parameter array = weights_of(key.first);
+        if (factors_at_.contains(array)) continue;
+        factors_at_[array] = address(array, link_, function_.number_shift());
+    }
     add_entry();
-    code().get(base_at_);
-    code().get(bases_end_);
-    code().write(Plain::less_unsigned);
-    code().branch_if();
-    code().close();
-    code().close();
+    end_links();
 }
 
 /// Sets the sums to 0, and loads what their terms have of the cells themselves.
@@ -121,11 +134,12 @@ void LinkedCells::begin_sums(Vector& vector) {
 }
 
 /// The addresses of the first entry of the slice, which is number column / 16 of the row, at lane
-/// column mod 16.
+/// column mod 16, where column is that of the group's first cell.
 void LinkedCells::find_links() {
-    begin_vector(0);
+    const int vector = std::exchange(vector_, 0);
     push_column();
-    const Local column = keep_address();
+    begin_vector(vector);
+    const Local column = keep_in_loop();
     code().get(local_of(Parameter::column_end));
     code().integer(slice_cells - 1);
     code().write(Plain::add);
@@ -137,134 +151,200 @@ void LinkedCells::find_links() {
     code().integer(slice_shift);
     code().write(Plain::shift_right);
     code().write(Plain::add);
-    const Local slice = keep_address();
-    push_address(Parameter::starts, slice, 2);
-    const Local start = keep_address();
+    const Local slice = keep_in_loop();
+    const Local start = address(Parameter::starts, slice, 2);
     const auto entry_at = [&](std::uint32_t slices_after) {
         code().get(start);
         code().access(Plain::load, 4 * slices_after);
-        return keep_address();
+        return keep_in_loop();
     };
     const Local entry = entry_at(0), last = entry_at(1);
-    push_address(Parameter::bases, entry, 2);
-    base_at_ = keep_address();
-    push_address(Parameter::bases, last, 2);
-    bases_end_ = keep_address();
-    code().get(entry);
-    code().integer(slice_shift);
-    code().write(Plain::shift_left);
+    base_at_ = address(Parameter::bases, entry, 2);
+    bases_end_ = address(Parameter::bases, last, 2);
+    filled_at_ = address(Parameter::filled, entry, 1);
     code().get(column);
     code().integer(slice_cells - 1);
     code().write(Plain::bits_and);
+    lane_ = keep_in_loop();
+    code().get(entry);
+    code().integer(slice_shift);
+    code().write(Plain::shift_left);
+    code().get(lane_);
     code().write(Plain::add);
-    const Local link = keep_address();
-    push_address(Parameter::offsets, link, 1);
-    offsets_at_ = keep_address();
-    for (const auto& [key, sum] : vectors_.at(0).sums) {
-        const auto [known, is_new] = factors_at_.try_emplace(weights_of(key.first));
-        if (!is_new) continue;
-        push_address(known->first, link, function_.number_shift());
-        known->second = keep_address();
-    }
+    link_ = keep_in_loop();
+    offsets_at_ = address(Parameter::offsets, link_, 1);
 }
 
-void LinkedCells::push_address(Parameter array, Local element, int shift) {
+/// The address of an element of an array.
+Local LinkedCells::address(Parameter array, Local element, int shift) {
     code().get(local_of(array));
     code().get(element);
     code().integer(shift);
     code().write(Plain::shift_left);
     code().write(Plain::add);
+    return keep_in_loop();
 }
 
 void LinkedCells::advance(Local address, int bytes) {
-    code().get(address);
-    code().integer(bytes);
-    code().write(Plain::add);
-    code().set(address);
+    links().get(address);
+    links().integer(bytes);
+    links().write(Plain::add);
+    links().set(address);
 }
 
-void LinkedCells::add_entry() {
-    code().get(base_at_);
-    code().access(Plain::load, 0);
-    code().integer(function_.number_shift());
-    code().write(Plain::shift_left);
-    const Local base = keep_in_entry(LocalType::integer);
-    for (const auto& [slot, own] : vectors_.at(0).own) {
-        code().get(plane(Parameter::fields, slot.index()));
-        code().get(base);
-        code().write(Plain::add);
-        bases_of_fields_[slot] = keep_in_entry(LocalType::integer);
-    }
-    for (const auto& [number, vector] : vectors_) {
-        begin_vector(number);
-        find_targets();
-        for (const auto& [key, sum] : vector.sums) {
-            code().get(sum);
-            push_term(key);
-            arithmetic().add();
-            code().set(sum);
-        }
-        targets_.clear();
-        fields_.clear();
-        differences_.clear();
-        factors_.clear();
-    }
-    for (const Local local : of_entry_) function_.give_back(local);
+void LinkedCells::begin_links() {
+    find_links();
+    begin_entry();
+}
+
+/// Writes the loop around the code of links.
+void LinkedCells::end_links() {
+    end_vector_of_entry();
+    for (const Local local : of_entry_) function_.give_back(local, LoopLevel::link);
+    of_entry_.clear();
+    bases_of_fields_.clear();
     advance(base_at_, 4);
+    advance(filled_at_, 2);
     advance(offsets_at_, 2 * slice_cells);
     for (const auto& [array, address] : factors_at_) {
         advance(address, slice_cells * function_.number_bytes());
+    }
+    code().open(Plain::block);
+    code().get(base_at_);
+    code().get(bases_end_);
+    code().write(Plain::greater_equal_unsigned);
+    code().branch_if();
+    code().open(Plain::loop);
+    code().write(links());
+    links().clear();
+    code().get(base_at_);
+    code().get(bases_end_);
+    code().write(Plain::less_unsigned);
+    code().branch_if();
+    code().close();
+    code().close();
+    for (const Local local : of_loop_) function_.give_back(local);
+    of_loop_.clear();
+    factors_at_.clear();
+}
+
+void LinkedCells::begin_entry() {
+    links().get(base_at_);
+    links().access(Plain::load, 0);
+    links().integer(function_.number_shift());
+    links().write(Plain::shift_left);
+    base_ = keep_in_entry(LocalType::integer);
+}
+
+void LinkedCells::end_vector_of_entry() {
+    targets_.clear();
+    is_link_.reset();
+    fields_.clear();
+    operands_.clear();
+    differences_.clear();
+    factors_.clear();
+}
+
+void LinkedCells::add_entry() {
+    begin_entry();
+    for (const auto& [number, vector] : vectors_) {
+        begin_vector(number);
+        for (const auto& [key, sum] : vector.sums) {
+            links().get(sum);
+            push_term(key);
+            arithmetic_of_links().add();
+            links().set(sum);
+        }
+        end_vector_of_entry();
     }
 }
 
 void LinkedCells::find_targets() {
     for (int lane = 0; lane < function_.lanes(); ++lane) {
         const int link = vector_ * function_.lanes() + lane;
-        code().get(offsets_at_);
-        code().access(Plain::load_16_signed, static_cast<std::uint32_t>(2 * link));
-        code().integer(function_.number_shift());
-        code().write(Plain::shift_left);
+        links().get(offsets_at_);
+        links().access(Plain::load_16_signed, static_cast<std::uint32_t>(2 * link));
+        links().integer(function_.number_shift());
+        links().write(Plain::shift_left);
         targets_.push_back(keep_in_entry(LocalType::integer));
     }
+}
+
+Local LinkedCells::is_link() {
+    if (!is_link_) {
+        links().get(filled_at_);
+        links().access(Plain::load_16_signed, 0);
+        links().get(lane_);
+        links().integer(vector_ * function_.lanes());
+        links().write(Plain::add);
+        links().write(Plain::shift_right);
+        splat_word(links());
+        links().get(function_.lane_bits());
+        links().write(Whole::bits_and);
+        links().get(function_.constant(0));
+        links().write(Lanes::word_not_equal);
+        is_link_ = keep_in_entry();
+    }
+    return *is_link_;
 }
 
 /// What the entry adds to a sum.
 void LinkedCells::push_term(const SumKey& key) {
     const auto [op, payload] = key;
     const Flow flow = Flow::with(payload);
-    code().get(factors(weights_of(op)));
+    links().get(factors(weights_of(op)));
     if (op == Op::link_flow) {
-        code().get(at_targets(flow.factor));
-        code().get(own(flow.factor));
-        arithmetic().add();
+        links().get(at_targets(flow.factor));
+        links().get(own(flow.factor));
+        arithmetic_of_links().add();
     }
-    code().get(difference(flow.of));
-    if (op == Op::link_squares) code().get(difference(flow.of));
-    if (op == Op::link_flow || op == Op::link_squares) arithmetic().multiply();
-    arithmetic().multiply();
+    links().get(difference(flow.of));
+    if (op == Op::link_squares) links().get(difference(flow.of));
+    if (op == Op::link_flow || op == Op::link_squares) arithmetic_of_links().multiply();
+    arithmetic_of_links().multiply();
 }
 
-/// What a field holds in the cells to which the links lead.
-Local LinkedCells::at_targets(FieldSlot slot) {
+/// The address in a field from which the entry's offsets count, pad_bytes() before it.
+Local LinkedCells::base_of(FieldSlot slot) {
+    const auto [known, is_new] = bases_of_fields_.try_emplace(slot);
+    if (is_new) {
+        links().get(plane(Parameter::fields, slot.index()));
+        links().get(base_);
+        links().write(Plain::add);
+        known->second = keep_in_entry(LocalType::integer);
+    }
+    return known->second;
+}
+
+Local LinkedCells::theirs(FieldSlot slot) {
+    if (targets_.empty()) find_targets();
     const auto [known, is_new] = fields_.try_emplace(slot);
     if (!is_new) return known->second;
+    const Local base = base_of(slot);
     for (int lane = 0; lane < function_.lanes(); ++lane) {
-        code().get(bases_of_fields_.at(slot));
-        code().get(targets_[static_cast<std::size_t>(lane)]);
-        code().write(Plain::add);
+        links().get(base);
+        links().get(targets_[static_cast<std::size_t>(lane)]);
+        links().write(Plain::add);
         if (lane == 0) {
-            code().access(Lanes::load_first, pad_bytes());
+            links().access(Lanes::load_first, pad_bytes());
             known->second = keep_in_entry();
         } else {
-            code().get(known->second);
-            code().access(Lanes::load_lane, pad_bytes(), lane);
-            code().set(known->second);
+            links().get(known->second);
+            links().access(Lanes::load_lane, pad_bytes(), lane);
+            links().set(known->second);
         }
     }
-    if (is_exact_) {
-        code().get(known->second);
-        arithmetic().flush();
-        code().set(known->second);
+    return known->second;
+}
+
+/// The same as an operand of arithmetic.
+Local LinkedCells::at_targets(FieldSlot slot) {
+    if (!is_exact_) return theirs(slot);
+    const auto [known, is_new] = operands_.try_emplace(slot);
+    if (is_new) {
+        links().get(theirs(slot));
+        arithmetic_of_links().flush();
+        known->second = keep_in_entry();
     }
     return known->second;
 }
@@ -273,9 +353,9 @@ Local LinkedCells::at_targets(FieldSlot slot) {
 Local LinkedCells::difference(FieldSlot slot) {
     const auto [known, is_new] = differences_.try_emplace(slot);
     if (is_new) {
-        code().get(at_targets(slot));
-        code().get(own(slot));
-        arithmetic().subtract();
+        links().get(at_targets(slot));
+        links().get(own(slot));
+        arithmetic_of_links().subtract();
         known->second = keep_in_entry();
     }
     return known->second;
@@ -284,9 +364,9 @@ Local LinkedCells::difference(FieldSlot slot) {
 Local LinkedCells::factors(Parameter array) {
     const auto [known, is_new] = factors_.try_emplace(array);
     if (is_new) {
-        code().get(factors_at_.at(array));
-        code().access(Whole::load, static_cast<std::uint32_t>(vector_ * Code::vector_bytes));
-        arithmetic().flush();
+        links().get(factors_at_.at(array));
+        links().access(Whole::load, static_cast<std::uint32_t>(vector_ * Code::vector_bytes));
+        arithmetic_of_links().flush();
         known->second = keep_in_entry();
     }
     return known->second;

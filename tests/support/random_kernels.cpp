@@ -69,6 +69,9 @@ private:
         Op op = static_cast<Op>(stream_.below(static_cast<std::uint64_t>(op_count)));
         if (op == Op::multiply_add && !options_.multiply_adds) op = Op::select;
         if (info(op).arity == 0) return source(op);
+        if (is_link_reduction(op)) {
+            return options_.links ? keep(reduction(op), false) : keep(trouble(), true);
+        }
         const bool is_word_operation = op >= Op::bits_add;
         if (is_word_operation) return word_operation(op);
         const Value a = operand();
@@ -116,6 +119,11 @@ private:
                 const FieldSlot of = builder_.field_slot(fmt::format("f{}", which));
                 return keep(builder_.link_flow({factor, of}), false);
             }
+            case Op::theirs: {
+                if (!options_.links) return keep(trouble(), true);
+                constexpr Op reductions[] = {Op::link_sum, Op::link_least, Op::link_greatest};
+                return keep(reduction(stream_.pick<Op>(reductions)), false);
+            }
             case Op::mask:
                 return keep(builder_.mask(builder_.mask_slot(fmt::format("m{}", which))), true);
             case Op::uniform:
@@ -134,6 +142,25 @@ private:
 
     ValueId field(std::uint32_t which) {
         return builder_.field(builder_.field_slot(fmt::format("f{}", which)));
+    }
+
+    /// Over links, of a value that is computed from some fields of theirs and other values.
+    ValueId reduction(Op op) {
+        constexpr Op operations[] = {Op::add,         Op::multiply, Op::divide,
+                                     Op::absolute,    Op::less,     Op::square_root,
+                                     Op::logical_and, Op::select,   Op::negate};
+        const auto theirs = [&] {
+            return builder_.theirs(builder_.field_slot(fmt::format("f{}", stream_.below(3))));
+        };
+        ValueId value = stream_.chance(80) ? theirs() : operand().id;
+        for (std::uint32_t count = stream_.below(6); count > 0; --count) {
+            const ValueId other = stream_.chance(30) ? theirs() : operand().id;
+            const Op next = stream_.pick<Op>(operations);
+            value = info(next).arity == 1   ? builder_.apply(next, value)
+                    : info(next).arity == 2 ? builder_.apply(next, value, other)
+                                            : builder_.select(other, value, operand().id);
+        }
+        return builder_.apply(op, value);
     }
 
     ValueId trouble() {
@@ -264,9 +291,10 @@ std::string OperationCounts::missing(bool links) const {
     std::string names;
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const Op op = static_cast<Op>(k);
-        const bool is_foreign =
-            (op == Op::multiply_add && !has_multiply_add()) ||
-            (links ? op == Op::neighbour : is_link_sum(op) && op != Op::laplacian);
+        const bool is_foreign = (op == Op::multiply_add && !has_multiply_add()) ||
+                                (links ? op == Op::neighbour
+                                       : (is_link_sum(op) && op != Op::laplacian) ||
+                                             is_link_reduction(op) || op == Op::theirs);
         if (counts[k] != 0 || is_foreign) continue;
         names += fmt::format("{}{}", names.empty() ? "" : " ", info(static_cast<Op>(k)).name);
     }

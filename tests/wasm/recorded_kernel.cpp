@@ -197,7 +197,8 @@ private:
                 image.add(links.weights, count),
                 image.add(links.gradients[0], count),
                 image.add(links.gradients[1], count),
-                image.add(links.gradients[2], count)};
+                image.add(links.gradients[2], count),
+                image.add(links.filled, entries)};
     }
 
     Stencil stencil_;

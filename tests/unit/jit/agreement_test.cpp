@@ -102,6 +102,7 @@ TEST(JitAgreement, ContractedKernels) {
         options.precision = seed % 2 == 0 ? Precision::single : Precision::binary64;
         options.operations = 10 + static_cast<int>(seed % 30);
         options.composed_percent = seed % 8 == 0 ? 8 : 0;
+        options.links = seed % 3 == 0;
         const CellKernel strict = random_kernel(seed, options), kernel = contracted(strict);
         ASSERT_EQ(verify(kernel), "");
         OperationCounts before, after;
@@ -109,7 +110,8 @@ TEST(JitAgreement, ContractedKernels) {
         after.add(kernel);
         const auto index = static_cast<std::size_t>(Op::multiply_add);
         fused += after.counts[index] - before.counts[index];
-        const Grid grid = random_grid(seed, 67, 5, 3);
+        const Grid grid =
+            options.links ? random_linked_grid(seed, 67, 5) : random_grid(seed, 67, 5, 3);
         SCOPED_TRACE(fmt::format("seed {}, grid {}", seed, describe(grid)));
         ASSERT_EQ(difference(*backends.plain[seed % 3], kernel, grid, seed), "") << print(kernel);
         ASSERT_EQ(difference(*backends.optimised[(seed / 3) % 3], kernel, grid, seed), "")
@@ -134,11 +136,29 @@ CellKernel kernel_of_links(Precision precision) {
     return std::move(builder).finish();
 }
 
+/// Reductions in two loops over links.
+CellKernel kernel_of_reductions(Precision precision) {
+    KernelBuilder builder(precision);
+    const FieldSlot a = builder.field_slot("a"), b = builder.field_slot("b");
+    const ValueId apart = builder.subtract(builder.theirs(a), builder.field(a));
+    const ValueId mean =
+        builder.divide(builder.link_sum(apart), builder.link_sum(builder.number(1)));
+    builder.result("least", builder.link_least(apart));
+    builder.result("spread", builder.link_sum(builder.apply(
+                                 Op::absolute, builder.subtract(builder.theirs(b), mean))));
+    const ValueId is_less = builder.apply(Op::less, builder.theirs(b), mean);
+    builder.result("greatest",
+                   builder.link_greatest(builder.select(is_less, builder.field(a), apart)));
+    builder.result("mean", mean);
+    return std::move(builder).finish();
+}
+
 // One cell, rows of one cell, slices filled in part: links to all of them.
 TEST(JitAgreement, EveryShapeOfRowsOfLinkedCells) {
     Backends backends;
-    for (const Precision precision : {Precision::single, Precision::binary64}) {
-        const CellKernel kernel = kernel_of_links(precision);
+    for (const CellKernel& kernel :
+         {kernel_of_links(Precision::single), kernel_of_links(Precision::binary64),
+          kernel_of_reductions(Precision::single), kernel_of_reductions(Precision::binary64)}) {
         for (std::int64_t width = 1; width <= 50; ++width) {
             for (std::int64_t height = 1; height <= 4; ++height) {
                 Grid grid{width, height};
@@ -156,8 +176,9 @@ TEST(JitAgreement, EveryShapeOfRowsOfLinkedCells) {
 // own.
 TEST(JitAgreement, LinksThatLeadFar) {
     Backends backends;
-    for (const Precision precision : {Precision::single, Precision::binary64}) {
-        const CellKernel kernel = kernel_of_links(precision);
+    for (const CellKernel& kernel :
+         {kernel_of_links(Precision::single), kernel_of_links(Precision::binary64),
+          kernel_of_reductions(Precision::single), kernel_of_reductions(Precision::binary64)}) {
         Grid grid{40, 1000};
         grid.linked = true;
         for (const auto& backend : backends.optimised) {
