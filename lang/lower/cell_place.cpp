@@ -64,7 +64,23 @@ ValueId CellPlace::builtin(Builtin builtin) {
     CHECK(false, "lowering: every built-in value has a meaning");
 }
 
+/// A cell that crawls is where its species say.
+Space CellPlace::space_of_tissue() {
+    const DomainSettings& domain = assembly_.program().domain;
+    const Grid& grid = domain.grid;
+    const ItemId place = assembly_.system().cells->place;
+    const auto along = [&](std::size_t axis, std::int64_t side, Boundary boundary) {
+        const double length = static_cast<double>(side) / static_cast<double>(grid.longest_side());
+        const ValueId value = assembly_.item(ItemId(place.index() + axis));
+        const bool is_periodic = !domain.model && boundary == Boundary::periodic;
+        return SpaceAxis{value, length, is_periodic, domain.model || side > 1};
+    };
+    return {along(0, grid.width, grid.boundary.x), along(1, grid.height, grid.boundary.y),
+            along(2, grid.depth, grid.boundary.z)};
+}
+
 Space CellPlace::space() {
+    if (assembly_.context().is_tissue()) return space_of_tissue();
     if (assembly_.program().domain.model) {
         const auto along = [&](ModelPlane plane) {
             return SpaceAxis{of_model(plane), 1, false, true};
@@ -83,6 +99,7 @@ Space CellPlace::space() {
 }
 
 ValueId CellPlace::content() {
+    if (assembly_.context().is_tissue()) return builder_.number(1);
     if (assembly_.program().domain.model) return of_model(ModelPlane::area);
     const Grid& grid = assembly_.program().domain.grid;
     const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
@@ -91,7 +108,7 @@ ValueId CellPlace::content() {
 
 /// The hash of a draw takes column and row; slices other than the first modify the result.
 ValueId CellPlace::draw(ValueId draw) {
-    if (assembly_.program().domain.model) {
+    if (assembly_.context().has_links()) {
         builder_.set_cell(of_model(ModelPlane::number));
         return draw;
     }

@@ -15,12 +15,13 @@ public:
     ValueId builtin(Builtin builtin);
     ValueId of_model(ModelPlane plane) { return assembly_.field(plane, at_); }
     Space space();
-    /// The length, area or volume of the cell in units.
+    /// The length, area or volume of the cell in units; 1 of one that crawls.
     ValueId content();
     /// The draw of the cell, a word of 32 bits.
     ValueId draw(ValueId draw);
 
 private:
+    Space space_of_tissue();
     ValueId number(int axis);
     ValueId coordinate(int axis, std::int64_t side);
 

@@ -1,6 +1,8 @@
 // The traversal that all passes share, and the small passes.
 #include "lang/lower/graph_passes.h"
 
+#include "lang/program/models.h"
+
 #include <limits>
 
 namespace cascade::lowering {
@@ -50,7 +52,7 @@ class Areas : public GraphPass {
     NodeId image_of(const Node& node) override {
         const bool is_mean = node.calls(Function::domain_mean);
         if (!is_mean && !node.calls(Function::domain_sum)) return keep(node);
-        const NodeId area = context().has_model() ? graph().leaf(ModelPlane::area)
+        const NodeId area = context().has_links() ? graph().leaf(ModelPlane::area)
                                                   : graph().leaf(MetricPlane::area);
         const auto sum = [&](NodeId of) { return call(Function::domain_sum, {of}); };
         const NodeId integral = sum(times(node.operands[0], area));
@@ -84,6 +86,11 @@ class MaskedAggregates : public GraphPass {
 };
 
 }  // namespace
+
+const Grid& PassContext::grid() const {
+    static const Grid of_tissue = rows_of_cells(1);
+    return is_tissue() ? of_tissue : program.domain.grid;
+}
 
 Expressions GraphPass::run() {
     const auto needed = needed_by(from_.graph, from_.roots);

@@ -35,10 +35,21 @@ struct PassContext {
     std::uint32_t stage = 0;
     Extent extent = Extent::domain;
 
-    bool has_metric() const { return program.domain.surface && program.domain.surface->has_metric; }
-    bool has_model() const { return program.domain.model.has_value(); }
+    /// Do the cells crawl?
+    bool is_tissue() const {
+        return extent == Extent::domain && program.system_of(stage).cells.has_value();
+    }
+    bool has_metric() const {
+        return program.domain.surface && program.domain.surface->has_metric && !is_tissue();
+    }
+    /// Do cells read neighbours over links?
+    bool has_links() const { return program.domain.model || is_tissue(); }
     /// Are there cells of the grid outside of the domain?
-    bool has_mask() const { return program.domain.mask && extent == Extent::domain; }
+    bool has_mask() const {
+        return program.domain.mask && extent == Extent::domain && !is_tissue();
+    }
+    /// The grid of the cells; of cells that crawl one whose size does not matter.
+    const Grid& grid() const;
 };
 
 /// A pass goes through the nodes that roots need, operands first, and replaces each by nodes of a
@@ -79,6 +90,7 @@ private:
 };
 
 // The passes, in order; see lower_expressions.cpp.
+Expressions lay_on_tissue(const Expressions& from, const PassContext& context);
 Expressions write_out_tensors(const Expressions& from, const PassContext& context);
 Expressions lay_on_surface(const Expressions& from, const PassContext& context);
 Expressions spread_over_links(const Expressions& from, const PassContext& context);

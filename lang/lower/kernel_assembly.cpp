@@ -100,7 +100,7 @@ ValueId KernelAssembly::inside(Offset at) {
 }
 
 ValueId KernelAssembly::within_mask(ValueId value, float outside) {
-    if (!program_.domain.mask) return value;
+    if (!context_.has_mask()) return value;
     return builder_.select(inside({}), value, builder_.number(outside));
 }
 

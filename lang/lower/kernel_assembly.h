@@ -13,13 +13,15 @@ namespace cascade::lowering {
 class KernelAssembly {
 public:
     /// If `frozen` varies, it is read as a mask, or as a plane like other items.
-    KernelAssembly(const Program& program, std::uint32_t stage, bool frozen_is_mask)
-        : program_(program),
-          stage_(stage),
-          builder_(program.domain.precision),
+    KernelAssembly(const PassContext& context, bool frozen_is_mask)
+        : context_(context),
+          program_(context.program),
+          stage_(context.stage),
+          builder_(program_.domain.precision),
           frozen_is_mask_(frozen_is_mask) {}
 
     KernelBuilder& builder() { return builder_; }
+    const PassContext& context() const { return context_; }
     const Program& program() const { return program_; }
     const System& system() const { return program_.system_of(stage_); }
     const Stage& stage() const { return program_.stages[stage_]; }
@@ -52,6 +54,7 @@ private:
     template <typename... Sources>
     std::string name_of(const std::variant<Sources...>& source) const;
 
+    PassContext context_;
     const Program& program_;
     std::uint32_t stage_;
     KernelBuilder builder_;

@@ -12,10 +12,12 @@ namespace {
 
 bool always(const PassContext&) { return true; }
 bool has_metric(const PassContext& context) { return context.has_metric(); }
-bool has_model(const PassContext& context) { return context.has_model(); }
-bool has_areas(const PassContext& context) { return context.has_metric() || context.has_model(); }
+bool is_tissue(const PassContext& context) { return context.is_tissue(); }
+bool is_on_model(const PassContext& context) { return context.has_links() && !context.is_tissue(); }
+bool has_areas(const PassContext& context) { return context.has_metric() || context.has_links(); }
 bool has_mask(const PassContext& context) { return context.has_mask(); }
 
+bool any_node(const Node&) { return true; }
 bool is_tensor(const Node& node) {
     return node.calls(Function::tensor) || node.calls(Function::diffuse);
 }
@@ -25,6 +27,10 @@ bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>
 /// Before the first pass, definitions and rates have been replaced by their expressions
 /// (lang/program/flatten.h), and equal expressions are one node.
 constexpr std::array passes{
+    // After this pass there are no vectors, and sums over neighbours are sums over links of
+    // numbers:
+    // the operands of `theirs` are in planes.
+    PassInfo{"tissue", is_tissue, any_node, lay_on_tissue},
     // After this pass a tensor's operands are its entries a11, a12 and a22; diffuse has two
     // operands, a tensor and the value to differentiate.
     PassInfo{"tensors", always, is_tensor, write_out_tensors},
@@ -34,9 +40,9 @@ constexpr std::array passes{
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
     // After this pass places and normals are planes of the model. There are no vectors: the operand
     // of div has become a sum of lap(weight, e).
-    PassInfo{"links", has_model, is_of_cell, spread_over_links},
+    PassInfo{"links", is_on_model, is_of_cell, spread_over_links},
     // After this pass the weight of each lap(weight, e) differs from cell to cell.
-    PassInfo{"weights", has_model, is_operator, take_out_even_weights},
+    PassInfo{"weights", is_on_model, is_operator, take_out_even_weights},
     // After this pass sums over the domain weight cells by area, and a mean is a quotient of sums.
     PassInfo{"areas", has_areas, is_aggregate, weigh_by_areas},
     // After this pass the operands of aggregates have no effect outside of the mask.

@@ -19,12 +19,24 @@ ValueId elementary(KernelBuilder& k, Function function, ValueId a, ValueId b, Va
     CHECK(false, "lowering: every function of numbers has a row");
 }
 
+ValueId over_links(KernelBuilder& builder, Function function, ValueId value) {
+    switch (function) {
+        case Function::link_sum: return builder.link_sum(value);
+        case Function::link_least: return builder.link_least(value);
+        case Function::link_greatest: return builder.link_greatest(value);
+        default: break;
+    }
+    CHECK(false, "lowering: sums over neighbours are sums over links");
+}
+
 Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
     const Node& node = in.node();
     switch (info(node.function).kind) {
         case FunctionKind::draw:
         case FunctionKind::pattern: return {lower_draw(assembly, in)};
         case FunctionKind::shape: return {lower_shape(assembly, in)};
+        case FunctionKind::link:
+            return {over_links(assembly.builder(), node.function, in.number(0))};
         case FunctionKind::text: return {assembly.field(plane_source(in.graph, in.id), in.at)};
         case FunctionKind::colour:
             if (node.function == Function::palette) return lower_palette(assembly, in);

@@ -17,7 +17,7 @@ public:
           assembly_(assembly),
           builder_(assembly.builder()),
           values_(values),
-          grid_(graph_.program().domain.grid) {}
+          grid_(graph_.grid()) {}
 
     ValueId stencil(const Node& node);
 
@@ -47,7 +47,9 @@ private:
 
 ValueId Stencils::stencil(const Node& node) {
     const NodeId operand = node.reads().back();
-    if (graph_.is_uniform(operand)) return builder_.number(0);
+    const bool is_theirs = node.calls(Function::theirs);
+    if (graph_.is_uniform(operand)) return is_theirs ? own(operand) : builder_.number(0);
+    if (is_theirs) return builder_.theirs(slot_of_plane(operand));
     if (graph_.is_linked()) return over_links(node);
     const auto [order, first, second] = derivative_of(node.function);
     if (order == 1) return difference(operand, first);

@@ -50,6 +50,10 @@ private:
         for (const NodeId operand : node.reads().first(node.operand_count - 1u)) {
             need(operand, own_cell);
         }
+        if (node.calls(Function::theirs)) {
+            if (graph_.is_uniform(last)) need(last, own_cell);
+            return;
+        }
         if (graph_.is_uniform(last)) return;
         const bool reads_plane =
             graph_.is_linked() ||

@@ -74,7 +74,7 @@ Offsets stencil_offsets(const Node& stencil, const Axes& axes) {
 PassPlanner::PassPlanner(const PlanGraph& graph, std::span<const NodeId> roots,
                          Materialise materialise, std::span<const NodeId> step_invariants)
     : graph_(graph),
-      axes_(graph.program().domain.grid),
+      axes_(graph.grid()),
       materialise_(materialise),
       needed_(graph.size(), false),
       written_(graph.size(), false),

@@ -65,8 +65,7 @@ void PlanBuilder::number_nodes() {
 
 void PlanBuilder::lower(std::uint32_t pass) {
     const bool is_last = pass + 1 == planner_.pass_count();
-    last_ =
-        std::make_unique<KernelAssembly>(graph_.program(), graph_.stage(), request_.frozen_is_mask);
+    last_ = std::make_unique<KernelAssembly>(graph_.context(), request_.frozen_is_mask);
     std::vector<NodeId> wanted = written_[pass];
     if (is_last) {
         for (const ItemId item : request_.first_slots) {

@@ -65,14 +65,16 @@ PlanGraph::PlanGraph(Expressions expressions, const PassContext& context,
     facts_.reserve(is_uniform.size());
     for (const NodeId id : is_uniform.ids()) {
         const Node& node = (*this)[id];
-        facts_.push_back({is_uniform[id], is_step_invariant(node, step_invariants),
+        facts_.push_back({is_uniform[id], is_step_invariant(node, is_uniform[id], step_invariants),
                           beyond(node, is_uniform[id])});
     }
     names_.insert(expressions_.names.begin(), expressions_.names.end());
 }
 
-/// Parameters keep their starting values, and earlier stages are over.
-bool PlanGraph::is_step_invariant(const Node& node, Invariance what) const {
+/// Parameters keep their starting values, and earlier stages are over. But cells that crawl are
+/// elsewhere in each step, and there are more and more of them.
+bool PlanGraph::is_step_invariant(const Node& node, bool is_uniform, Invariance what) const {
+    if (context_.is_tissue() && !is_uniform) return false;
     if (const auto* item = node.as<ItemId>()) {
         return what == Invariance::state || !program().system_of(stage()).is_species(*item);
     }
@@ -83,7 +85,7 @@ bool PlanGraph::is_step_invariant(const Node& node, Invariance what) const {
 }
 
 std::array<Beyond, 3> PlanGraph::beyond(const Node& node, bool is_uniform) const {
-    const Grid& grid = program().domain.grid;
+    const Grid& grid = this->grid();
     Axes3 beyond{};
     if (is_uniform) return beyond;
     if (const auto* item = node.as<ItemId>()) {
@@ -123,7 +125,7 @@ Boundaries PlanGraph::boundary(NodeId id) const {
             default: return usual;
         }
     };
-    const Boundaries& usual = program().domain.grid.boundary;
+    const Boundaries& usual = grid().boundary;
     return {along(0, usual.x), along(1, usual.y), along(2, usual.z)};
 }
 

@@ -64,15 +64,16 @@ public:
     bool has_mask() const { return context_.has_mask(); }
     /// Do cells read neighbours over links? Operators then read only planes, and `lap` of two
     /// operands is div(first * grad(second)).
-    /// operands is div(first * grad(second)).
-    bool is_linked() const { return context_.has_model(); }
+    bool is_linked() const { return context_.has_links(); }
+    const PassContext& context() const { return context_; }
+    const Grid& grid() const { return context_.grid(); }
 
 private:
     struct Facts {
         bool is_uniform = false, is_step_invariant = false;
         std::array<Beyond, 3> beyond{};  ///< By axis.
     };
-    bool is_step_invariant(const Node& node, Invariance what) const;
+    bool is_step_invariant(const Node& node, bool is_uniform, Invariance what) const;
     std::array<Beyond, 3> beyond(const Node& node, bool is_uniform) const;
 
     Expressions expressions_;

@@ -42,7 +42,7 @@ public:
     Chooser(const PlanGraph& graph, std::span<const NodeId> roots)
         : graph_(graph),
           roots_(roots),
-          axes_(graph.program().domain.grid),
+          axes_(graph.grid()),
           places_(graph.size(), 0),
           number_(graph.size(), 0) {}
 

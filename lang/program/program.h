@@ -42,7 +42,7 @@ inline constexpr std::array<std::string_view, metric_plane_count> metric_names{
 // clang-format off
 enum class ModelPlane : std::uint8_t {
     number,      ///< The cell's own number, a word for draws of random numbers.
-    area,        ///< In square units; 0 in the padding of the last row.
+    area,  ///< In square units; of a cell that crawls 1. 0 in the padding of the last row.
     x, y, z,     ///< Its place in the model's box, whose longest side is 1, …
     sx, sy, sz,  ///< … and with every side 1.
     nx, ny, nz,  ///< The outward normal, of length 1.
@@ -110,8 +110,8 @@ using NodeKind =
                  Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
 
 /// In a system of fields a vector is a flux, known at the faces of cells, and div makes a number of
-/// it. In a system of cells that crawl it is three numbers, a place or a direction in space.
-/// No formula has both.
+/// it. In a system of cells that crawl it is three numbers, a place or a direction in space;
+/// lowering takes it apart first of all (lang/lower/tissue_pass.cpp). No formula has both.
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
 /// The position of a node in its formula or graph.

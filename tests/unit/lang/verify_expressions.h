@@ -46,24 +46,36 @@ private:
     bool may_exist(const Node& node) const {
         if (node.is<DefinitionId>() || node.is<Rate>()) return false;
         if (node.is<MetricPlane>()) return context_.has_metric();
-        if (node.is<ModelPlane>()) return context_.has_model();
+        if (node.is<ModelPlane>()) return context_.has_links();
         if (node.is<InsideMask>()) return is_past("mask");
+        if (node.is<CellValue>() || (node.is<Call>() && is_of_cells(node.function))) {
+            return context_.is_tissue() && !is_past("tissue");
+        }
         if (node.is<Builtin>()) {
             const bool is_place = !node.is(Builtin::t) && !node.is(Builtin::step);
-            return !is_place || !context_.has_model() || !is_past("links");
+            return !is_place || !context_.has_links() || !is_laid_out();
         }
         if (!node.is<Call>()) return true;
         if (node.calls(Function::domain_mean) && is_past("areas")) {
-            return !context_.has_metric() && !context_.has_model();
+            return !context_.has_metric() && !context_.has_links();
         }
         const bool is_flux = node.type == ValueType::vector || node.calls(Function::div);
-        return !is_flux || !context_.has_model() || !is_past("links");
+        return !is_flux || !context_.has_links() || !is_laid_out();
+    }
+
+    /// Is everything written out that depends on where cells are?
+    bool is_laid_out() const { return is_past(context_.is_tissue() ? "tissue" : "links"); }
+    /// Of vectors in space or of neighbours, and not made by lowering for kernels.
+    static bool is_of_cells(Function function) {
+        const FunctionKind kind = info(function).kind;
+        return kind == FunctionKind::geometry || is_over_neighbours(function) ||
+               function == Function::own;
     }
 
     bool has_arity(const Node& node) const {
         if (node.calls(Function::diffuse) && is_past("tensors")) return node.operand_count == 2;
         const bool is_weighted = node.calls(Function::lap) && node.operand_count == 2;
-        if (is_weighted) return context_.has_model() && is_past("links");
+        if (is_weighted) return context_.has_links() && is_past("links");
         return info(node.function).arity.takes(node.operand_count);
     }
 
@@ -72,12 +84,15 @@ private:
             case Function::grad:
             case Function::vector: return ValueType::vector;
             case Function::tensor: return ValueType::tensor;
+            case Function::cross:
+            case Function::unit: return ValueType::vector;
             case Function::rgb:
             case Function::palette: return ValueType::colour;
             default: break;
         }
         const FunctionKind kind = info(node.function).kind;
-        const bool passes_on = kind == FunctionKind::arithmetic || kind == FunctionKind::choice;
+        const bool passes_on = kind == FunctionKind::arithmetic || kind == FunctionKind::choice ||
+                               kind == FunctionKind::link;
         for (std::size_t k = 0; passes_on && k < node.operand_count; ++k) {
             const bool is_colour = type(node, k) == ValueType::colour;
             if (is_colour || type(node, k) == ValueType::vector) return type(node, k);
@@ -90,7 +105,12 @@ private:
         for (std::size_t k = 0; k < node.operand_count; ++k) {
             const ValueType type = this->type(node, k);
             bool fits = type == ValueType::number;
-            if (node.calls(Function::div)) fits = type == ValueType::vector;
+            const bool is_component = node.calls(Function::component);
+            if (node.calls(Function::div) || (kind == FunctionKind::geometry && !is_component)) {
+                fits = type == ValueType::vector;
+            }
+            if (is_component && k == 0) fits = type == ValueType::vector;
+            if (kind == FunctionKind::link && k == 0) fits |= type == ValueType::vector;
             if (kind == FunctionKind::text) fits = type == ValueType::text;
             if (node.calls(Function::palette) && k == 3) fits = type == ValueType::text;
             if (node.calls(Function::diffuse) && k == 0 && is_past("tensors")) {
