@@ -4,15 +4,10 @@
 #include "core/check.h"
 #include "core/write_encoded.h"
 #include "export/model_writer.h"
+#include "export/npz_arrays.h"
 #include "export/vtp.h"
-#include "export/zip.h"
 #include "mesh/normals.h"
-#include "picture/float_bytes.h"
-#include "picture/npy.h"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <cstdint>
 
 namespace cascade {
@@ -32,38 +27,6 @@ PlacesAndNormals places_and_normals(const SurfaceMesh& mesh, const SurfaceCells&
     }
     return result;
 }
-
-/// The arrays of an archive.
-class Arrays {
-public:
-    /// Adds an array of rows × columns, or of rows if columns is 1; `type` is NumPy's.
-    template <typename Number, typename Take>
-    void add(const std::string& name, std::string_view type, std::size_t rows, std::size_t columns,
-             const Take& take) {
-        const std::string shape =
-            columns == 1 ? fmt::format("{},", rows) : fmt::format("{}, {}", rows, columns);
-        ZipEntry entry{name + ".npy", npy_head(type, shape)};
-        entry.bytes.reserve(entry.bytes.size() + rows * columns * sizeof(Number));
-        for (std::size_t row = 0; row < rows; ++row) {
-            for (std::size_t column = 0; column < columns; ++column) {
-                append_number(entry.bytes, static_cast<Number>(take(row, column)));
-            }
-        }
-        entries_.push_back(std::move(entry));
-    }
-
-    void add_vectors(const std::string& name, std::span<const Vector3d> vectors) {
-        add<double>(name, "<f8", vectors.size(), 3, [&](std::size_t row, std::size_t column) {
-            const Vector3d& v = vectors[row];
-            return column == 0 ? v.x : column == 1 ? v.y : v.z;
-        });
-    }
-
-    std::span<const ZipEntry> entries() const { return entries_; }
-
-private:
-    std::vector<ZipEntry> entries_;
-};
 
 struct Link {
     std::uint32_t low = 0, high = 0;
@@ -96,7 +59,7 @@ Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cell
                                const CellResults& results) {
     const PlacesAndNormals at = places_and_normals(mesh, cells);
     const std::size_t count = cells.places.size();
-    Arrays arrays;
+    NpzArrays arrays;
     arrays.add_vectors("points", at.places);
     arrays.add_vectors("normals", at.normals);
     arrays.add<double>("areas", "<f8", count, 1,
@@ -108,19 +71,9 @@ Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cell
                               });
     arrays.add<double>("weights", "<f8", links.size(), 1,
                        [&](std::size_t row, std::size_t) { return links[row].weight; });
-    if (!results.colours.empty()) {
-        arrays.add<float>("colors", "<f4", count, 3, [&](std::size_t row, std::size_t column) {
-            return shown(results.colours[row])[column];
-        });
-    }
-    const std::vector<std::string> names =
-        distinct_names(results.channels,
-                       {"points", "normals", "areas", "links", "weights", "colors"});
-    for (std::size_t c = 0; c < names.size(); ++c) {
-        const std::vector<float>& values = results.channels[c].values;
-        arrays.add<float>(names[c], "<f4", count, 1,
-                          [&](std::size_t row, std::size_t) { return values[row]; });
-    }
+    if (!results.colours.empty()) arrays.add_colours("colors", results.colours);
+    arrays.add_channels(results.channels,
+                        {"points", "normals", "areas", "links", "weights", "colors"});
     return encode_zip(arrays.entries());
 }
 

@@ -15,13 +15,6 @@ namespace cascade {
 
 namespace {
 
-std::string ending_of(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
-
 Result<std::string> encode(const std::string& ending, const SurfaceMesh& mesh,
                            const PointResults& results) {
     if (ending == ".ply") return encode_ply(mesh, results);
@@ -34,8 +27,15 @@ Result<std::string> encode(const std::string& ending, const SurfaceMesh& mesh,
 
 }  // namespace
 
+std::string lower_ending(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
 bool is_model_ending(const std::filesystem::path& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = lower_ending(path);
     return ending == ".ply" || ending == ".obj" || ending == ".glb" || ending == ".vtp";
 }
 
@@ -52,7 +52,7 @@ Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& m
                         ".vtp",
                         path.string()));
     }
-    return write_encoded(path, [&] { return encode(ending_of(path), mesh, results); });
+    return write_encoded(path, [&] { return encode(lower_ending(path), mesh, results); });
 }
 
 }  // namespace cascade

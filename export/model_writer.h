@@ -36,6 +36,9 @@ std::string encode_vtp(const SurfaceMesh& mesh, const PointResults& results);
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const PointResults& results);
 
+/// The extension of a file's name in lower case, such as ".glb".
+std::string lower_ending(const std::filesystem::path& path);
+
 /// Whether write_model supports the extension.
 bool is_model_ending(const std::filesystem::path& path);
 

@@ -1,5 +1,6 @@
-// Models as Wavefront OBJ files.
-#include "export/model_writer.h"
+// Positions, normals and texture coordinates have indices of their own.
+#include "export/obj.h"
+
 #include "mesh/normals.h"
 
 #include <fmt/format.h>
@@ -10,9 +11,12 @@
 
 namespace cascade {
 
-std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
-    std::string text = "# Cascade\n";
-    auto out = std::back_inserter(text);
+void ObjText::begin(std::string_view name) {
+    fmt::format_to(std::back_inserter(text_), "o {}\n", name);
+}
+
+void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
+    auto out = std::back_inserter(text_);
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
         const Vector3d& place = mesh.points[p];
         fmt::format_to(out, "v {} {} {}", place.x, place.y, place.z);
@@ -21,33 +25,64 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
                 fmt::format_to(out, " {:.6g}", number);
             }
         }
-        text += '\n';
+        text_ += '\n';
     }
     const CornerNormals normals = corner_normals(mesh);
     for (const Vector3d& normal : normals.normals) {
         fmt::format_to(out, "vn {:.6g} {:.6g} {:.6g}\n", normal.x, normal.y, normal.z);
     }
-    std::vector<std::size_t> texture;  // Index of each corner's coordinates, from 1.
+    std::vector<std::size_t> texture;  // Index of each corner's coordinates.
     texture.reserve(3 * mesh.texture.size());
     std::map<TexturePlace, std::size_t> known;
     for (const auto& corners : mesh.texture) {
         for (const TexturePlace& place : corners) {
-            const auto [entry, is_new] = known.emplace(place, known.size() + 1);
+            const auto [entry, is_new] = known.emplace(place, places_ + known.size() + 1);
             if (is_new) fmt::format_to(out, "vt {} {}\n", place[0], place[1]);
             texture.push_back(entry->second);
         }
     }
-    text += "s 1\n";  // Smooth: some programs use normals only then.
+    text_ += "s 1\n";  // Smooth: some programs use normals only then.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        text += 'f';
+        text_ += 'f';
         for (std::size_t k = 0; k < 3; ++k) {
-            fmt::format_to(out, " {}/", mesh.triangles[t][k] + 1);
+            fmt::format_to(out, " {}/", points_ + mesh.triangles[t][k] + 1);
             if (!mesh.texture.empty()) fmt::format_to(out, "{}", texture[3 * t + k]);
-            fmt::format_to(out, "/{}", normals.numbers[t][k] + 1);
+            fmt::format_to(out, "/{}", normals_ + normals.numbers[t][k] + 1);
         }
-        text += '\n';
+        text_ += '\n';
     }
-    return text;
+    points_ += mesh.points.size();
+    normals_ += normals.normals.size();
+    places_ += known.size();
+}
+
+void ObjText::add(const MergedCopies& copies) {
+    auto out = std::back_inserter(text_);
+    for (std::size_t k = 0; k < copies.points.size(); ++k) {
+        const Vector3d& place = copies.points[k];
+        const Colour& colour = copies.colours[k];
+        fmt::format_to(out, "v {:.9g} {:.9g} {:.9g} {:.4g} {:.4g} {:.4g}\n", place.x, place.y,
+                       place.z, colour[0], colour[1], colour[2]);
+    }
+    for (const Vector3& normal : copies.normals) {
+        fmt::format_to(out, "vn {:.4g} {:.4g} {:.4g}\n", normal.x, normal.y, normal.z);
+    }
+    text_ += "s 1\n";
+    for (const auto& triangle : copies.triangles) {
+        text_ += 'f';
+        for (const std::uint32_t corner : triangle) {
+            fmt::format_to(out, " {}//{}", points_ + corner + 1, normals_ + corner + 1);
+        }
+        text_ += '\n';
+    }
+    points_ += copies.points.size();
+    normals_ += copies.normals.size();
+}
+
+std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results) {
+    ObjText file;
+    file.add(mesh, results);
+    return file.text();
 }
 
 }  // namespace cascade

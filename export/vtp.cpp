@@ -73,7 +73,10 @@ private:
 
     void add_point_data() {
         const std::vector<std::string> names =
-            distinct_names(points_.channels, {"Normals", "color", "area", "Points"});
+            points_.frames.empty()
+                ? distinct_names(points_.channels, {"Normals", "color", "area", "Points"})
+                : distinct_names(points_.channels,
+                                 {"Normals", "color", "radius", "frame", "Points"});
         head_ += "      <PointData Normals=\"Normals\"";
         if (!names.empty()) head_ += fmt::format(" Scalars=\"{}\"", xml_escaped(names[0]));
         head_ += ">\n";
@@ -85,6 +88,15 @@ private:
         add_vectors<float>("Normals", points_.normals);
         if (!points_.areas.empty()) {
             add<double>("area", count, 1, [&](std::size_t k) { return points_.areas[k]; });
+        }
+        if (!points_.radii.empty()) {
+            add<double>("radius", count, 1, [&](std::size_t k) { return points_.radii[k]; });
+        }
+        if (!points_.frames.empty()) {
+            add<double>("frame", count, 4, [&](std::size_t k) {
+                const Quaternion& q = points_.frames[k / 4];
+                return std::array{q.w, q.x, q.y, q.z}[k % 4];
+            });
         }
         if (!points_.colours.empty()) {
             add<std::uint8_t>("color", count, 3, [&](std::size_t k) {

@@ -3,6 +3,7 @@
 // 11th edition, Kitware 2010, chapter 19).
 #pragma once
 
+#include "core/quaternion.h"
 #include "export/channels.h"
 
 #include <array>
@@ -15,8 +16,10 @@ namespace cascade {
 struct VtpPoints {
     std::span<const Vector3d> places;
     std::span<const Vector3d> normals;
-    std::span<const Colour> colours;  ///< Empty: none.
-    std::span<const double> areas;    ///< Of cells; empty: none.
+    std::span<const Colour> colours;     ///< Empty: none.
+    std::span<const double> areas;       ///< Of cells; empty: none.
+    std::span<const double> radii;       ///< Likewise.
+    std::span<const Quaternion> frames;  ///< Likewise; as `frame`, w first.
     std::span<const Channel> channels;
     /// Between the points; if empty each point is a vertex.
     std::span<const std::array<std::uint32_t, 3>> triangles;

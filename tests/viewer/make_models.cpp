@@ -1,8 +1,10 @@
 // Writes the GLB files that tests/viewer_test.sh opens into the current folder. What is to be seen
 // in them is known: tests/viewer/view.mjs has it.
 #include "export/bake.h"
+#include "export/instanced_model.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
+#include "mesh/cell_shapes.h"
 #include "unit/export/example_surfaces.h"
 #include "unit/surface/even_cells.h"
 
@@ -71,10 +73,40 @@ bool write_hills(Team& team) {
     return write_maps("mirrored_hill.glb", mesh, filter, look, team);
 }
 
+/// Copies of a ball before a square: a row of 64 at the bottom whose colours go from red to blue,
+/// and a tall green one, turned to lie from left to right, at the top. As instances, and merged.
+bool write_copies() {
+    const SurfaceMesh square = test::flat_square(2);
+    const std::vector<Colour> colours(square.points.size(), Colour{0.2F, 0.2F, 0.2F});
+    Instances copies;
+    copies.meshes.push_back(*mesh_of(parts_of({CellShape::Kind::ball, 1, 0}), {1, 0.01}));
+    constexpr int count = 64;
+    for (int k = 0; k < count; ++k) {
+        const double part = (k + 0.5) / count;
+        Placement copy;
+        copy.place = {part, 0.25, 0.2};
+        copy.scale = {0.05, 0.1, 0.05};
+        const auto blue = static_cast<float>(part);
+        copy.colour = {0.8F - 0.7F * blue, 0.2F, 0.1F + 0.8F * blue};
+        copies.placements.push_back(copy);
+    }
+    Placement lying;
+    lying.place = {0.5, 0.75, 0.2};
+    lying.turn = quaternion_of({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+    lying.scale = {0.1, 0.4, 0.1};
+    lying.colour = {0.1F, 0.8F, 0.2F};
+    copies.placements.push_back(lying);
+    const InstancedModel model{&square, colours, copies};
+    return report(write_instanced("copies.glb", model, false)) &&
+           report(write_instanced("merged_copies.glb", model, true));
+}
+
 }  // namespace
 }  // namespace cascade
 
 int main() {
     cascade::Team team(2);
-    return cascade::write_spheres(team) && cascade::write_hills(team) ? 0 : 1;
+    return cascade::write_spheres(team) && cascade::write_hills(team) && cascade::write_copies()
+               ? 0
+               : 1;
 }

@@ -20,10 +20,12 @@ const expect = (condition, message) => condition || faults.push(message);
 async function validate() {
     const validator = createRequire(join(here, "package.json"))("gltf-validator");
     const files = readdirSync(models).filter((name) => name.endsWith(".glb"));
-    expect(files.length >= 4, `only ${files.length} models were written`);
+    expect(files.length >= 6, `only ${files.length} models were written`);
     for (const file of files) {
         const report = await validator.validateBytes(
-            new Uint8Array(readFileSync(join(models, file))), { maxIssues: 20 });
+            new Uint8Array(readFileSync(join(models, file))),
+            // It does not know the extension of instances, and what only these use seems unused.
+            { maxIssues: 20, ignoredIssues: ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"] });
         const { numErrors, numWarnings, messages } = report.issues;
         const is_valid = numErrors + numWarnings === 0;
         expect(is_valid, `${file}: ${JSON.stringify(messages, null, 1)}`);
@@ -41,6 +43,8 @@ const views = [
         { name: `${name}_left`, model: `${name}.glb`, sun: [-5, 0, 5], frame: [0.5, 0.5, 0.5] },
         { name: `${name}_top`, model: `${name}.glb`, sun: [0, 5, 5], frame: [0.5, 0.5, 0.5] },
     ]),
+    ...["copies", "merged_copies"].map((name) => (
+        { name, model: `${name}.glb`, ambient: 1, frame: [0.5, 0.5, 0.5] })),
 ];
 
 /// The mean colour of 5 × 5 pixels of a view around a place, −1 … 1 to the right and up.
@@ -61,7 +65,19 @@ function expect_colour(seen, name, x, y, wanted) {
            `${name} at ${x}, ${y}: ${found.map(Math.round)} and not ${wanted}`);
 }
 
-function look_at(seen) {
+function look_at(seen, instances) {
+    expect(instances.copies === 65, `three.js found ${instances.copies} copies and not 65`);
+    expect(instances.merged_copies === 0, "merged copies are no instances");
+    for (const name of ["copies", "merged_copies"]) {
+        expect_colour(seen, name, 0, 0, [51, 51, 51]);
+        // There are fewer materials than colours.
+        for (const part of [0.1, 0.3, 0.5, 0.7, 0.9]) {
+            expect_colour(seen, name, 2 * part - 1, -0.5,
+                          [204 - 178 * part, 51, 26 + 204 * part].map(Math.round));
+        }
+        for (const x of [-0.7, 0, 0.7]) expect_colour(seen, name, x, 0.5, [26, 204, 51]);
+        expect_colour(seen, name, 0.9, 0.5, [51, 51, 51]);
+    }
     for (const name of ["points", "maps"]) {
         expect_colour(seen, name, 0.97, 0.97, [0, 0, 0]);
         for (const y of [-0.5, 0, 0.5]) {
@@ -84,9 +100,9 @@ function look_at(seen) {
     }
 }
 
-/// The pixels of all views by name.
+/// The pixels of all views, and their numbers of instances, by name.
 function draw() {
-    const seen = {};
+    const seen = {}, instances = {};
     const types = { ".html": "text/html", ".js": "text/javascript", ".json": "application/json" };
     return new Promise((resolve, reject) => {
         let shell;
@@ -96,11 +112,12 @@ function draw() {
             request.on("data", (part) => (body += part));
             request.on("end", () => {
                 if (path.startsWith("/view/")) {
-                    const name = path.slice(6), { png, pixels } = JSON.parse(body);
+                    const name = path.slice(6), { png, pixels, copies } = JSON.parse(body);
                     seen[name] = pixels;
+                    instances[name] = copies;
                     writeFileSync(join(here, `${name}.png`), Buffer.from(png.split(",")[1], "base64"));
                 }
-                if (path === "/done") finish(() => resolve(seen));
+                if (path === "/done") finish(() => resolve([seen, instances]));
                 if (path === "/failed") finish(() => reject(new Error(`in the browser: ${body}`)));
                 if (request.method === "POST") return response.end();
                 if (path === "/views.json") return response.end(JSON.stringify(views));
@@ -150,7 +167,7 @@ function stop_at_faults() {
 
 await validate();
 stop_at_faults();
-look_at(await draw());
+look_at(...await draw());
 stop_at_faults();
 // Something of the closed connections may still be waited for.
 process.exit(0);

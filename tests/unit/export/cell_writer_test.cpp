@@ -1,5 +1,6 @@
 // Cells as files: what NumPy and a reader of XML find in them.
 #include "export/cell_writer.h"
+#include "export/placed_cells.h"
 #include "export/glb.h"
 #include "export/model_writer.h"
 #include "export/painted_cells.h"
@@ -141,6 +142,40 @@ p = a["Points", "Points"].astype(float)[corners]
 normals = numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
 assert abs(normals[:, 2].sum() / 2 - 1) < 1e-6
 assert (a["Polys", "offsets"][:, 0] == range(3, 99, 3)).all()
+)"));
+}
+
+TEST(PlacedCells, AreReadWithTheirFrames) {
+    if (!PythonFolder::has_numpy()) GTEST_SKIP() << "there is no NumPy";
+    const double half = std::sqrt(0.5);
+    const std::vector<Vector3d> places = {{1.0 / 3, 2, 3}, {4, 5, 6}};
+    const std::vector<Quaternion> frames = {{}, {half, half, 0, 0}};  // A quarter around x.
+    const std::vector<double> radii = {0.5, 0.25};
+    const std::vector<Colour> colours(2, Colour{1, 0.5F, 0});
+    const Channel channels[] = {{"ripe", {3, 4}}, {"frame", {5, 6}}, {"points", {7, 8}}};
+    const PlacedCells cells{places, frames, radii, colours, channels};
+    const PythonFolder folder;
+    ASSERT_TRUE(write_cells(folder / "thorns.cells.npz", cells));
+    ASSERT_TRUE(write_cells(folder / "thorns.cells.vtp", cells));
+    EXPECT_FALSE(write_cells(folder / "thorns.csv", cells));
+    EXPECT_TRUE(folder.runs(R"(
+import numpy, re, struct
+cells = numpy.load("thorns.cells.npz")
+assert (cells["points"] == [[1 / 3, 2, 3], [4, 5, 6]]).all()
+assert (cells["frames"] == [[1, 0, 0, 0], [.5 ** .5, .5 ** .5, 0, 0]]).all()
+assert (cells["radii"] == [.5, .25]).all() and (cells["colors"] == [1, .5, 0]).all()
+assert (cells["ripe"] == [3, 4]).all() and (cells["frame"] == [5, 6]).all()
+assert (cells["points_"] == [7, 8]).all()
+data = open("thorns.cells.vtp", "rb").read()
+block = data.index(b"_", data.index(b"<AppendedData")) + 1
+def array(name, kind):
+    offset = block + int(re.search(rb'Name="%s"[^>]*offset="(\d+)' % name, data)[1])
+    size = struct.unpack_from("<Q", data, offset)[0]
+    return numpy.frombuffer(data[offset + 8:offset + 8 + size], kind)
+assert (array(b"frame", "<f8").reshape(2, 4) == cells["frames"]).all()
+assert (array(b"radius", "<f8") == [.5, .25]).all()
+assert (array(b"frame_", "<f4") == [5, 6]).all() and (array(b"points", "<f4") == [7, 8]).all()
+assert numpy.allclose(array(b"Normals", "<f4").reshape(2, 3), [[0, 1, 0], [0, 0, 1]])
 )"));
 }
 

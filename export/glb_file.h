@@ -1,0 +1,132 @@
+// The parts of a GLB file: a JSON text that describes views of one binary buffer.
+#pragma once
+
+#include "core/result.h"
+#include "core/vector3.h"
+#include "export/glb.h"
+#include "picture/float_bytes.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace cascade {
+
+/// Numbers of one part are its place in the list of its kind.
+class GlbFile {
+public:
+    using Json = nlohmann::ordered_json;
+
+    // Numeric codes of the format.
+    static constexpr int vertex_buffer = 34962, index_buffer = 34963;
+
+    /// Begins without parts; all nodes will be in the one scene, moved by `origin`.
+    explicit GlbFile(Vector3d origin = {});
+
+    /// Appends to a list: "nodes", "meshes", "materials", "images", "textures".
+    std::size_t add(const char* list, Json part);
+    /// A node, which is moved by the origin.
+    void add_node(Json node);
+    void require(const char* extension);
+
+    /// A view of the bytes that `write` appends; `target` is 0 for what is neither vertices nor
+    /// indices.
+    template <typename Write>
+    std::size_t add_view(int target, const Write& write) {
+        const std::size_t begin = bytes_.size();
+        write(bytes_);
+        Json view = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes_.size() - begin}};
+        if (target != 0) view["target"] = target;
+        views_.push_back(std::move(view));
+        bytes_.append((4 - bytes_.size() % 4) % 4, '\0');
+        return views_.size() - 1;
+    }
+
+    /// An accessor of `count` elements of a shape such as "VEC3"; `number(k, c)` is component c of
+    /// element k, and its type that of the file. Integers are fractions of their largest value.
+    template <typename Number, typename Take>
+    std::size_t add_numbers(int target, std::string_view shape, std::size_t count,
+                            const Take& number) {
+        const std::size_t components = shape == "SCALAR" ? 1 : shape.back() - std::size_t{'0'};
+        const std::size_t view = add_view(target, [&](std::string& bytes) {
+            for (std::size_t k = 0; k < count; ++k) {
+                for (std::size_t c = 0; c < components; ++c) {
+                    append_number(bytes, static_cast<Number>(number(k, c)));
+                }
+            }
+        });
+        Json accessor = {{"bufferView", view},
+                         {"componentType", code_of<Number>()},
+                         {"count", count},
+                         {"type", shape}};
+        if (std::is_integral_v<Number> && target != index_buffer) accessor["normalized"] = true;
+        accessors_.push_back(std::move(accessor));
+        return accessors_.size() - 1;
+    }
+
+    /// Positions of vertices relative to the origin, with their bounds; `place(k)` in double.
+    template <typename Take>
+    std::size_t add_places(std::size_t count, const Take& place) {
+        std::array<float, 3> low, high;
+        low.fill(std::numeric_limits<float>::max());
+        high.fill(std::numeric_limits<float>::lowest());
+        const std::size_t number =
+            add_numbers<float>(vertex_buffer, "VEC3", count, [&](std::size_t k, std::size_t c) {
+                const float part = component(place(k) - origin_, c);
+                low[c] = std::min(low[c], part);
+                high[c] = std::max(high[c], part);
+                return part;
+            });
+        accessors_[number]["min"] = low;
+        accessors_[number]["max"] = high;
+        return number;
+    }
+
+    /// The corners of triangles between `vertices` vertices, in as few bytes as they need.
+    std::size_t add_corners(std::span<const std::array<std::uint32_t, 3>> triangles,
+                            std::size_t vertices, bool is_compact);
+
+    Vector3d origin() const { return origin_; }
+
+    /// The whole file. Fails above 4 GiB.
+    Result<std::string> pack();
+
+    template <typename Vector>
+    static float component(const Vector& v, std::size_t c) {
+        return static_cast<float>(c == 0 ? v.x : c == 1 ? v.y : v.z);
+    }
+
+private:
+    template <typename Number>
+    static constexpr int code_of() {
+        if constexpr (std::is_same_v<Number, float>) return 5126;
+        else if constexpr (std::is_same_v<Number, std::uint32_t>) return 5125;
+        else if constexpr (std::is_same_v<Number, std::uint16_t>) return 5123;
+        else if constexpr (std::is_same_v<Number, std::int16_t>) return 5122;
+        else if constexpr (std::is_same_v<Number, std::uint8_t>) return 5121;
+    }
+
+    Vector3d origin_;
+    Json file_;
+    std::string bytes_;
+    Json views_ = Json::array(), accessors_ = Json::array();
+};
+
+/// Where coordinates of a file begin: 0 if binary32 represents all of them, otherwise their middle.
+/// `low` and `high` bound everything. Fails if binary32 cannot represent its size.
+Result<Vector3d> origin_of_glb(std::span<const Vector3d> points, Vector3d low, Vector3d high);
+
+/// A material of a roughness that is not metallic.
+GlbFile::Json plain_material(float roughness);
+
+/// Adds a model with its look as a node.
+void add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file);
+
+}  // namespace cascade

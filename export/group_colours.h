@@ -1,0 +1,23 @@
+// Few colours that stand for many.
+#pragma once
+
+#include "core/palette.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// Groups of similar colours.
+struct ColourGroups {
+    std::vector<Colour> means;
+    std::vector<std::uint32_t> group;  ///< Of each colour.
+};
+
+/// Groups colours by median cut: P. Heckbert, "Color Image Quantization for Frame Buffer Display",
+/// SIGGRAPH 1982. The group with the largest range of a channel is divided at the middle of that
+/// range until there are `most` groups or all colours of each group are equal.
+ColourGroups group_colours(std::span<const Colour> colours, std::size_t most);
+
+}  // namespace cascade

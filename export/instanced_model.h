@@ -1,0 +1,64 @@
+// Scales, thorns or hairs on a body as files of other programs.
+#pragma once
+
+#include "core/palette.h"
+#include "core/result.h"
+#include "mesh/instances.h"
+#include "mesh/surface_mesh.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// What is written; it refers to its parts.
+struct InstancedModel {
+    const SurfaceMesh* body = nullptr;  ///< May be absent.
+    std::span<const Colour> colours;    ///< Of the body, sRGB, one per point; empty: none.
+    const Instances& copies;            ///< At least one.
+};
+
+/// A GLB file in which each mesh is stored once, by the extension EXT_mesh_gpu_instancing (Khronos
+/// Group, 2020), which readers must know. Copies have translations and scales in binary32,
+/// rotations as 16-bit fractions, which turn by less than 0.003 degrees, and colours.
+///
+/// The extension has no colours. Programs that know of colours anyway (three.js, Babylon.js) read
+/// the attribute `_COLOR_0`, linear light by which they multiply the material's colour. For all
+/// others, copies of similar colours share one of at most `most_copy_materials` materials with
+/// their mean colour. `_COLOR_0` is a copy's light over that of its material, so that the former
+/// see each colour exactly and the latter an approximation, which is exact if there are as few
+/// colours.
+Result<std::string> encode_instanced_glb(const InstancedModel& model);
+inline constexpr std::size_t most_copy_materials = 32;
+
+/// The largest number of triangles of copies that are merged.
+inline constexpr std::uint64_t most_merged_triangles = std::uint64_t{1} << 24;
+
+/// All copies as plain triangles, for programs that know no instances.
+struct MergedCopies {
+    std::vector<Vector3d> points;
+    std::vector<Vector3> normals;  ///< One per point, like the colours.
+    std::vector<Colour> colours;   ///< sRGB, darkened by the shades.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Fails above `most_merged_triangles`.
+Result<MergedCopies> merge_copies(const Instances& copies);
+
+/// A GLB file of plain triangles with vertex colours: a node for the body, and one for the copies.
+/// Fails as merge_copies() does.
+Result<std::string> encode_merged_glb(const InstancedModel& model);
+
+/// A Wavefront OBJ file, likewise: an object `body` and an object `copies`, with colours after the
+/// positions. Nine digits of the copies' coordinates are written.
+Result<std::string> encode_merged_obj(const InstancedModel& model);
+
+/// Writes a file of the extension .glb or .obj, atomically. OBJ files are always merged. Fails on
+/// other extensions, and as the encoders and write_file do.
+Result<void> write_instanced(const std::filesystem::path& path, const InstancedModel& model,
+                             bool is_merged);
+
+}  // namespace cascade
