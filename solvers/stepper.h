@@ -50,6 +50,8 @@ public:
     double attempt(std::int64_t complete, double tolerance);
     /// Accepts the step just tried: its last rates become the first rates of the next step.
     void accept();
+    /// Must be called when current values have been changed from outside.
+    void forget_rates() { knows_first_rates_ = false; }
     /// The planes of the error estimate, one for each species.
     const std::vector<Field>& error_planes() const {
         return planes_.scratch(*problem().error_register);

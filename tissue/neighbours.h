@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "core/vector3.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -23,12 +24,14 @@ struct NeighbourRule {
     /// By axis: the length after which the tissue repeats; 0: it does not. The nearest image
     /// counts.
     std::array<double, 3> period{};
+    double mean_radius = 0;  ///< Of all cells, which sets the scale for very small ones.
 };
 
 /// How far each cell may go, in script lengths, before a list built with this `skin` can miss a
-/// pair: `skin` times its radius, or times half the distance `near` if that is larger.
+/// pair: `skin` times its radius, or times half the distance `near` or a quarter of the mean radius
+/// if that is larger.
 inline double slack_of(const NeighbourRule& rule, double skin, double radius) {
-    return skin * std::max(radius, rule.near / 2);
+    return skin * std::max({radius, rule.near / 2, rule.mean_radius / 4});
 }
 
 /// Cells as a search sees them, in the order of memory.

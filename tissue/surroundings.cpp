@@ -21,7 +21,11 @@ NearPlace near_nothing(Vector3d point) {
 class AroundSurface : public Surroundings {
 public:
     explicit AroundSurface(const SurfaceMesh& mesh)
-        : mesh_(mesh), follower_(mesh), normals_(sphere_normals(mesh)) {}
+        : mesh_(mesh), follower_(mesh), normals_(sphere_normals(mesh)) {
+        for (const auto& edges : mesh.across) {
+            for (const TriangleEdge& edge : edges) is_open_ = is_open_ || !edge.exists();
+        }
+    }
 
     NearPlace near(Vector3d point, std::uint32_t triangle) const override {
         NearPlace near = near_nothing(point);
@@ -40,6 +44,8 @@ public:
     Vector3d held_inside(Vector3d point, const NearPlace& near) const override {
         return near.is_beyond ? near.position + near.normal * near.off : point;
     }
+    bool holds() const override { return is_open_; }
+    bool has_normal() const override { return true; }
     const SurfaceMesh* mesh() const override { return &mesh_; }
     Vector3d extent() const override {
         const SurfaceMesh::Box box = mesh_.box();
@@ -50,6 +56,7 @@ private:
     const SurfaceMesh& mesh_;
     PlaceFollower follower_;
     std::vector<Vector3d> normals_;
+    bool is_open_ = false;
 };
 
 double held(double at, double extent, bool is_periodic) {
@@ -76,6 +83,8 @@ public:
                 held(point.y, extent_.y, is_periodic_[1]),
                 held(point.z, extent_.z, is_periodic_[2])};
     }
+    bool holds() const override { return true; }
+    bool has_normal() const override { return extent_.z == 0; }
     std::array<double, 3> period() const override {
         return {is_periodic_[0] ? extent_.x : 0, is_periodic_[1] ? extent_.y : 0,
                 is_periodic_[2] ? extent_.z : 0};

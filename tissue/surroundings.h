@@ -38,6 +38,10 @@ public:
     /// Where a cell is if walls stop it at the sides of a plane or at the boundary of an open
     /// surface, and periodic sides bring it back from the opposite one.
     virtual Vector3d held_inside(Vector3d point, const NearPlace& near) const = 0;
+    /// Whether held_inside() may put cells elsewhere.
+    virtual bool holds() const = 0;
+    /// Whether there is a surface or a plane that cells can be off.
+    virtual bool has_normal() const = 0;
     /// The lengths after which the tissue repeats, or 0.
     virtual std::array<double, 3> period() const { return {}; }
     /// The surface; null for others.

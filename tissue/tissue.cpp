@@ -183,11 +183,6 @@ void Tissue::pad() {
     }
 }
 
-double Tissue::value(std::size_t species_index, std::size_t cell) const {
-    return species[species_index].visit(
-        [&](const auto& plane) { return static_cast<double>(plane.origin()[element(cell)]); });
-}
-
 void Tissue::set(std::size_t species_index, std::size_t cell, double value) {
     species[species_index].visit([&]<typename Number>(Plane<Number>& plane) {
         plane.origin()[element(cell)] = static_cast<Number>(value);

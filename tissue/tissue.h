@@ -25,11 +25,11 @@ struct TissueTime {
     /// it was estimated; −1: not yet.
     double stiffness = 0;
     std::int64_t estimated_at = -1;
-    double last_event = 0;  ///< The time of the last division or death.
-    // Since `watched_from`:
-    std::int64_t watched_births = 0, watched_deaths = 0;
-    double watched_from = 0;
-    std::int64_t watched_cells = 0;  ///< The number of cells then.
+    double last_event = 0;  ///< The time of the last division or death,
+    double progress = 0;    ///< and the greatest progress since then (tissue/rest_watch.h).
+    // When births and deaths were last compared with the number of cells:
+    double compared_at = 0;
+    std::int64_t compared_births = 0, compared_deaths = 0, compared_cells = 0;
 };
 
 /// A tissue as plain data, cell after cell in ascending order of their numbers. A run that goes on
@@ -108,5 +108,16 @@ private:
     Field number_plane_;
     Mask inside_;
 };
+
+/// The value of a cell in a plane of the tissue's layout.
+inline double value_in(const Field& field, const Tissue& tissue, std::size_t cell) {
+    return field.visit([&](const auto& plane) {
+        return static_cast<double>(plane.origin()[tissue.element(cell)]);
+    });
+}
+
+inline double Tissue::value(std::size_t species_index, std::size_t cell) const {
+    return value_in(species[species_index], *this, cell);
+}
 
 }  // namespace cascade

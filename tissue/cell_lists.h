@@ -1,0 +1,58 @@
+// Keeps the neighbours of a tissue's cells up to date, and the cells in an order that memory likes.
+#pragma once
+
+#include "core/links.h"
+#include "core/parallel.h"
+#include "core/result.h"
+#include "tissue/movement_watch.h"
+#include "tissue/neighbours.h"
+#include "tissue/tissue.h"
+#include "tissue/tissue_rules.h"
+
+#include <memory>
+#include <vector>
+
+namespace cascade {
+
+class CellLists {
+public:
+    /// Lists are built with `skin`, and refused if they would take more than `most_bytes`.
+    CellLists(const NeighbourRule& rule, double skin, double most_bytes,
+              const TissueSpecies& species, Team& team);
+
+    /// Builds the lists for cells at the places of this state, which must be finite. `is_full`: so
+    /// that they last for every step that is not too long. Throws std::bad_alloc.
+    Result<void> build(const Tissue& tissue, const std::vector<Field>& state, bool is_full);
+    /// Do the lists hold for all cells in this state, and for some way around their places?
+    bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
+    /// Do so many links lead far away in memory that another order is worth its while? True before
+    /// the first lists of a large tissue.
+    bool wants_order(const Tissue& tissue) const;
+    /// Puts the cells in a better order, after which lists must be built. Throws std::bad_alloc.
+    void put_in_order(Tissue& tissue);
+    /// A step begins at the present places.
+    void begin_step(const Tissue& tissue);
+
+    const Links& links() const { return links_; }
+    const std::shared_ptr<MovementWatch>& watch() const { return watch_; }
+    /// The mean radius of the cells when the last step began.
+    double mean_radius() const { return rule_.mean_radius; }
+    std::int64_t builds() const { return builds_; }
+
+private:
+    void read(const Tissue& tissue, const std::vector<Field>& state);
+
+    NeighbourRule rule_;
+    double skin_, most_bytes_;
+    TissueSpecies species_;
+    Team& team_;
+    std::vector<Vector3d> places_;
+    std::vector<double> radii_;
+    Links links_;
+    std::shared_ptr<MovementWatch> watch_ = std::make_shared<MovementWatch>();
+    double far_part_ = 0;  ///< Of the links, when cells were last put in order.
+    bool is_disordered_ = true, is_just_ordered_ = false;
+    std::int64_t builds_ = 0;
+};
+
+}  // namespace cascade

@@ -1,0 +1,163 @@
+// Vectors are planes in units of the species' sizes.
+#include "tissue/stiffness.h"
+
+#include "core/hash.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+constexpr int most_iterations = 30;
+/// The estimate is good enough when an iteration changes it by less than this part of it.
+constexpr double enough = 0.03;
+constexpr double margin = 1.1;
+
+/// The largest change of a value in a difference, in sizes of its species: near the square root of
+/// the rounding error.
+double difference_step(Precision precision) { return precision == Precision::single ? 1e-3 : 1e-6; }
+
+/// Vectors by species, then by rank.
+using Vector = std::vector<std::vector<double>>;
+
+double length(const Vector& v) {
+    double squares = 0;
+    for (const std::vector<double>& of_species : v) {
+        for (const double value : of_species) squares += value * value;
+    }
+    return std::sqrt(squares);
+}
+
+double largest(const Vector& v) {
+    double most = 0;
+    for (const std::vector<double>& of_species : v) {
+        for (const double value : of_species) most = std::max(most, std::abs(value));
+    }
+    return most;
+}
+
+class Iteration {
+public:
+    Iteration(Tissue& tissue, const CellValues& rates, std::span<const double> scales,
+              const StepMoment& moment, ValueRunner& runner)
+        : tissue_(tissue), rates_(rates), scales_(scales), moment_(moment), runner_(runner) {
+        for (const Field& field : tissue.species) moved_.push_back(field.clone());
+        at_state_ = rates_at(tissue.species);
+    }
+
+    /// The direction of last time; cells and species that it does not know get noise.
+    Vector start() const {
+        Vector v = read(tissue_.stiffest);
+        v.resize(tissue_.species.size());
+        const double most = std::max(1e-30, largest(v));
+        for (std::size_t k = 0; k < v.size(); ++k) {
+            v[k].resize(tissue_.count(), 0);
+            for (std::size_t rank = 0; rank < v[k].size(); ++rank) {
+                const std::uint32_t number = tissue_.numbers()[tissue_.by_number()[rank]];
+                const auto word = pcg4d({number, static_cast<std::uint32_t>(k), 0x5717, 1})[0];
+                v[k][rank] = v[k][rank] / most + 1e-2 * (word * 0x1p-31 - 1);
+            }
+        }
+        return v;
+    }
+
+    /// The Jacobian times v.
+    Vector multiply(const Vector& v) {
+        const double step = difference_step(tissue_.precision()) / largest(v);
+        write(v, step);
+        Vector product = rates_at(moved_);
+        for (std::size_t k = 0; k < product.size(); ++k) {
+            for (std::size_t rank = 0; rank < product[k].size(); ++rank) {
+                product[k][rank] = (product[k][rank] - at_state_[k][rank]) / step;
+            }
+        }
+        return product;
+    }
+
+    void keep(const Vector& v) {
+        if (tissue_.stiffest.empty()) {
+            for (const Field& field : tissue_.species) {
+                tissue_.stiffest.emplace_back(field.layout(), field.precision());
+            }
+        }
+        const double size = largest(v);
+        each(tissue_.stiffest, [&](std::size_t k, std::size_t rank, auto& value, auto) {
+            value = static_cast<std::remove_reference_t<decltype(value)>>(v[k][rank] / size);
+        });
+    }
+
+private:
+    /// `use(species, rank, value, cell)` for all values.
+    void each(std::vector<Field>& fields, const auto& use) const {
+        for (std::size_t k = 0; k < fields.size(); ++k) {
+            fields[k].visit([&](auto& plane) {
+                for (std::size_t rank = 0; rank < tissue_.count(); ++rank) {
+                    const std::uint32_t cell = tissue_.by_number()[rank];
+                    use(k, rank, plane.origin()[tissue_.element(cell)], cell);
+                }
+            });
+        }
+    }
+
+    Vector read(const std::vector<Field>& fields) const {
+        Vector v;
+        for (const Field& field : fields) {
+            v.emplace_back();
+            field.visit([&](const auto& plane) {
+                for (const std::uint32_t cell : tissue_.by_number()) {
+                    v.back().push_back(plane.origin()[tissue_.element(cell)]);
+                }
+            });
+        }
+        return v;
+    }
+
+    Vector rates_at(std::vector<Field>& state) {
+        Vector v =
+            read(runner_.run(rates_, state, static_cast<std::int64_t>(tissue_.count()), moment_));
+        for (std::size_t k = 0; k < v.size(); ++k) {
+            for (double& value : v[k]) value /= scales_[k];
+        }
+        return v;
+    }
+
+    void write(const Vector& v, double step) {
+        each(moved_, [&](std::size_t k, std::size_t rank, auto& value, std::uint32_t cell) {
+            value = static_cast<std::remove_reference_t<decltype(value)>>(
+                tissue_.value(k, cell) + step * scales_[k] * v[k][rank]);
+        });
+    }
+
+    Tissue& tissue_;
+    const CellValues& rates_;
+    std::span<const double> scales_;
+    StepMoment moment_;
+    ValueRunner& runner_;
+    std::vector<Field> moved_;
+    Vector at_state_;
+};
+
+}  // namespace
+
+double estimate_stiffness(Tissue& tissue, const CellValues& rates, std::span<const double> scales,
+                          const StepMoment& moment, ValueRunner& runner) {
+    Iteration iteration(tissue, rates, scales, moment, runner);
+    Vector v = iteration.start();
+    double found = 0;
+    for (int k = 0; k < most_iterations; ++k) {
+        Vector next = iteration.multiply(v);
+        const double before = found, size = length(next);
+        found = size / length(v);
+        if (!std::isfinite(found)) return 0;
+        // Nothing changes the rates.
+        if (size < 1e-30 || largest(next) == 0) return 0;
+        v = std::move(next);
+        if (std::abs(found - before) < enough * found) break;
+    }
+    iteration.keep(v);
+    return margin * found;
+}
+
+}  // namespace cascade

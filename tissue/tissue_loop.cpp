@@ -1,0 +1,319 @@
+// Takes steps, then lets cells divide and die.
+#include "tissue/tissue_loop.h"
+
+#include "solvers/pace.h"
+#include "tissue/event_rounds.h"
+#include "tissue/event_search.h"
+#include "tissue/stiffness.h"
+#include "tissue/tissue_stepper.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+/// The stiffness is estimated again after this many steps.
+constexpr std::int64_t steps_of_an_estimate = 16;
+constexpr double event_window = 1.0 / 16;
+
+}  // namespace
+
+class TissueLoop::Implementation {
+public:
+    Implementation(TissueRules& rules, const Surroundings& surroundings, Tissue& tissue,
+                   std::shared_ptr<NearTriangles> triangles, const TissueSpecies& species,
+                   TissueSchedule schedule, Progress progress)
+        : rules_(rules),
+          surroundings_(surroundings),
+          tissue_(tissue),
+          species_(species),
+          schedule_(std::move(schedule)),
+          stepper_(rules, surroundings, tissue, std::move(triangles), species, schedule_),
+          progress_(std::move(progress)),
+          pace_(std::chrono::steady_clock::now(), tissue.time.steps) {
+        if (std::isfinite(schedule_.end_time)) progress_.duration = schedule_.end_time;
+    }
+
+    TissueOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
+                          const TissueObserver& observe) {
+        outcome_ = {};
+        progress_.steps = last_step;
+        pace_.go_on(std::chrono::steady_clock::now(), time().steps);
+        report(control, false);
+        bool going_on = is_started_ || start();
+        while (going_on && !is_over() && time().steps < last_step) {
+            if (control.cancel) {
+                outcome_.cancelled = true;
+                break;
+            }
+            if (!take_step() || !happen()) break;
+            if (pace_.report_due(std::chrono::steady_clock::now())) report(control, false);
+            if (interval > 0 && time().steps % interval == 0 && observe && !observe(tissue_)) break;
+            if (schedule_.check > 0 && time().steps % schedule_.check == 0 &&
+                schedule_.ends(tissue_)) {
+                outcome_.ended = progress_.condition_met = true;
+            }
+            if (schedule_.keep_is_due && schedule_.keep_is_due()) schedule_.keep(tissue_);
+        }
+        outcome_.steps = time().steps;
+        outcome_.t = time().t;
+        outcome_.list_builds = stepper_.lists().builds();
+        report(control, true);
+        return outcome_;
+    }
+
+private:
+    TissueTime& time() { return tissue_.time; }
+    bool is_adaptive() const { return schedule_.tolerance > 0; }
+    bool is_over() {
+        if (tissue_.count() == 0 || time().t >= schedule_.end_time) outcome_.ended = true;
+        return outcome_.ended || outcome_.failure;
+    }
+
+    bool fail(Failure refusal) {
+        outcome_.failure = failure_of(TissueFailure::Kind::too_many_neighbours, tissue_);
+        outcome_.failure->refusal = std::move(refusal);
+        return false;
+    }
+
+    bool start() {
+        is_started_ = true;
+        if (tissue_.count() == 0) return true;
+        outcome_.failure = find_not_finite(tissue_);
+        if (outcome_.failure) return false;
+        const auto built = stepper_.cells_changed(true);
+        if (!built) return fail(built.error());
+        // A run that goes on has had these events.
+        return time().steps > 0 || happen();
+    }
+
+    bool estimate() {
+        stepper_.lists().begin_step(tissue_);
+        // Differences move cells by a thousandth of the mean radius.
+        const auto reached = stepper_.reach(tissue_.species, 0.01 * stepper_.lists().mean_radius());
+        if (!reached) return fail(reached.error());
+        const double found = estimate_stiffness(tissue_, rules_.rates(), stepper_.sizes(),
+                                                stepper_.moment(1), stepper_.values());
+        // Cells that have just come apart may touch again.
+        time().stiffness = std::max(found, time().stiffness / 2);
+        time().estimated_at = time().steps;
+        return true;
+    }
+
+    double first_step() {
+        if (time().stiffness > 0) return 1 / time().stiffness;
+        return std::isfinite(schedule_.end_time) ? schedule_.end_time / 100 : 0.01;
+    }
+
+    /// With shorter steps the end would never be reached.
+    double least_step() {
+        const bool ends = std::isfinite(schedule_.end_time);
+        return 1e-10 * (ends ? schedule_.end_time : std::max(time().t, 1.0));
+    }
+
+    double next_length() {
+        const double wanted =
+            is_adaptive() ? std::min(time().control.step, schedule_.largest_step) : schedule_.step;
+        const double whole = std::min(wanted, stepper_.longest_step());
+        // If the last step would leave almost nothing, it is made a little longer.
+        const double left = schedule_.end_time - time().t;
+        return left < 1.01 * whole ? left : whole;
+    }
+
+    bool take_step() {
+        const auto ordered = stepper_.order_cells();
+        if (!ordered) return fail(ordered.error());
+        const bool uses_stiffness = is_stabilised(schedule_.solver) || time().estimated_at < 0;
+        if (uses_stiffness && (time().estimated_at < 0 ||
+                               time().steps - time().estimated_at >= steps_of_an_estimate)) {
+            if (!estimate()) return false;
+        }
+        if (time().control.step <= 0) time().control.step = first_step();
+        for (;;) {
+            const double length = next_length();
+            const auto tried = stepper_.attempt(length);
+            if (!tried) return fail(tried.error());
+            if (is_accepted(*tried, length)) return finish_step(*tried, length);
+            const bool is_finite = !std::isnan(tried->error);
+            if (!is_adaptive() || time().control.step < least_step()) {
+                return fail_after(*tried, is_finite);
+            }
+            stepper_.undo(*tried);
+            if (is_stabilised(schedule_.solver) && time().estimated_at < time().steps) {
+                if (!estimate()) return false;
+            }
+        }
+    }
+
+    bool is_accepted(const TriedStep& tried, double length) {
+        if (!is_adaptive()) return !tried.went_too_far && tried.error == 0;
+        const int order = order_of_estimate(schedule_.solver);
+        StepControl control(time().control, order);
+        double error = tried.error;
+        // A way that is too long is judged like an error that halves the step.
+        if (tried.went_too_far) error = std::max(error, std::pow(2.0, order));
+        const bool is_accepted = control.judge(length, error);
+        time().control = control.state();
+        return is_accepted;
+    }
+
+    /// Finds the cell to blame, and goes back to the last good values.
+    bool fail_after(const TriedStep& tried, bool is_finite) {
+        using Kind = TissueFailure::Kind;
+        if (!is_finite) outcome_.failure = find_not_finite(tissue_);
+        if (!outcome_.failure) {
+            const Kind kind = is_adaptive() ? Kind::too_short : Kind::too_far;
+            outcome_.failure = failure_of(is_finite ? kind : Kind::rate_not_finite, tissue_);
+            if (is_adaptive()) find_worst(*outcome_.failure);
+        }
+        stepper_.undo(tried);
+        return false;
+    }
+
+    void find_worst(TissueFailure& failure) {
+        const std::vector<double> sizes = stepper_.sizes();
+        double most = -1;
+        for (const std::uint32_t cell : tissue_.by_number()) {
+            for (std::size_t k = 0; k < sizes.size() && !std::isnan(most); ++k) {
+                const double error = stepper_.errors()[k].visit([&](const auto& plane) {
+                    return std::abs(double{plane.origin()[tissue_.element(cell)]}) / sizes[k];
+                });
+                // NaN counts as the largest.
+                if (error <= most) continue;
+                most = error;
+                failure.number = tissue_.numbers()[cell];
+                failure.species = k;
+            }
+        }
+    }
+
+    /// Ends the step at its first event, if there is one.
+    bool finish_step(TriedStep tried, double length) {
+        events_ = {};
+        if (rules_.conditions().values.problem != nullptr) {
+            std::vector<Field> beginning = stepper_.lend_beginning(tried);
+            const StepEnds ends{beginning, tissue_.species, stepper_.moment(length),
+                                [this](const auto& state) { return stepper_.reach(state); }};
+            const double window = schedule_.has_exact_events ? 0 : event_window;
+            const auto first = first_events(rules_, ends, window, tissue_, stepper_.values());
+            stepper_.take_beginning(tried, std::move(beginning));
+            if (!first) {
+                stepper_.undo(tried);
+                return fail(first.error());
+            }
+            const std::optional<FirstEvents>& found = *first;
+            if (found) events_ = found->events;
+            if (found && found->part < 1) {
+                stepper_.undo(tried);
+                length *= found->part;
+                const auto shorter = stepper_.attempt(length);
+                if (!shorter) return fail(shorter.error());
+                tried = *shorter;
+                if (std::isnan(tried.error)) return fail_after(tried, false);
+            }
+        }
+        const double t = stepper_.moment(length).next_t;
+        watch_rest(tried, length, t);
+        stepper_.accept();
+        time().t = t;
+        ++time().steps;
+        hold_inside();
+        return true;
+    }
+
+    void watch_rest(const TriedStep& tried, double length, double t) {
+        if (schedule_.steady <= 0) return;
+        std::vector<Field> beginning = stepper_.lend_beginning(tried);
+        const std::vector<double> changes =
+            root_mean_squares(tissue_.species, tissue_, stepper_.team(), &beginning);
+        stepper_.take_beginning(tried, std::move(beginning));
+        now_ = progress_of(changes, length, stepper_.sizes(), species_.restless,
+                           t - time().last_event);
+        time().progress = std::max(time().progress, now_);
+    }
+
+    void hold_inside() {
+        if (!surroundings_.holds()) return;
+        const std::array<double, 3> period = surroundings_.period();
+        bool is_changed = false;
+        for (std::uint32_t cell = 0; cell < tissue_.count(); ++cell) {
+            const Vector3d at = place_of(tissue_, species_, cell);
+            const Vector3d held =
+                surroundings_.held_inside(at, surroundings_.near(at, tissue_.triangles[cell]));
+            if (held == at) continue;
+            is_changed = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                tissue_.set(species_.place + k, cell, std::array{held.x, held.y, held.z}[k]);
+            }
+            const Vector3d moved = place_of(tissue_, species_, cell) - at;
+            stepper_.lists().watch()->shift(cell, {period[0] > 0 ? moved.x : 0,
+                                                   period[1] > 0 ? moved.y : 0,
+                                                   period[2] > 0 ? moved.z : 0});
+        }
+        if (!is_changed) return;
+        tissue_.pad();
+        stepper_.forget_rates();
+    }
+
+    /// Lets cells divide and die that do so now, and looks whether the stage goes on.
+    bool happen() {
+        EventRounds rounds(rules_, surroundings_, tissue_, species_, schedule_, stepper_);
+        outcome_.failure = rounds.happen(std::exchange(events_, {}));
+        if (outcome_.failure) return false;
+        if (rounds.has_changed()) {
+            time().last_event = time().t;
+            time().progress = 0;
+            Turnover turnover;
+            if (compare_turnover(tissue_, turnover) && !outcome_.turnover) {
+                outcome_.turnover = turnover;
+            }
+        } else if (schedule_.steady > 0 && time().steps > 0 &&
+                   is_at_rest(time(), now_, schedule_.steady)) {
+            outcome_.ended = outcome_.is_steady = progress_.condition_met = true;
+        }
+        return true;
+    }
+
+    void report(RunControl& control, bool is_done) {
+        if (!control.report) return;
+        const auto now = std::chrono::steady_clock::now();
+        pace_.reported(now, time().steps);
+        Progress progress = progress_;
+        progress.step = time().steps;
+        progress.t = time().t;
+        progress.steps_per_second = pace_.steps_per_second();
+        progress.stage_done = is_done;
+        control.report(progress);
+    }
+
+    TissueRules& rules_;
+    const Surroundings& surroundings_;
+    Tissue& tissue_;
+    TissueSpecies species_;
+    TissueSchedule schedule_;
+    TissueStepper stepper_;
+    Progress progress_;
+    Pace pace_;
+    TissueOutcome outcome_;
+    CellEvents events_;  ///< Found by the last step and not yet happened.
+    double now_ = 0;     ///< The present progress towards rest.
+    bool is_started_ = false;
+};
+
+TissueLoop::TissueLoop(TissueRules& rules, const Surroundings& surroundings, Tissue& tissue,
+                       std::shared_ptr<NearTriangles> triangles, const TissueSpecies& species,
+                       TissueSchedule schedule, Progress progress)
+    : self_(std::make_unique<Implementation>(rules, surroundings, tissue, std::move(triangles),
+                                             species, std::move(schedule), std::move(progress))) {}
+TissueLoop::~TissueLoop() = default;
+
+TissueOutcome TissueLoop::advance(std::int64_t last_step, std::int64_t interval,
+                                  RunControl& control, const TissueObserver& observe) {
+    return self_->advance(last_step, interval, control, observe);
+}
+
+}  // namespace cascade

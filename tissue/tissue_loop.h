@@ -1,0 +1,104 @@
+// The time loop of a tissue: steps whose error is small, divisions and deaths at their moments, and
+// lists of neighbours that are never too old.
+//
+// Results depend neither on threads, nor on the order of cells in memory, nor on when lists are
+// built, nor on where a run was stopped and resumed.
+#pragma once
+
+#include "core/result.h"
+#include "core/run_control.h"
+#include "ir/solver.h"
+#include "tissue/neighbours.h"
+#include "tissue/rest_watch.h"
+#include "tissue/sense_kernel.h"
+#include "tissue/surroundings.h"
+#include "tissue/tissue.h"
+#include "tissue/tissue_rules.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace cascade {
+
+/// Called at a complete step; tissue.species holds its values. Returns false to end the stage.
+using TissueObserver = std::function<bool(const Tissue& tissue)>;
+
+/// Which steps to take.
+struct TissueSchedule {
+    Solver solver = Solver::rkl2;
+    double tolerance = 1e-3;  ///< Of the error of a step, relative to sizes_of(); 0: fixed steps.
+    double step = 0;          ///< The length of fixed steps.
+    double largest_step = std::numeric_limits<double>::infinity();
+    double end_time = std::numeric_limits<double>::infinity();  ///< A step ends there.
+    double steady = 0;                  ///< Above 0: ends at rest (tissue/rest_watch.h).
+    bool has_exact_events = false;      ///< Else those of a sixteenth of a step happen together.
+    std::uint32_t seed = 0, stage = 0;  ///< For random directions of division.
+    NeighbourRule neighbours;           ///< The period is that of the surroundings.
+    double skin = 0.15;                 ///< No result depends on it.
+    double most_list_bytes = 4e9;
+    std::size_t most_cells = 10'000'000;
+    int threads = 1;
+    std::int64_t check = 0;    ///< `ends` is called at multiples of this; 0: never.
+    TissueObserver ends = {};  ///< Returns true to end the stage.
+    /// Called after each step: must the state be kept? Then `keep` is called. No result depends on
+    /// them.
+    std::function<bool()> keep_is_due = {};
+    std::function<void(const Tissue& tissue)> keep = {};
+};
+
+/// Why a tissue cannot go on. It is left as the last complete step left it.
+struct TissueFailure {
+    enum class Kind : std::uint8_t {
+        not_finite,          ///< A value of cell `number` is not finite after a step from `t`,
+        rate_not_finite,     ///< or the rate of one.
+        too_short,           ///< Steps have become too short; the error is largest in that cell.
+        too_far,             ///< A fixed step would move a cell too far, or is not stable.
+        divides_for_ever,    ///< The cell still wants to divide when it has just divided ten times.
+        too_many_cells,      ///< There would be `cells`.
+        too_many_neighbours  ///< `refusal` says so.
+    };
+    Kind kind = Kind::not_finite;
+    std::uint32_t number = 0;
+    std::size_t species = 0;
+    double t = 0, step = 0;
+    std::size_t cells = 0;
+    Failure refusal = {};
+};
+
+struct TissueOutcome {
+    std::int64_t steps = 0;  ///< Complete steps of the stage.
+    double t = 0;
+    bool cancelled = false;
+    bool ended = false;      ///< By its end time, by `ends`, at rest, or because no cell is left.
+    bool is_steady = false;  ///< At rest.
+    std::optional<TissueFailure> failure;
+    std::optional<Turnover> turnover;  ///< The first one that was seen.
+    std::int64_t list_builds = 0;
+};
+
+class TissueLoop {
+public:
+    /// All arguments must outlive the loop; nothing else may change the tissue meanwhile.
+    /// `triangles` are those of the kernels that sense. Throws std::bad_alloc.
+    TissueLoop(TissueRules& rules, const Surroundings& surroundings, Tissue& tissue,
+               std::shared_ptr<NearTriangles> triangles, const TissueSpecies& species,
+               TissueSchedule schedule, Progress progress);
+    ~TissueLoop();
+    TissueLoop(const TissueLoop&) = delete;
+    TissueLoop& operator=(const TissueLoop&) = delete;
+
+    /// Goes on until tissue.time.steps is `last_step`, observing at multiples of `interval` (0:
+    /// never). Reports and is cancelled like TimeLoop::advance(). May be called again unless it
+    /// failed. Throws std::bad_alloc.
+    TissueOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
+                          const TissueObserver& observe);
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> self_;
+};
+
+}  // namespace cascade

@@ -1,0 +1,91 @@
+// What the time loop of a tissue asks of those who know its equations.
+#pragma once
+
+#include "core/links.h"
+#include "core/vector3.h"
+#include "solvers/scheme.h"
+#include "solvers/step_problem.h"
+#include "tissue/tissue.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cascade {
+
+/// The species that the loop itself knows of, by their number.
+struct TissueSpecies {
+    std::size_t place = 0;  ///< The first of three components.
+    std::size_t radius = 3;
+    /// Those that never come to rest, such as the age, by which a tissue is not judged steady.
+    std::vector<std::size_t> restless;
+};
+
+/// The place of a cell in some state of the tissue,
+inline Vector3d place_in(const std::vector<Field>& state, const Tissue& tissue,
+                         const TissueSpecies& species, std::size_t cell) {
+    return {value_in(state[species.place], tissue, cell),
+            value_in(state[species.place + 1], tissue, cell),
+            value_in(state[species.place + 2], tissue, cell)};
+}
+/// and in the present one.
+inline Vector3d place_of(const Tissue& tissue, const TissueSpecies& species, std::size_t cell) {
+    return place_in(tissue.species, tissue, species, cell);
+}
+
+/// Passes that compute values of cells: they read the species in register 0 and write plane k of
+/// register 1.
+struct CellValues {
+    const StepProblem* problem = nullptr;  ///< Null: there are no such values.
+    std::size_t count = 0;                 ///< Planes in register 1.
+};
+
+/// The passes of a step.
+struct TissueStep {
+    const StepProblem* problem = nullptr;
+    std::vector<RegisterId> states;  ///< As state_registers() of its scheme.
+};
+
+/// The registers at whose values the sweeps of a scheme evaluate rates, the old step among them.
+std::vector<RegisterId> state_registers(const Scheme& scheme);
+
+/// The equations of a tissue as passes over its planes. Problems need not be told the number of
+/// cells, which changes without bind(). They stay where they are until the next bind().
+class TissueRules {
+public:
+    virtual ~TissueRules() = default;
+
+    /// Called before anything else, and again when tissue.grid() has changed: passes are to be
+    /// bound to it, to the addresses of `links`, of the plane of numbers and of the mask of the
+    /// cells.
+    virtual void bind(const Tissue& tissue, const Links& links) = 0;
+
+    /// A step, with this number of stages if the solver is stabilised. It has an error register if
+    /// steps are chosen by their error.
+    virtual TissueStep step(std::uint32_t stages) = 0;
+    /// The rates of all species.
+    virtual CellValues rates() = 0;
+
+    /// Conditions, which hold where the value is above 0.
+    struct Conditions {
+        CellValues values;
+        std::optional<std::size_t> divide, die;  ///< Their planes.
+    };
+    virtual Conditions conditions() = 0;
+
+    /// The first plane of three with the direction of division, of any length, of a cell that
+    /// divides; none: at random in the tangent plane, as it also is where the direction is 0.
+    virtual CellValues along() = 0;
+
+    /// Values after a division, the same formulas for both cells. Evaluated when the new cells are
+    /// in their places and still have all values of their mothers.
+    struct Restarts {
+        CellValues values;
+        std::vector<std::size_t> species;  ///< Plane k is the new value of species[k].
+    };
+    virtual Restarts restarts() = 0;
+};
+
+}  // namespace cascade

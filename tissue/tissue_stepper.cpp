@@ -1,0 +1,208 @@
+// A step that leads cells beyond their lists is repeated with better ones, which changes no bit.
+#include "tissue/tissue_stepper.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+/// Every number of stages has passes and planes of its own, so few are used.
+constexpr std::array<std::uint32_t, 14> numbers_of_stages{3,  5,  7,  9,  11, 13, 17,
+                                                          21, 27, 35, 45, 57, 75, 99};
+
+NeighbourRule rule_of(const TissueSchedule& schedule, const Surroundings& surroundings) {
+    NeighbourRule rule = schedule.neighbours;
+    rule.period = surroundings.period();
+    return rule;
+}
+
+}  // namespace
+
+TissueFailure failure_of(TissueFailure::Kind kind, const Tissue& tissue) {
+    TissueFailure failure;
+    failure.kind = kind;
+    failure.t = tissue.time.t;
+    failure.step = tissue.time.control.step;
+    failure.cells = tissue.count();
+    return failure;
+}
+
+std::optional<TissueFailure> find_not_finite(const Tissue& tissue) {
+    for (const std::uint32_t cell : tissue.by_number()) {
+        for (std::size_t k = 0; k < tissue.species.size(); ++k) {
+            if (std::isfinite(tissue.value(k, cell))) continue;
+            TissueFailure failure = failure_of(TissueFailure::Kind::not_finite, tissue);
+            failure.number = tissue.numbers()[cell];
+            failure.species = k;
+            return failure;
+        }
+    }
+    return std::nullopt;
+}
+
+TissueStepper::TissueStepper(TissueRules& rules, const Surroundings& surroundings, Tissue& tissue,
+                             std::shared_ptr<NearTriangles> triangles, const TissueSpecies& species,
+                             const TissueSchedule& schedule)
+    : rules_(rules),
+      tissue_(tissue),
+      triangles_(std::move(triangles)),
+      species_(species),
+      schedule_(schedule),
+      team_(schedule.threads),
+      lists_(rule_of(schedule, surroundings), schedule.skin, schedule.most_list_bytes, species,
+             team_),
+      values_(team_) {}
+
+Result<void> TissueStepper::reach(const std::vector<Field>& state, double around) {
+    if (lists_.reach(tissue_, state, around)) return {};
+    return build_lists(state, around > 0);
+}
+
+Result<void> TissueStepper::build_lists(const std::vector<Field>& state, bool is_full) {
+    auto built = lists_.build(tissue_, state, is_full);
+    const auto cells = static_cast<std::int64_t>(tissue_.count());
+    for (auto& [stages, problem] : problems_) problem.cells_inside = cells;
+    return built;
+}
+
+Result<void> TissueStepper::order_cells() {
+    if (!lists_.wants_order(tissue_)) return {};
+    lists_.put_in_order(tissue_);
+    return cells_changed(false);
+}
+
+Result<void> TissueStepper::cells_changed(bool has_moved) {
+    triangles_->before = triangles_->now = tissue_.triangles;
+    auto built = build_lists(tissue_.species, false);
+    if (!built) return built;
+    if (has_moved || !stepper_) {
+        values_.clear();
+        stepper_.reset();
+        problems_.clear();
+        rules_.bind(tissue_, lists_.links());
+        const StepProblem& first = problem(stages(0));
+        stepper_.emplace(first, std::move(tissue_.species), schedule_.threads, false);
+        stepper_->team().use_tiling(Tiling{});
+        stepper_->planes().lend(tissue_.species);
+    }
+    stepper_->forget_rates();
+    return {};
+}
+
+const StepProblem& TissueStepper::problem(std::uint32_t stages) {
+    auto known = problems_.find(stages);
+    if (known == problems_.end()) {
+        StepProblem made = watched(rules_.step(stages), species_, lists_.watch());
+        made.cells_inside = static_cast<std::int64_t>(tissue_.count());
+        known = problems_.emplace(stages, std::move(made)).first;
+        CHECK((schedule_.tolerance > 0) == known->second.error_register.has_value(),
+              "errors are estimated if steps are chosen by them");
+    }
+    return known->second;
+}
+
+std::uint32_t TissueStepper::stages(double length) const {
+    if (!is_stabilised(schedule_.solver)) return 1;
+    const std::uint32_t least = stages_for(schedule_.solver, length * tissue_.time.stiffness / 2);
+    return *std::lower_bound(numbers_of_stages.begin(), numbers_of_stages.end() - 1, least);
+}
+
+double TissueStepper::longest_step() const {
+    if (!is_stabilised(schedule_.solver) || tissue_.time.stiffness == 0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return stability_interval(schedule_.solver, most_stages) / tissue_.time.stiffness;
+}
+
+StageClock TissueStepper::clock(double length) const {
+    return {tissue_.time.steps, tissue_.time.t, length, tissue_.precision()};
+}
+
+StepMoment TissueStepper::moment(double length) const {
+    const StageClock now = clock(length);
+    return {tissue_.time.steps, tissue_.time.t, length, now.at(tissue_.time.steps + 1)};
+}
+
+std::vector<double> TissueStepper::sizes() {
+    return sizes_of(tissue_.species, tissue_, species_, lists_.mean_radius(), team_);
+}
+
+Result<TriedStep> TissueStepper::attempt(double length) {
+    for (bool is_full = false;; is_full = true) {
+        const auto reached = reach(tissue_.species);
+        if (!reached) return tl::unexpected(reached.error());
+        lists_.begin_step(tissue_);
+        stepper_->planes().take_back(tissue_.species);
+        stepper_->use(problem(stages(length)));
+        stepper_->set_clock(clock(length));
+        TriedStep tried{stepper_->planes().roles()};
+        if (schedule_.tolerance > 0) {
+            stepper_->attempt(tissue_.time.steps, schedule_.tolerance);
+        } else if (!stepper_->advance(tissue_.time.steps, 1, true)) {
+            tried.error = NAN;
+        }
+        stepper_->planes().lend(tissue_.species);
+        for (std::uint32_t cell = 0; cell < tissue_.count(); ++cell) {
+            lists_.watch()->look(cell, place_of(tissue_, species_, cell),
+                                 tissue_.value(species_.radius, cell));
+        }
+        if (!lists_.watch()->left_lists() || is_full) {
+            if (schedule_.tolerance > 0) tried.error = error();
+            tried.went_too_far = lists_.watch()->went_too_far();
+            return tried;
+        }
+        undo(tried);
+        const auto built = build_lists(tissue_.species, true);
+        if (!built) return tl::unexpected(built.error());
+    }
+}
+
+/// Does not depend on memory, unlike that of Stepper::attempt().
+double TissueStepper::error() {
+    const std::vector<double> errors = root_mean_squares(stepper_->error_planes(), tissue_, team_);
+    const std::vector<double> of_values = sizes();
+    double most = 0;
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+        if (!std::isfinite(errors[k]) || !std::isfinite(of_values[k])) return NAN;
+        most = std::max(most, errors[k] / (schedule_.tolerance * of_values[k]));
+    }
+    return most;
+}
+
+void TissueStepper::accept() {
+    if (schedule_.tolerance > 0) stepper_->accept();
+    tissue_.triangles = triangles_->now;
+    triangles_->before = triangles_->now;
+}
+
+void TissueStepper::undo(const TriedStep& tried) {
+    stepper_->planes().take_back(tissue_.species);
+    stepper_->planes().set_roles(tried.before);
+    stepper_->planes().lend(tissue_.species);
+}
+
+std::vector<Field> TissueStepper::lend_beginning(const TriedStep& tried) {
+    StepPlanes& planes = stepper_->planes();
+    const CopyRoles now = planes.roles();
+    std::vector<Field> values;
+    planes.set_roles(tried.before);
+    planes.lend(values);
+    planes.set_roles(now);
+    return values;
+}
+
+void TissueStepper::take_beginning(const TriedStep& tried, std::vector<Field> values) {
+    StepPlanes& planes = stepper_->planes();
+    const CopyRoles now = planes.roles();
+    planes.set_roles(tried.before);
+    planes.take_back(values);
+    planes.set_roles(now);
+}
+
+}  // namespace cascade

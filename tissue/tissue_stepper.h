@@ -1,0 +1,89 @@
+// Tries steps of a tissue (internal to tissue/).
+#pragma once
+
+#include "solvers/stepper.h"
+#include "tissue/cell_lists.h"
+#include "tissue/number_sums.h"
+#include "tissue/sense_kernel.h"
+#include "tissue/tissue_loop.h"
+#include "tissue/value_runner.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cascade {
+
+/// A failure of the tissue as it is.
+TissueFailure failure_of(TissueFailure::Kind kind, const Tissue& tissue);
+/// One that blames the first cell by number with a value that is not finite.
+std::optional<TissueFailure> find_not_finite(const Tissue& tissue);
+
+/// A step that has been tried. The values that it leads to are current.
+struct TriedStep {
+    CopyRoles before;  ///< Of the step's beginning.
+    double error =
+        0;  ///< In units of the tolerance; NaN if a value is not finite. 0 if not judged.
+    bool went_too_far = false;
+};
+
+/// Owns what must be made anew when planes move. Between calls tissue.species holds the current
+/// values.
+class TissueStepper {
+public:
+    TissueStepper(TissueRules& rules, const Surroundings& surroundings, Tissue& tissue,
+                  std::shared_ptr<NearTriangles> triangles, const TissueSpecies& species,
+                  const TissueSchedule& schedule);
+
+    /// To be called first of all and after every change of cells, with whether the planes have
+    /// moved: builds the lists, and binds everything if they have.
+    Result<void> cells_changed(bool has_moved);
+    /// Puts the cells in another order if that is worth its while.
+    Result<void> order_cells();
+
+    /// Makes lists that hold for this state and for some way around its places, unless they do.
+    /// Values may then be evaluated there.
+    Result<void> reach(const std::vector<Field>& state, double around = 0);
+
+    /// Tries a step of this length, with lists that reach far enough. Call accept() or undo().
+    Result<TriedStep> attempt(double length);
+    void accept();
+    void undo(const TriedStep& tried);
+    /// The values at the beginning of a step that was tried, which must be given back.
+    std::vector<Field> lend_beginning(const TriedStep& tried);
+    void take_beginning(const TriedStep& tried, std::vector<Field> values);
+    const std::vector<Field>& errors() const { return stepper_->error_planes(); }
+
+    /// The moment before a step of this length.
+    StepMoment moment(double length) const;
+    /// Values have been changed from outside.
+    void forget_rates() { stepper_->forget_rates(); }
+    /// The longest step that the solver can take, by the stiffness.
+    double longest_step() const;
+    std::vector<double> sizes();
+
+    ValueRunner& values() { return values_; }
+    CellLists& lists() { return lists_; }
+    Team& team() { return team_; }
+
+private:
+    Result<void> build_lists(const std::vector<Field>& state, bool is_full);
+    StageClock clock(double length) const;
+    const StepProblem& problem(std::uint32_t stages);
+    std::uint32_t stages(double length) const;
+    double error();
+
+    TissueRules& rules_;
+    Tissue& tissue_;
+    std::shared_ptr<NearTriangles> triangles_;
+    TissueSpecies species_;
+    const TissueSchedule& schedule_;
+    Team team_;
+    CellLists lists_;
+    ValueRunner values_;
+    std::map<std::uint32_t, StepProblem> problems_;  ///< By stages.
+    std::optional<Stepper> stepper_;
+};
+
+}  // namespace cascade

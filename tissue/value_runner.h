@@ -1,0 +1,36 @@
+// Evaluates values of cells, such as rates and conditions, at any state of a tissue.
+#pragma once
+
+#include "core/parallel.h"
+#include "solvers/pass_runner.h"
+#include "tissue/tissue_rules.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace cascade {
+
+/// Keeps the planes of each problem's values until clear().
+class ValueRunner {
+public:
+    explicit ValueRunner(Team& team) : team_(team) {}
+
+    /// The values at this state, in planes that the next call for the same values overwrites.
+    std::vector<Field>& run(const CellValues& values, std::vector<Field>& state, std::int64_t cells,
+                            const StepMoment& moment);
+    /// The problems are gone.
+    void clear() { known_.clear(); }
+
+private:
+    struct Known {
+        StepProblem problem;
+        std::unique_ptr<PassRunner> runner;
+        std::vector<Field> results;
+    };
+    Team& team_;
+    std::map<const StepProblem*, Known> known_;
+};
+
+}  // namespace cascade
