@@ -301,6 +301,11 @@ private:
             for (const BlockStep<Number>& step : section.steps) compute(step);
             for (const Reduction& each : section.reductions) reduce_links(each);
         }
+        for (const Reduction& each : section.reductions) {
+            if (each.op != Op::link_sum) continue;
+            Number* const out = register_of(each.target);
+            for (std::int64_t i = 0; i < count_; ++i) out[i] += Number{0};  // Not -0.
+        }
     }
 
     void reduce_links(const Reduction& reduction) {

@@ -40,6 +40,7 @@ private:
     void add_up();
     void find_links();
     Value* start_of(Value* slice);
+    Value* without_minus(Value* sum);
     std::vector<Value*> over_entries(llvm::ArrayRef<llvm::Constant*> first, WriteEntry write);
     /// A number in all lanes.
     llvm::Constant* number(double value) const {
@@ -136,6 +137,17 @@ void LinkedSources::add_up() {
     for (auto& [key, value] : sums_) value = totals[k++];
 }
 
+// By integers, since LLVM takes no sum that begins with 0 for -0. Flushed ones may be.
+Value* LinkedSources::without_minus(Value* sum) {
+    llvm::Type* words = frame_.vector_of(frame_.word());
+    Value* const bits = builder_.CreateBitCast(sum, words);
+    Value* const is_minus_zero = builder_.CreateICmpEQ(
+        bits, llvm::ConstantInt::get(words, format_of(frame_.kernel().precision).sign()));
+    return builder_.CreateBitCast(builder_.CreateSelect(is_minus_zero,
+                                                        llvm::Constant::getNullValue(words), bits),
+                                  sum->getType());
+}
+
 void LinkedSources::reduce_links(BodyScope& cells, const LinkLoop& loop) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const auto instruction = [&](ValueId id) { return frame_.kernel().code[id]; };
@@ -153,11 +165,9 @@ void LinkedSources::reduce_links(BodyScope& cells, const LinkLoop& loop) {
         for (const ValueId id : loop.reductions) {
             const auto [op, operands, payload] = instruction(id);
             Value* const before = totals[next.size()];
-            // A sum keeps its bits if -0 is added, and the others if they are compared with what
-            // they begin with.
-            Value* const a =
-                inner.CreateSelect(entry.is_link(), links.flushed_number(operands[0]),
-                                   op == Op::link_sum ? number(-0.0) : first[next.size()]);
+            // What a reduction begins with changes nothing where there is no link.
+            Value* const a = inner.CreateSelect(entry.is_link(), links.flushed_number(operands[0]),
+                                                first[next.size()]);
             if (op == Op::link_sum) {
                 next.push_back(inner.CreateFAdd(before, a));
                 continue;
@@ -172,8 +182,9 @@ void LinkedSources::reduce_links(BodyScope& cells, const LinkLoop& loop) {
     };
     const std::vector<Value*> totals = over_entries(first, write);
     for (std::size_t k = 0; k < totals.size(); ++k) {
+        const bool is_sum = instruction(loop.reductions[k]).op == Op::link_sum;
         Forms total;
-        total.number = totals[k];
+        total.number = is_sum ? without_minus(totals[k]) : totals[k];
         cells.define(loop.reductions[k], total);
     }
 }

@@ -91,11 +91,8 @@ void Body::define(ValueId id) {
 // The code of links is written apart from that of cells, so that what it needs of cells in another
 // form still comes before the loop.
 void Body::write_loop(const LinkLoop& loop) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const ValueId id : loop.reductions) {
-        const Op op = kernel_.code[id].op;
-        const double first = op == Op::link_sum ? 0 : op == Op::link_least ? infinity : -infinity;
-        code().get(function_.number(first));
+        code().get(beginning_of(kernel_.code[id].op));
         values_[id] = {};
         values_[id].number = keep();
     }
@@ -106,7 +103,20 @@ void Body::write_loop(const LinkLoop& loop) {
     for (const ValueId id : loop.values) give_back(id);
     level_ = LoopLevel::cell;
     cells_.end_links();
+    for (const ValueId id : loop.reductions) {
+        if (kernel_.code[id].op != Op::link_sum) continue;
+        code().get(*values_[id].number);
+        code().get(function_.constant(0));
+        code().write(Lanes::add);  // Not -0.
+        code().set(*values_[id].number);
+    }
     for (const ValueId id : std::exchange(read_in_loop_, {})) release(id);
+}
+
+/// What a reduction is without links.
+Local Body::beginning_of(Op op) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return function_.number(op == Op::link_sum ? 0 : op == Op::link_least ? infinity : -infinity);
 }
 
 /// Adds the value of a link to a total, or compares it with it.
@@ -114,12 +124,9 @@ void Body::reduce(ValueId id) {
     if (readers_[id] == 0) return;
     const auto [op, operands, payload] = kernel_.code[id];
     const Local total = *values_[id].number;
-    // Where there is no link, what changes no bit of the total: -0, or what it begins with.
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double none = op == Op::link_sum ? -0.0 : op == Op::link_least ? infinity : -infinity;
     if (op == Op::link_sum) code().get(total);
     code().get(operand(operands[0]));
-    code().get(function_.number(none));
+    code().get(beginning_of(op));  // Changes nothing where there is no link.
     code().get(cells_.is_link());
     code().write(Whole::choose);
     if (op == Op::link_sum) {

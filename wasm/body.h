@@ -37,6 +37,7 @@ private:
     std::span<const ValueId> operands_of(const Instruction& instruction) const;
     void define(ValueId id);
     void write_loop(const LinkLoop& loop);
+    Local beginning_of(Op op);
     void reduce(ValueId id);
     void store(std::size_t result);
     void release(ValueId id);

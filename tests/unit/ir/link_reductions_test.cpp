@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace cascade {
 namespace {
@@ -230,6 +231,22 @@ TEST(LinkReduction, FlushesDenormalValues) {
     const auto results = star(1).run(std::move(b).finish(), {0, tiny});
     EXPECT_EQ(results[0][0], 0);
     EXPECT_TRUE(std::signbit(results[0][0]));
+}
+
+// The difference is denormal, so the first sum would be -0, and 0 if a 0 came after it.
+TEST(LinkReduction, ASumIsNeverMinusZero) {
+    KernelBuilder b;
+    const ValueId theirs = b.theirs(b.field_slot("f"));
+    b.result("sum", b.link_sum(theirs));
+    const float least = std::numeric_limits<float>::min();
+    for (const std::size_t neighbours : {2u, 3u}) {
+        const std::vector<float> f{0, least, -1.5f * least, 0};
+        const std::span<const float> used(f.data(), neighbours + 1);
+        const auto results =
+            star(neighbours).run(std::move(KernelBuilder(b)).finish(), {used.begin(), used.end()});
+        EXPECT_EQ(results[0][0], 0);
+        EXPECT_FALSE(std::signbit(results[0][0]));
+    }
 }
 
 TEST(LinkLevel, OnlyReductionsLeaveIt) {
