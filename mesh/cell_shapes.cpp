@@ -89,19 +89,19 @@ ShapePart thorn(double form, double bend) {
 ShapePart blade(int number, int count, double bend) {
     // Fractions of the golden ratio's multiples and of others are spread evenly.
     const auto spread = [number](double ratio) { return std::fmod((number + 0.5) * ratio, 1.0); };
-    const double far = 0.8 * std::sqrt((number + 0.5) / count), around = 2.4 * number;
+    const double far = 1.05 * std::sqrt((number + 0.5) / count), around = 2.4 * number;
     const Vector3d root{far * std::cos(around), -0.05, far * std::sin(around)};
-    const double angle = angle_of(bend) * mix(0.75, 1.15, spread(0.7549));
-    const double height = mix(0.75, 1.05, spread(0.6180)), side = mix(-0.25, 0.25, spread(0.5698));
+    const double angle = angle_of(bend) * mix(0.8, 1.1, spread(0.7549));
+    const double height = mix(0.75, 1.05, spread(0.6180)), side = mix(-0.35, 0.35, spread(0.5698));
     const auto middle = [=](double t) {
         // Tips come closer to each other than roots.
-        const Vector3d drawn_in{-0.4 * root.x * t, 0, -0.3 * root.z * t};
+        const Vector3d drawn_in{-0.35 * root.x * t, 0, -0.25 * root.z * t};
         return root + arc(angle, t) * height + drawn_in + Vector3d{side * t * t, 0, 0};
     };
-    const auto radius = [](double t, double) { return 0.1 * std::pow(1 - t, 0.7) * (0.7 + t); };
-    const double tone = mix(0.8, 1, spread(0.4302));
+    const auto radius = [](double t, double) { return 0.16 * std::pow(1 - t, 0.8) * (0.6 + t); };
+    const double tone = mix(0.7, 1, spread(0.4302));
     return {surface_of({radius, middle}),
-            [tone](double t, double) { return tone * mix(0.4, 1, rise(0, 0.8, t)); }};
+            [tone](double t, double) { return tone * mix(0.35, 1, rise(0, 0.8, t)); }};
 }
 
 ShapePart feather(double bend) {
@@ -110,7 +110,7 @@ ShapePart feather(double bend) {
     const auto width = [](double t) {
         const double vane = rise(0.02, 0.3, t) * std::pow(1 - t, 0.45);
         const double comb = 1 + 0.06 * std::cos(2 * pi * barbs * t) * rise(0.2, 0.4, t);
-        return 0.05 * rise(0, 0.05, t) * std::sqrt(1 - t) + 0.92 * vane * comb;
+        return 0.05 * rise(0, 0.05, t) * std::sqrt(1 - t) + 1.05 * vane * comb;
     };
     const double raised = mix(1.3, 0.7, bend), droop = mix(0.5, 0.6, bend);
     const auto height = [=](double t, double x) {
@@ -157,7 +157,7 @@ std::vector<ShapePart> parts_of(const CellShape& shape) {
         case CellShape::Kind::feather: return {feather(bend)};
         case CellShape::Kind::hair: break;
     }
-    constexpr int blades = 9;
+    constexpr int blades = 14;
     std::vector<ShapePart> parts;
     for (int k = 0; k < blades; ++k) parts.push_back(blade(k, blades, bend));
     return parts;

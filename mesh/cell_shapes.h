@@ -21,7 +21,7 @@ struct CellShape {
         ball,   ///< A ball (an ellipsoid if the height is not the radius), half of it below y = 0.
         plate,  ///< A scale: round in front, pointed at the rear, where it covers the next one.
         thorn,  ///< A bump that becomes a thorn.
-        hair,   ///< A tuft of nine blades.
+        hair,   ///< A tuft of 14 blades.
         feather,  ///< A vane with barbs on both sides of a shaft.
     };
     Kind kind = Kind::ball;
