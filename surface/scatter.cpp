@@ -17,13 +17,6 @@ namespace {
 /// A number in (0, 1) from a random word.
 double uniform(std::uint32_t word) { return (word + 0.5) / 4294967296.0; }
 
-/// The weights of a random place in a triangle, from two random numbers (G. Turk, "Generating
-/// random points in triangles", Graphics Gems, 1990).
-std::array<double, 3> place_in_triangle(double s, double t) {
-    const double root = std::sqrt(t);
-    return {1 - root, (1 - s) * root, s * root};
-}
-
 /// The triangles, component after component, each in the order of a Morton curve through the cube
 /// around the surface.
 std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
@@ -85,6 +78,11 @@ std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_
 }
 
 }  // namespace
+
+std::array<double, 3> place_in_triangle(double s, double t) {
+    const double root = std::sqrt(t);
+    return {1 - root, (1 - s) * root, s * root};
+}
 
 std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed,
                                   const std::vector<double>& component_areas) {

@@ -4,9 +4,14 @@
 
 #include "mesh/flat.h"
 
+#include <array>
 #include <vector>
 
 namespace cascade {
+
+/// The weights of a random place in a triangle, from two random numbers in [0, 1] (G. Turk,
+/// "Generating random points in triangles", Graphics Gems, 1990).
+std::array<double, 3> place_in_triangle(double s, double t);
 
 /// Random places, in numbers proportional to area, with at least one in each component of the
 /// surface if there are as many places as components. Each component is divided into strips of
