@@ -2,7 +2,7 @@
 // its depth nor its length matters.
 #include "lang/equations/equation_formula.h"
 
-#include "lang/vocabulary/functions.h"
+#include "lang/equations/equation_marks.h"
 
 #include <algorithm>
 #include <array>
@@ -23,58 +23,6 @@ struct Operand {
     int least = 0;
 };
 using Piece = std::variant<Operand, std::string>;
-
-/// What surrounds the only operand of a call. In TeX brackets grow with their contents.
-struct Around {
-    std::string_view function, unicode_open, unicode_close, tex_open, tex_close;
-};
-constexpr Around arounds[] = {
-    {"abs", "|", "|", "\\left|", "\\right|"},
-    {"floor", "⌊", "⌋", "\\lfloor ", " \\rfloor "},
-    {"ceil", "⌈", "⌉", "\\lceil ", " \\rceil "},
-    {"log", "ln(", ")", "\\ln\\left(", "\\right)"},
-    {"exp", "exp(", ")", "\\exp\\left(", "\\right)"},
-    {"sin", "sin(", ")", "\\sin\\left(", "\\right)"},
-    {"cos", "cos(", ")", "\\cos\\left(", "\\right)"},
-    {"tan", "tan(", ")", "\\tan\\left(", "\\right)"},
-    {"sinh", "sinh(", ")", "\\sinh\\left(", "\\right)"},
-    {"cosh", "cosh(", ")", "\\cosh\\left(", "\\right)"},
-    {"tanh", "tanh(", ")", "\\tanh\\left(", "\\right)"},
-};
-
-struct Infix {
-    Function function;
-    std::string_view unicode, tex;
-};
-constexpr Infix infixes[] = {
-    {Function::logical_or, " or ", " \\lor "},
-    {Function::logical_and, " and ", " \\land "},
-    {Function::less, " < ", " < "},
-    {Function::less_equal, " ≤ ", " \\le "},
-    {Function::greater, " > ", " > "},
-    {Function::greater_equal, " ≥ ", " \\ge "},
-    {Function::equal, " = ", " = "},
-    {Function::not_equal, " ≠ ", " \\ne "},
-    {Function::add, " + ", " + "},
-    {Function::subtract, " − ", " - "},
-};
-
-struct Prefix {
-    std::string_view function, unicode, tex;
-};
-constexpr Prefix prefixes[] = {
-    {"lap", "∇²", "\\nabla^2 "},
-    {"grad", "∇", "\\nabla "},
-    {"div", "∇·", "\\nabla \\cdot "},
-};
-
-template <typename Row, std::size_t count>
-const Row* find(const Row (&rows)[count], decltype(Row::function) function) {
-    const auto* const end = rows + count;
-    const auto* const found =
-        std::find_if(rows, end, [&](const Row& row) { return row.function == function; });
-    return found == end ? nullptr : found;
-}
 
 class FormulaPrinter {
 public:
@@ -281,6 +229,13 @@ private:
                 return write_derivative(function.substr(1), operands[0], least);
             }
         }
+        const auto named = function_named(function);
+        const Infix* const infix = named ? find(infixes, *named) : nullptr;
+        if (operands.size() == 2 && infix != nullptr) {
+            return push_operator({Operand{operands[0], a_sign}, both(infix->unicode, infix->tex),
+                                  Operand{operands[1], a_sign}},
+                                 a_product, least);
+        }
         if (operands.size() == 2 && function == "pow") {
             return write_power(operands[0], operands[1], least);
         }
@@ -351,22 +306,38 @@ private:
     void write_over(const ast::Over& node, int least) {
         const std::string_view function = node.function.text;
         const bool of_domain = node.index.text == "domain";
-        const std::string index(node.index.text);
-        const std::string under =
-            of_domain ? both("_Ω", "_{\\Omega}")
-                      : both(subscript(index).value_or("_" + index), "_{" + index + "}");
+        // `sum`, what stands below it, and the operand in brackets.
+        const auto with_under = [&](std::vector<Piece> pieces, std::vector<Piece> after) {
+            for (Piece& piece : under(node)) pieces.push_back(std::move(piece));
+            for (Piece& piece : after) pieces.push_back(std::move(piece));
+            return pieces;
+        };
         if (function == "mean") {
-            return push({both("⟨", "\\left\\langle "), Operand{node.operand, anything},
-                         both("⟩", " \\right\\rangle") + (of_domain ? "" : under)});
+            const std::vector<Piece> mean{both("⟨", "\\left\\langle "),
+                                          Operand{node.operand, anything},
+                                          both("⟩", " \\right\\rangle")};
+            return push(of_domain ? mean : with_under(mean, {}));
         }
         if (function == "sum" || function == "product") {
             const bool is_sum = function == "sum";
-            return push_operator({(is_sum ? both("Σ", "\\sum") : both("Π", "\\prod")) + under + " ",
-                                  Operand{node.operand, a_product}},
+            return push_operator(with_under({is_sum ? both("Σ", "\\sum") : both("Π", "\\prod")},
+                                            {" ", Operand{node.operand, a_product}}),
                                  a_product, least);
         }
-        push({function_symbol(function) + under + both("(", "\\left("),
-              Operand{node.operand, anything}, both(")", "\\right)")});
+        push(with_under({function_symbol(function)},
+                        {both("(", "\\left("), Operand{node.operand, anything},
+                         both(")", "\\right)")}));
+    }
+    /// What an aggregate is taken over.
+    std::vector<Piece> under(const ast::Over& node) const {
+        const std::string over(node.index.text);
+        if (over == "domain") return {both("_Ω", "_{\\Omega}")};
+        if (node.distance) {
+            return {both("_" + over + "(", "_{\\mathrm{" + over + "}("),
+                    Operand{*node.distance, anything}, both(")", ")}")};
+        }
+        if (over == "touching") return {both("_touching", "_{\\mathrm{touching}}")};
+        return {both(subscript(over).value_or("_" + over), "_{" + over + "}")};
     }
 
     const ast::Script& script_;

@@ -16,10 +16,10 @@ struct Sign {
     std::string_view command, text;
 };
 constexpr Sign operators[] = {
-    {"\\lor", "∨"},    {"\\land", "∧"},   {"\\lnot", "¬"},    {"\\le", "≤"},    {"\\ge", "≥"},
-    {"\\ne", "≠"},     {"\\cdot", "·"},   {"\\partial", "∂"}, {"\\sum", "∑"},   {"\\prod", "∏"},
-    {"\\lfloor", "⌊"}, {"\\rfloor", "⌋"}, {"\\lceil", "⌈"},   {"\\rceil", "⌉"}, {"\\dots", "…"},
-    {"\\nabla", "∇"},  {"\\langle", "⟨"}, {"\\rangle", "⟩"},
+    {"\\lor", "∨"},  {"\\land", "∧"},   {"\\lnot", "¬"},   {"\\le", "≤"},      {"\\ge", "≥"},
+    {"\\ne", "≠"},   {"\\cdot", "·"},   {"\\times", "×"},  {"\\partial", "∂"}, {"\\sum", "∑"},
+    {"\\prod", "∏"}, {"\\lfloor", "⌊"}, {"\\rfloor", "⌋"}, {"\\lceil", "⌈"},   {"\\rceil", "⌉"},
+    {"\\dots", "…"}, {"\\nabla", "∇"},  {"\\langle", "⟨"}, {"\\rangle", "⟩"},
 };
 
 std::string element(std::string_view tag, std::string_view text) {

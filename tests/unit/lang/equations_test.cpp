@@ -226,6 +226,16 @@ TEST(Equations, KnowTheOperators) {
     EXPECT_EQ(tex("mean(u over domain)"), "\\left\\langle u \\right\\rangle");
 }
 
+TEST(EquationsOfCells, WriteVectorsAndNeighbours) {
+    EXPECT_EQ(unicode("dot(a, b + c) - cross(a, cross(b, c))"), "a · (b + c) − a × (b × c)");
+    EXPECT_EQ(unicode("2 * length(p - v)"), "2 |p − v|");
+    EXPECT_EQ(unicode("sum(overlap * own(c) over touching)"), "Σ_touching overlap own(c)");
+    EXPECT_EQ(unicode("mean(c over near(2 * d))"), "⟨c⟩_near(2 d)");
+    EXPECT_EQ(tex("min(c over near(d))"), "\\min_{\\mathrm{near}(d)}\\left(c\\right)");
+    EXPECT_EQ(tex("sum(cross(a, b) over touching)"), "\\sum_{\\mathrm{touching}} a \\times b");
+    EXPECT_EQ(mathml("cross(a, b)"), "<mi>a</mi><mo>×</mo><mi>b</mi>");
+}
+
 TEST(Equations, KnowTheFunctions) {
     EXPECT_EQ(unicode("abs(u) + sqrt(u) + log(u)"), "|u| + √u + ln(u)");
     EXPECT_EQ(unicode("sqrt(u)^2 + cbrt(u^2)"), "(√u)² + ∛(u²)");
