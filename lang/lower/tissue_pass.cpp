@@ -28,8 +28,6 @@ using Parts = TissueNumbers::Parts;
 
 /// The approximate number of neighbours.
 constexpr int usual_links = 8;
-/// The operations that make an axis of a frame from a quaternion.
-constexpr int operations_of_axis = 20;
 constexpr int most_operations = 1 << 20;
 
 bool is_of_neighbours(const Node& node) {
@@ -112,7 +110,6 @@ void TissuePass::find_facts() {
         Facts& facts = facts_[id];
         if (const auto* value = node.as<CellValue>()) {
             facts.is_of_link = cascade::is_of_link(*value);
-            if (is_of_frame(*value)) facts.operations = operations_of_axis;
         }
         if (!node.is<Call>() || is_uniform_[id]) continue;
         const bool is_sum = is_of_neighbours(node);
@@ -131,7 +128,8 @@ void TissuePass::find_facts() {
 }
 
 /// Is the neighbour's value read from a plane, and not computed for each link? For nodes that vary
-/// and are not of the link.
+/// and are not of the link. Axes of frames are, too: combing six neighbours takes 22 ns per cell by
+/// planes of ez, with the pass that writes them, and 26 ns by gathering quaternions.
 bool TissuePass::is_gathered(NodeId id) const {
     const Facts& facts = facts_[id];
     return facts.stays || facts.operations == 0 ||
