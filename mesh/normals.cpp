@@ -57,7 +57,9 @@ Vector3d normal_at(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals
     for (std::size_t k = 0; k < 3; ++k) {
         sum = sum + normals[mesh.triangles[place.triangle][k]] * place.weights[k];
     }
-    return unit_or(sum, unit_or(mesh.double_area_normal(place.triangle), {0, 0, 1}));
+    const Vector3d scaled = unit(sum);
+    if (length(scaled) > 0.5) return scaled;
+    return unit_or(mesh.double_area_normal(place.triangle), {0, 0, 1});
 }
 
 CornerNormals corner_normals(const SurfaceMesh& mesh) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace cascade {
 namespace {
@@ -12,7 +13,29 @@ double nearest(double difference, double period) {
     return period > 0 ? difference - period * std::nearbyint(difference / period) : difference;
 }
 
+/// Up to this number, comparing all pairs is faster than to sort: it takes no branches.
+constexpr std::size_t most_compared = 48;
+
 }  // namespace
+
+std::span<const std::uint32_t> NeighbourKeys::sorted() {
+    sorted_.resize(std::max(sorted_.size(), count_));
+    if (count_ > most_compared) {
+        std::vector<std::pair<std::int32_t, std::uint32_t>> pairs;
+        for (std::size_t k = 0; k < count_; ++k) pairs.emplace_back(ranks_[k], cells_[k]);
+        std::sort(pairs.begin(), pairs.end());
+        for (std::size_t k = 0; k < count_; ++k) sorted_[k] = pairs[k].second;
+        return {sorted_.data(), count_};
+    }
+    const std::int32_t* const ranks = ranks_.data();
+    for (std::size_t k = 0; k < count_; ++k) {
+        const std::int32_t own = ranks[k];
+        std::int32_t before = 0;
+        for (std::size_t other = 0; other < count_; ++other) before += ranks[other] < own ? 1 : 0;
+        sorted_[static_cast<std::size_t>(before)] = cells_[k];
+    }
+    return {sorted_.data(), count_};
+}
 
 CellBoxes::CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& rule) : rule_(rule) {
     double widest = 0;
@@ -34,7 +57,8 @@ void CellBoxes::look(const BoxedCell& own, std::int64_t first, std::int64_t last
                      NeighbourKeys& found) const {
     const BoxedCell* at = cells_.data() + starts_[static_cast<std::size_t>(first)];
     const BoxedCell* const end = cells_.data() + starts_[static_cast<std::size_t>(last)];
-    std::uint64_t* next = found.room_for(static_cast<std::size_t>(end - at));
+    const NeighbourKeys::Room room = found.room_for(static_cast<std::size_t>(end - at));
+    std::size_t next = 0;
     for (; at != end; ++at) {
         Vector3d apart = at->place - own.place;
         if constexpr (is_periodic) {
@@ -44,11 +68,12 @@ void CellBoxes::look(const BoxedCell& own, std::int64_t first, std::int64_t last
         // Both cells of a pair compute the same bits.
         const double distance =
             std::max(own.reach + at->reach, rule_.near) + (own.slack + at->slack);
-        *next = neighbour_key(at->rank, at->cell);
-        next += static_cast<int>(dot(apart, apart) < distance * distance) &
-                static_cast<int>(at->cell != own.cell);
+        room.cells[next] = at->cell;
+        room.ranks[next] = static_cast<std::int32_t>(at->rank);
+        next += static_cast<unsigned>(dot(apart, apart) < distance * distance) &
+                static_cast<unsigned>(at->cell != own.cell);
     }
-    found.end_at(next);
+    found.add(next);
 }
 
 template <bool is_periodic>

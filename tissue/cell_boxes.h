@@ -19,38 +19,38 @@ struct BoxedCell {
     std::uint32_t cell = 0, rank = 0;
 };
 
-/// A neighbour as a word that sorts by number.
-inline std::uint64_t neighbour_key(std::uint32_t rank, std::uint32_t cell) {
-    return std::uint64_t{rank} << 32 | cell;
-}
-
 /// The neighbours found for a cell.
 class NeighbourKeys {
 public:
-    /// The address after the last key, with room for some more.
-    std::uint64_t* room_for(std::size_t more) {
-        if (count_ + more > keys_.size()) keys_.resize(2 * (count_ + more));
-        return keys_.data() + count_;
+    /// Where the next cells and their ranks are written, with room for some more.
+    struct Room {
+        std::uint32_t* cells;
+        std::int32_t* ranks;
+    };
+    Room room_for(std::size_t more) {
+        if (count_ + more > cells_.size()) {
+            cells_.resize(2 * (count_ + more));
+            ranks_.resize(cells_.size());
+        }
+        return {cells_.data() + count_, ranks_.data() + count_};
     }
-    void end_at(const std::uint64_t* end) { count_ = static_cast<std::size_t>(end - keys_.data()); }
+    void add(std::size_t more) { count_ += more; }
+    void add(std::uint32_t cell, std::uint32_t rank) {
+        const Room room = room_for(1);
+        *room.cells = cell;
+        *room.ranks = static_cast<std::int32_t>(rank);
+        ++count_;
+    }
     void clear() { count_ = 0; }
-    void add(std::uint64_t key) { *room_for(1) = key, ++count_; }
-    std::span<const std::uint64_t> all() const { return {keys_.data(), count_}; }
+    std::span<const std::uint32_t> cells() const { return {cells_.data(), count_}; }
     std::size_t count() const { return count_; }
 
-    /// Most lists are short.
-    void sort() {
-        if (count_ > 32) return std::sort(keys_.begin(), keys_.begin() + count_);
-        for (std::size_t k = 1; k < count_; ++k) {
-            const std::uint64_t key = keys_[k];
-            std::size_t at = k;
-            for (; at > 0 && keys_[at - 1] > key; --at) keys_[at] = keys_[at - 1];
-            keys_[at] = key;
-        }
-    }
+    /// The cells in ascending order of their ranks, until the next change.
+    std::span<const std::uint32_t> sorted();
 
 private:
-    std::vector<std::uint64_t> keys_;
+    std::vector<std::uint32_t> cells_, sorted_;
+    std::vector<std::int32_t> ranks_;
     std::size_t count_ = 0;
 };
 

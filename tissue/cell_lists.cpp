@@ -11,6 +11,21 @@ constexpr double far_part_to_order = 0.1;
 /// Fewer cells are all near in memory.
 constexpr std::size_t least_cells_to_order = 4096;
 
+/// Calls `use(cell, place, radius)` for all cells in some state.
+void each_place(const Tissue& tissue, const TissueSpecies& species, const std::vector<Field>& state,
+                const auto& use) {
+    with_number(tissue.precision(), [&](auto zero) {
+        using Number = decltype(zero);
+        const Number* const x = state[species.place].origin<Number>();
+        const Number* const y = state[species.place + 1].origin<Number>();
+        const Number* const z = state[species.place + 2].origin<Number>();
+        const Number* const radius = state[species.radius].origin<Number>();
+        tissue.each_cell([&](std::size_t cell, std::int64_t at) {
+            use(cell, Vector3d{x[at], y[at], z[at]}, static_cast<double>(radius[at]));
+        });
+    });
+}
+
 }  // namespace
 
 CellLists::CellLists(const NeighbourRule& rule, double skin, double most_bytes,
@@ -18,12 +33,12 @@ CellLists::CellLists(const NeighbourRule& rule, double skin, double most_bytes,
     : rule_(rule), skin_(skin), most_bytes_(most_bytes), species_(species), team_(team) {}
 
 void CellLists::read(const Tissue& tissue, const std::vector<Field>& state) {
-    places_.clear();
-    radii_.clear();
-    for (std::size_t cell = 0; cell < tissue.count(); ++cell) {
-        places_.push_back(place_in(state, tissue, species_, cell));
-        radii_.push_back(std::max(0.0, value_in(state[species_.radius], tissue, cell)));
-    }
+    places_.resize(tissue.count());
+    radii_.resize(tissue.count());
+    each_place(tissue, species_, state, [&](std::size_t cell, Vector3d place, double radius) {
+        places_[cell] = place;
+        radii_[cell] = std::max(0.0, radius);
+    });
     double sum = 0;
     for (const std::uint32_t cell : tissue.by_number()) sum += radii_[cell];
     rule_.mean_radius = sum / static_cast<double>(std::max<std::size_t>(1, places_.size()));
@@ -46,13 +61,18 @@ void CellLists::put_in_order(Tissue& tissue) {
 }
 
 bool CellLists::reach(const Tissue& tissue, const std::vector<Field>& state, double around) const {
-    for (std::size_t cell = 0; cell < tissue.count(); ++cell) {
-        if (!watch_->reaches(cell, place_in(state, tissue, species_, cell),
-                             value_in(state[species_.radius], tissue, cell), around)) {
-            return false;
-        }
-    }
-    return true;
+    bool all = true;
+    each_place(tissue, species_, state, [&](std::size_t cell, Vector3d place, double radius) {
+        all = all && watch_->reaches(cell, place, radius, around);
+    });
+    return all;
+}
+
+void CellLists::end_step(const Tissue& tissue) {
+    each_place(tissue, species_, tissue.species,
+               [&](std::size_t cell, Vector3d place, double radius) {
+                   watch_->look(cell, place, radius);
+               });
 }
 
 Result<void> CellLists::build(const Tissue& tissue, const std::vector<Field>& state, bool is_full) {

@@ -30,8 +30,10 @@ public:
     bool wants_order(const Tissue& tissue) const;
     /// Puts the cells in a better order, after which lists must be built. Throws std::bad_alloc.
     void put_in_order(Tissue& tissue);
-    /// A step begins at the present places.
+    /// A step begins at the present places,
     void begin_step(const Tissue& tissue);
+    /// and leads to the present ones.
+    void end_step(const Tissue& tissue);
 
     const Links& links() const { return links_; }
     const std::shared_ptr<MovementWatch>& watch() const { return watch_; }

@@ -103,25 +103,30 @@ struct Part {
 
 void search_part(const Search& search, RowRange cells, std::atomic<std::int64_t>& left,
                  Part& part) {
+    constexpr std::int64_t cells_at_once = 256;  // Between two looks at what is left.
     part.neighbours.reserve(static_cast<std::size_t>(16 * (cells.end - cells.begin)));
+    part.counts.reserve(static_cast<std::size_t>(cells.end - cells.begin));
     NeighbourKeys found;
+    std::int64_t links = 0;
     for (std::int64_t k = cells.begin; k < cells.end; ++k) {
-        if (left.load(std::memory_order_relaxed) < 0) return;
+        if (k % cells_at_once == 0 || links > cells_at_once * 64) {
+            if (left.fetch_sub(links, std::memory_order_relaxed) < links) return;
+            links = 0;
+        }
         const auto cell = static_cast<std::uint32_t>(k);
         const std::size_t larger = search.find(cell, found);
-        for (const std::uint64_t key : found.all().first(larger)) {
-            part.pairs.push_back({static_cast<std::uint32_t>(key), cell});
+        for (const std::uint32_t other : found.cells().first(larger)) {
+            part.pairs.push_back({other, cell});
         }
-        found.sort();
-        for (const std::uint64_t key : found.all()) {
-            const auto other = static_cast<std::uint32_t>(key);
-            part.neighbours.push_back(other);
-            part.far_links += (other > cell ? other - cell : cell - other) > far_in_memory ? 1 : 0;
+        const std::span<const std::uint32_t> sorted = found.sorted();
+        part.neighbours.insert(part.neighbours.end(), sorted.begin(), sorted.end());
+        for (const std::uint32_t other : sorted) {
+            part.far_links += other - cell + far_in_memory > 2 * far_in_memory ? 1 : 0;
         }
-        part.counts.push_back(found.count());
-        left.fetch_sub(static_cast<std::int64_t>(found.count() + larger),
-                       std::memory_order_relaxed);
+        part.counts.push_back(sorted.size());
+        links += static_cast<std::int64_t>(sorted.size() + larger);
     }
+    left.fetch_sub(links, std::memory_order_relaxed);
 }
 
 /// Adds to the lists of large cells the small ones that have found them.
@@ -141,15 +146,13 @@ void add_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> ranks
         const std::size_t last = cell + 1 < ends.size() ? ends[cell + 1] : smaller.size();
         keys.clear();
         for (std::size_t k = cell == 0 ? 0 : lists.ends[cell - 1]; k < lists.ends[cell]; ++k) {
-            keys.add(neighbour_key(ranks[lists.neighbours[k]], lists.neighbours[k]));
+            keys.add(lists.neighbours[k], ranks[lists.neighbours[k]]);
         }
         for (std::size_t k = ends[cell]; k < last; ++k) {
-            keys.add(neighbour_key(ranks[smaller[k]], smaller[k]));
+            keys.add(smaller[k], ranks[smaller[k]]);
         }
-        keys.sort();
-        for (const std::uint64_t key : keys.all()) {
-            whole.neighbours.push_back(static_cast<std::uint32_t>(key));
-        }
+        const std::span<const std::uint32_t> sorted = keys.sorted();
+        whole.neighbours.insert(whole.neighbours.end(), sorted.begin(), sorted.end());
         whole.ends.push_back(whole.neighbours.size());
     }
     lists = std::move(whole);

@@ -11,8 +11,7 @@ std::vector<double> root_mean_squares(const std::vector<Field>& fields, const Ti
     std::vector<double> result(fields.size());
     const auto sum_of = [&]<typename Number>(const Plane<Number>& plane, const Number* other) {
         double sum = 0;
-        for (const std::uint32_t cell : tissue.by_number()) {
-            const std::int64_t at = tissue.element(cell);
+        for (const std::uint32_t at : tissue.elements_by_number()) {
             double value = plane.origin()[at];
             if (other != nullptr) value -= other[at];
             sum += value * value;

@@ -139,6 +139,10 @@ void Tissue::number_cells() {
     std::sort(by_number_.begin(), by_number_.end(),
               [&](std::uint32_t a, std::uint32_t b) { return numbers_[a] < numbers_[b]; });
     ranks_.resize(count());
+    elements_by_number_.clear();
+    for (const std::uint32_t cell : by_number_) {
+        elements_by_number_.push_back(static_cast<std::uint32_t>(element(cell)));
+    }
     for (std::uint32_t rank = 0; rank < by_number_.size(); ++rank) ranks_[by_number_[rank]] = rank;
     if (number_plane_.empty() || number_plane_.layout() != layout_) {
         number_plane_ = Field(layout_, precision_);

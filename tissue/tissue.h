@@ -65,6 +65,16 @@ public:
         return layout_.row_start(k / layout_.width) + k % layout_.width;
     }
 
+    /// Calls `use(cell, element)` for all cells in the order of memory.
+    void each_cell(const auto& use) const {
+        for (std::size_t cell = 0, row = 0; cell < count(); ++row) {
+            const std::int64_t first = layout_.row_start(static_cast<std::int64_t>(row));
+            for (std::int64_t i = 0; i < layout_.width && cell < count(); ++i) {
+                use(cell++, first + i);
+            }
+        }
+    }
+
     /// By species; lent to the steps while these go on.
     std::vector<Field> species;
     /// The direction in which the rates change fastest; empty until it is
@@ -80,6 +90,8 @@ public:
     std::span<const std::uint32_t> numbers() const { return numbers_; }
     /// The cells in ascending order of their numbers.
     std::span<const std::uint32_t> by_number() const { return by_number_; }
+    /// The elements of the cells in that order, counted from cell 0.
+    std::span<const std::uint32_t> elements_by_number() const { return elements_by_number_; }
     /// By cell in memory: its place in by_number().
     std::span<const std::uint32_t> ranks() const { return ranks_; }
     /// The numbers as words in a plane, for kernels that draw random numbers.
@@ -104,7 +116,7 @@ private:
     Precision precision_;
     Grid grid_;
     PlaneLayout layout_;
-    std::vector<std::uint32_t> numbers_, by_number_, ranks_;
+    std::vector<std::uint32_t> numbers_, by_number_, elements_by_number_, ranks_;
     Field number_plane_;
     Mask inside_;
 };

@@ -148,10 +148,7 @@ Result<TriedStep> TissueStepper::attempt(double length) {
             tried.error = NAN;
         }
         stepper_->planes().lend(tissue_.species);
-        for (std::uint32_t cell = 0; cell < tissue_.count(); ++cell) {
-            lists_.watch()->look(cell, place_of(tissue_, species_, cell),
-                                 tissue_.value(species_.radius, cell));
-        }
+        lists_.end_step(tissue_);
         if (!lists_.watch()->left_lists() || is_full) {
             if (schedule_.tolerance > 0) tried.error = error();
             tried.went_too_far = lists_.watch()->went_too_far();
