@@ -89,13 +89,13 @@ public:
     }
 
 private:
-    /// `use(species, rank, value, cell)` for all values.
+    /// `use(species, rank, value, element)` for all values.
     void each(std::vector<Field>& fields, const auto& use) const {
+        const std::span<const std::uint32_t> elements = tissue_.elements_by_number();
         for (std::size_t k = 0; k < fields.size(); ++k) {
             fields[k].visit([&](auto& plane) {
-                for (std::size_t rank = 0; rank < tissue_.count(); ++rank) {
-                    const std::uint32_t cell = tissue_.by_number()[rank];
-                    use(k, rank, plane.origin()[tissue_.element(cell)], cell);
+                for (std::size_t rank = 0; rank < elements.size(); ++rank) {
+                    use(k, rank, plane.origin()[elements[rank]], elements[rank]);
                 }
             });
         }
@@ -106,8 +106,8 @@ private:
         for (const Field& field : fields) {
             v.emplace_back();
             field.visit([&](const auto& plane) {
-                for (const std::uint32_t cell : tissue_.by_number()) {
-                    v.back().push_back(plane.origin()[tissue_.element(cell)]);
+                for (const std::uint32_t at : tissue_.elements_by_number()) {
+                    v.back().push_back(plane.origin()[at]);
                 }
             });
         }
@@ -124,9 +124,10 @@ private:
     }
 
     void write(const Vector& v, double step) {
-        each(moved_, [&](std::size_t k, std::size_t rank, auto& value, std::uint32_t cell) {
-            value = static_cast<std::remove_reference_t<decltype(value)>>(
-                tissue_.value(k, cell) + step * scales_[k] * v[k][rank]);
+        each(moved_, [&]<typename Number>(std::size_t k, std::size_t rank, Number& value,
+                                          std::uint32_t at) {
+            const double there = tissue_.species[k].template origin<Number>()[at];
+            value = static_cast<Number>(there + step * scales_[k] * v[k][rank]);
         });
     }
 
