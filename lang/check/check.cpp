@@ -10,6 +10,8 @@
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"
 
+#include <algorithm>
+
 namespace cascade {
 
 namespace {
@@ -17,7 +19,8 @@ namespace {
 using checking::Workspace;
 
 /// Checks the script's own systems and those of the library that it names. `library` owns the
-/// parsed library scripts, which must outlive the workspace.
+/// parsed library scripts, which must outlive the workspace. Cells come after systems of fields,
+/// because they read stages of these by name.
 void check_systems(Workspace& work, const ast::Script& script,
                    const std::vector<LibraryScript>& library) {
     std::vector<checking::SystemBlock> blocks;
@@ -28,17 +31,37 @@ void check_systems(Workspace& work, const ast::Script& script,
         if (block.kind == ast::BlockKind::system) blocks.push_back({&script, &block, false});
     }
     const std::vector<checking::DerivedSystem> systems = checking::derive_systems(work, blocks);
-    std::vector<SystemId> numbers;  // The id of each system in the program.
-    for (const checking::DerivedSystem& each : systems) {
-        std::optional<SystemId> base;
-        if (each.base) base = numbers[*each.base];
-        const std::size_t errors_before = work.diagnostics.error_count();
-        numbers.push_back(checking::check_system(work, each, base));
-        checking::check_system_sides(work, *each.from.script, *each.from.block, numbers.back(),
-                                     base);
-        const bool is_sound = work.diagnostics.error_count() == errors_before;
-        CHECK(is_sound || !each.from.built_in, "the systems of the library are sound");
+    checking::add_stages(work, script, [&](std::string_view name) {
+        return std::ranges::any_of(systems, [&](const checking::DerivedSystem& each) {
+            return each.from.block->name.text == name && each.from.block->is_cells;
+        });
+    });
+    std::vector<SystemId> numbers(systems.size());  // The id of each system in the program.
+    for (const bool is_of_cells : {false, true}) {
+        for (std::size_t k = 0; k < systems.size(); ++k) {
+            const checking::DerivedSystem& each = systems[k];
+            if (each.from.block->is_cells != is_of_cells) continue;
+            std::optional<SystemId> base;
+            if (each.base) base = numbers[*each.base];
+            std::vector<SystemId> joined;
+            for (const std::size_t other : each.joined) joined.push_back(numbers[other]);
+            const std::size_t errors_before = work.diagnostics.error_count();
+            numbers[k] = checking::check_system(work, each, base, std::move(joined));
+            checking::check_system_sides(work, *each.from.script, *each.from.block, numbers[k],
+                                         base);
+            const bool is_sound = work.diagnostics.error_count() == errors_before;
+            CHECK(is_sound || !each.from.built_in, "the systems of the library are sound");
+        }
+        checking::find_systems_of_stages(work, script, false);
     }
+}
+
+bool has_cells(const ast::Script& script, const std::vector<LibraryScript>& library) {
+    const auto is_of_cells = [](const ast::Block& block) { return block.is_cells; };
+    return std::ranges::any_of(script.blocks, is_of_cells) ||
+           std::ranges::any_of(library, [&](const LibraryScript& each) {
+               return is_of_cells(each.script.blocks[each.block]);
+           });
 }
 
 bool measures_on_surface(const DomainSettings& domain) {
@@ -53,6 +76,7 @@ Workspace workspace_of(const Program& program, Diagnostics& diagnostics) {
     }
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
         work.stages.emplace(program.stages[i].name, i);
+        work.cell_stages.push_back(program.system_of(i).cells.has_value());
     }
     return work;
 }
@@ -67,6 +91,11 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
         work.draft = &program;
         const std::vector<LibraryScript> library = read_library(script, sources, own);
+        ast::Script functions;
+        if (has_cells(script, library)) {
+            functions = read_cell_functions(sources, own);
+            work.cell_functions = &functions;
+        }
         checking::check_domain(work, script);
         work.on_surface = measures_on_surface(program.domain);
         check_systems(work, script, library);
@@ -93,9 +122,11 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
 
 std::optional<Formula> check_view(const ast::Script& script, ast::Expression expression,
                                   std::uint32_t stage, std::uint32_t last_stage,
-                                  const Program& program, const Sources& /*sources*/,
+                                  const Program& program, const Sources& sources,
                                   Diagnostics& diagnostics) {
     Workspace work = workspace_of(program, diagnostics);
+    const ast::Script functions = cell_functions_of(sources);
+    if (!functions.functions.empty()) work.cell_functions = &functions;
     checking::Scope scope;
     scope.context = checking::Context::picture;
     scope.stage = stage;

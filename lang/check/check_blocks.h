@@ -5,12 +5,18 @@
 #include "lang/check/check_names.h"
 #include "lang/check/system_inheritance.h"
 
+#include <functional>
+#include <string_view>
+#include <vector>
+
 namespace cascade::checking {
 
-/// Checks a system; `base` is the one it is derived from. A system with errors is added, too, so
+/// Checks a system or a block of cells; `base` is the one it is derived from, and `joined` are the
+/// further ones. A system with errors is added, too, so
 /// that its readers do not cause further messages; one whose base is unknown is not
 /// (unknown_system).
-SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base);
+SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base,
+                      std::vector<SystemId> joined);
 
 /// The statement if it gives a value, else null.
 const ast::Statement* value_statement(const ast::Statement& statement);
@@ -28,7 +34,7 @@ StageOverrides distribute_overrides(Workspace& work, const ast::Script& script);
 /// true.
 bool take_text(System& system, const Declaration& declaration);
 
-/// Sets the range of a parameter whose declaration has one; `value` is its default, if known.
+/// Sets the range of a quantity whose declaration has one; `value` is its default, if known.
 void check_range(Workspace& work, const Declaration& declaration, Quantity& quantity,
                  std::optional<double> value);
 
@@ -39,6 +45,14 @@ void warn_outside(Workspace& work, const Quantity& quantity, std::optional<doubl
 /// Reports that there is no system of this name.
 void report_unknown_system(Workspace& work, const ast::Word& name);
 
+/// Adds the stages of a script, without their systems; `has_cells` says of which names of systems
+/// are blocks of cells.
+void add_stages(Workspace& work, const ast::Script& script,
+                const std::function<bool(std::string_view)>& has_cells);
+/// The stage blocks of a script, as many as it may have.
+std::vector<const ast::Block*> stage_blocks(const ast::Script& script);
+/// Gives stages their systems, where these are known by now. If all are, reports the unknown ones.
+void find_systems_of_stages(Workspace& work, const ast::Script& script, bool all_are_known);
 /// Checks all stages of a script, with the overrides and the options for all
 /// stages.
 void check_stages(Workspace& work, const ast::Script& script);

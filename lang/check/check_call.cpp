@@ -134,6 +134,11 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
     std::string hint(advice_about(name.text, WordContext::function));
     if (hint.empty() && !is_hopeless(work)) {
         std::vector<std::string> names = own;
+        if (work.cell_functions != nullptr) {
+            for (const ast::FunctionDefinition& each : work.cell_functions->functions) {
+                names.emplace_back(each.name.text);
+            }
+        }
         for (std::size_t i = 0; i < function_count; ++i) {
             const FunctionInfo& row = info(static_cast<Function>(i));
             if (row.is_named) names.emplace_back(row.spelling);

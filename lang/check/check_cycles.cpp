@@ -131,6 +131,9 @@ void order_steps(Workspace& work, SystemId index) {
             if (const auto* id = node.as<DefinitionId>()) node.kind = position[*id];
         }
     };
+    if (target.cells) {
+        for (DefinitionId* id : {&target.cells->velocity, &target.cells->spin}) *id = position[*id];
+    }
     for (Definition& definition : target.definitions) renumber(definition.formula);
     for (Formula& rate : target.rates) renumber(rate);
     for (auto& [name, meaning] : work.names[index]) {

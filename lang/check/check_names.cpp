@@ -1,6 +1,7 @@
 // Name resolution: from a word in an expression to an item, a definition or a built-in value.
 #include "lang/check/check_names.h"
 
+#include "lang/check/cell_stages.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/format.h>
@@ -162,7 +163,7 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
     if (meaning->has_error) return std::nullopt;
     if (meaning->is_definition()) {
         if (scope.context == Context::rate) {
-            return Node{std::get<DefinitionId>(meaning->id), span};
+            return Node{std::get<DefinitionId>(meaning->id), span, meaning->type};
         }
         report(work, span, fmt::format("'{}' is a definition and cannot be read here", name),
                "definitions can be read in rates and other definitions");
@@ -174,7 +175,7 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
                fmt::format("'{}' is a species", name));
         return std::nullopt;
     }
-    return Node{meaning->item(), span};
+    return Node{meaning->item(), span, meaning->type};
 }
 
 void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span) {
@@ -213,8 +214,8 @@ void report_unknown_previous(Workspace& work, const Scope& scope, std::string_vi
                        system.name, list_names(quantity_names(system))));
 }
 
-std::optional<Node> resolve_other(Workspace& work, std::uint32_t stage, std::string_view name,
-                                  Span span) {
+std::optional<Node> resolve_other(Workspace& work, const Scope& scope, std::uint32_t stage,
+                                  std::string_view name, Span span) {
     const System& system = system_at(work, work.program.stages[stage].system);
     const Meaning* meaning = find(work.names[work.program.stages[stage].system], name);
     if (meaning == nullptr || meaning->has_error) return std::nullopt;
@@ -225,7 +226,13 @@ std::optional<Node> resolve_other(Workspace& work, std::uint32_t stage, std::str
                "");
         return std::nullopt;
     }
-    return Node{StageItem{stage, meaning->item()}, span};
+    const StageItem item{stage, meaning->item()};
+    if (system.cells) {
+        if (!knows_cells(work, scope, item, span)) return std::nullopt;
+    } else if (is_of_cells(work, scope)) {
+        return Node{SensedItem{item}, span};
+    }
+    return Node{item, span, meaning->type};
 }
 
 std::optional<Node> resolve_previous(Workspace& work, const Scope& scope, std::string_view name,
@@ -242,7 +249,7 @@ std::optional<Node> resolve_previous(Workspace& work, const Scope& scope, std::s
         report_unknown_previous(work, scope, name, span);
         return std::nullopt;
     }
-    return resolve_other(work, previous, name, span);
+    return resolve_other(work, scope, previous, name, span);
 }
 
 std::vector<std::string> stage_names(const Workspace& work, std::size_t count) {
@@ -316,16 +323,17 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
         report_constant(work, scope, qualified.name.text, span);
         return std::nullopt;
     }
-    if (!scope.stage) {
+    if (!scope.stage && !is_of_cells(work, scope)) {
         report(work, span, "a system cannot read a stage",
                "a system does not know what ran before it");
         return std::nullopt;
     }
-    const auto stage = find_stage(work, scope, qualified);
+    const auto stage =
+        scope.stage ? find_stage(work, scope, qualified) : find_sensed_stage(work, qualified);
     if (!stage) return std::nullopt;
     const SystemId index = work.program.stages[*stage].system;
     if (index == unknown_system) return std::nullopt;
-    if (scope.context == Context::picture && *stage == *scope.stage) {
+    if (scope.context == Context::picture && stage == scope.stage) {
         return resolve_own(work, scope, qualified.name.text, qualified.name.span);
     }
     if (report_reserved(work, scope, qualified.name.text, qualified.name.span)) {
@@ -345,7 +353,7 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
                fmt::format("stage '{}' has {}", qualified.stage.text, list_names(names)));
         return std::nullopt;
     }
-    return resolve_other(work, *stage, qualified.name.text, qualified.name.span);
+    return resolve_other(work, scope, *stage, qualified.name.text, qualified.name.span);
 }
 
 void report_not_species(Workspace& work, SystemId index, std::string_view name, Span span) {
@@ -372,6 +380,10 @@ std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast:
         report(work, span, fmt::format("the rate {}' cannot be read here", name.text),
                "rates can be read in rates and definitions");
         return std::nullopt;
+    }
+    const auto& cells = system_at(work, scope.system).cells;
+    if (cells && (name.text == "p" || name.text == "turn")) {
+        return Node{name.text == "p" ? cells->velocity : cells->spin, span, ValueType::vector};
     }
     const Meaning* meaning = find(work.names[scope.system], name.text);
     if (meaning != nullptr && meaning->has_error) return std::nullopt;

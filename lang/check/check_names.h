@@ -25,6 +25,8 @@ namespace cascade::checking {
 struct Meaning {
     std::variant<ItemId, DefinitionId> id;
     bool has_error = false;  ///< Its declaration had an error, which has been reported.
+    /// Vectors are in systems of cells only. One of items has the id of the first of three.
+    ValueType type = ValueType::number;
 
     bool is_definition() const { return std::holds_alternative<DefinitionId>(id); }
     ItemId item() const { return std::get<ItemId>(id); }
@@ -62,6 +64,9 @@ struct Workspace {
     /// Indices without values, which have been reported; declarations that use them are ignored.
     std::vector<std::string_view> invalid_indices = {};
     Program* draft = nullptr;  ///< The program under construction; null if it is finished.
+    std::vector<bool> cell_stages = {};  ///< By stage: is its system a block of cells?
+    /// The functions of cells (lang/library/library.h); null if there are no cells.
+    const ast::Script* cell_functions = nullptr;
 };
 
 /// Where an expression stands; decides which names and functions it may read.

@@ -32,6 +32,8 @@ bool has_name(const Workspace& work, const Stage& stage, const ast::Statement& s
     const std::string_view name = statement.name.text;
     if (!statement.index.empty()) return has_family(work.program.systems[stage.system], name);
     if (reserved(name) != Reserved::no) return true;
+    const bool has_cells = work.program.systems[stage.system].cells.has_value();
+    if (has_cells && is_setting_of(SettingBlock::cell_stage, name)) return true;
     return find(work.names[stage.system], name) != nullptr;
 }
 

@@ -24,11 +24,6 @@ void check_range(Workspace& work, const Declaration& declaration, Quantity& quan
                  std::optional<double> value) {
     const ast::Range& written = *declaration.range;
     const ast::Script& script = *declaration.range_script;
-    if (quantity.is_species) {
-        work.diagnostics.error(written.span, "a range belongs to a parameter",
-                               fmt::format("'{}' is a species", quantity.name));
-        return;
-    }
     const auto low = check_constant(work, script, written.low, "the end of a range");
     const auto high = check_constant(work, script, written.high, "the end of a range");
     if (!low || !high) return;

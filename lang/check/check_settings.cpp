@@ -68,6 +68,16 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
     const std::string_view name = statement.name.text;
     const Setting setting = *setting_named(name);
     const bool is_speed = setting == Setting::speed && !is_automatic(script, statement);
+    const bool has_cells = is_of_cells(work, scope);
+    if (has_cells && is_speed) {
+        work.diagnostics.error(statement.name.span, "cells choose the length of their steps",
+                               "leave speed out; largest_step limits it");
+        return;
+    }
+    if (has_cells && setting == Setting::start) {
+        work.diagnostics.error(statement.name.span, "cells that crawl have no coarser grid");
+        return;
+    }
     if (setting == Setting::iterations) {
         settings.iterations = check_count(work, script, statement);
     } else if (setting == Setting::interval) {
@@ -77,7 +87,15 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
         picture.context = Context::picture;
         picture.last_stage = scope.stage.value_or(0);
         auto checked = check_expression(work, script, statement.values[0], picture);
-        if (checked) settings.show = std::move(checked->formula);
+        if (!checked) return;
+        if (checked->type() != ValueType::number && checked->type() != ValueType::colour) {
+            const TypeWords words = words_of(checked->type(), has_cells);
+            work.diagnostics.error(span_of(script, statement.values[0]),
+                                   fmt::format("{} cannot be shown", words.name),
+                                   std::string(words.hint));
+            return;
+        }
+        settings.show = std::move(checked->formula);
     } else if (setting == Setting::frozen || is_speed) {
         auto checked = check_number(work, script, statement.values[0], scope);
         if (!checked) return;
@@ -90,7 +108,7 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
     } else {
         check_time_setting(work, script, statement, scope, settings);
     }
-    if (is_end_setting(name) && settings.time.duration && settings.iterations) {
+    if (!has_cells && is_end_setting(name) && settings.time.duration && settings.iterations) {
         work.diagnostics.error(statement.name.span,
                                "a stage ends by its iterations or by its duration, not by both",
                                "leave one of them out");

@@ -1,21 +1,21 @@
 // Stages: checks each statement, fills in defaults, orders the items, and finds the uniform ones.
+#include "lang/check/cell_stages.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
 #include "lang/check/check_time.h"
-#include "lang/library/library.h"
 #include "lang/program/dependencies.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace cascade::checking {
 
 namespace {
 
-constexpr std::size_t most_stages = 1000;
 /// The most nodes of defaults, which are copied into every stage; it bounds the memory of a check.
 constexpr std::size_t most_copied_nodes = 8u << 20;
 
@@ -46,6 +46,7 @@ private:
                                      const std::vector<const ast::Statement*>& overrides);
     std::vector<Declaration> declarations_of(const ast::Statement& statement);
     void set(const Declaration& declaration);
+    bool set_of_cells(const Declaration& declaration);
     void report_unknown(const Declaration& declaration);
     void fill_defaults();
     void take_default(ItemId item, const Formula* formula, double otherwise);
@@ -58,6 +59,7 @@ private:
     std::size_t& copied_;
     Settings settings_;
     IdVector<ItemId, bool> from_system_;
+    std::array<Formula, 2> axes_;  ///< Of cells: ey and ez at the start.
 };
 
 /// If the system is unknown, so are its families.
@@ -129,8 +131,12 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     };
     const bool has_new_end = std::any_of(declarations.begin(), declarations.end(),
                                          [&](const auto& each) { return is_end(each, true); });
-    for (const Declaration& declaration : declarations) {
-        if (!has_new_end || !is_end(declaration, false)) set(declaration);
+    // What other values may read depends on whether there are founders.
+    for (const bool is_first : {true, false}) {
+        for (const Declaration& declaration : declarations) {
+            if ((declaration.name == "founders") != is_first) continue;
+            if (!has_new_end || !is_end(declaration, false)) set(declaration);
+        }
     }
     for (const Formula& formula : stage().items) mark_reads(work_, formula, stage().system);
     for (const auto* formula : {&settings_.show, &settings_.time.until}) {
@@ -139,13 +145,39 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     fill_defaults();
     order_items();
     find_uniform();
-    if (asked.solver) change_solver(stage(), asked);
+    if (asked.solver && system().cells) {
+        change_cell_solver(work_, index_, asked);
+    } else if (asked.solver) {
+        change_solver(stage(), asked);
+    }
     check_time(work_, index_);
+    if (system().cells) check_cell_stage(work_, index_);
+}
+
+/// Takes a statement that means something in stages of cells only, and returns true.
+bool StageChecker::set_of_cells(const Declaration& declaration) {
+    const std::string_view name = declaration.name;
+    const ast::Statement& statement = *declaration.statement;
+    if (is_setting_of(SettingBlock::cell_stage, name)) {
+        check_cell_setting(work_, script_, statement, scope());
+        return true;
+    }
+    if (name == "p") {
+        work_.diagnostics.error(declaration.span(), "the places of cells are not a value of theirs",
+                                "founders say where they start: founders: keys(x, y, z)");
+        return true;
+    }
+    if (name != "ey" && name != "ez") return false;
+    if (!has_one_value(work_, script_, statement)) return true;
+    auto checked = check_vector(work_, script_, statement.values[0], scope());
+    if (checked) axes_[name == "ey" ? 0 : 1] = std::move(checked->formula);
+    return true;
 }
 
 void StageChecker::set(const Declaration& declaration) {
     const ast::Statement& statement = *declaration.statement;
     const std::string_view name = declaration.name;
+    if (system().cells && set_of_cells(declaration)) return;
     const Reserved kind = reserved(name);
     if (kind == Reserved::setting) {
         check_setting(work_, script_, statement, scope(), settings_);
@@ -190,6 +222,7 @@ void StageChecker::report_unknown(const Declaration& declaration) {
             {std::nullopt, fmt::format("{} has {}", system().name, list_names(names))});
         for (std::string& each : settings_of({SettingBlock::stage}))
             names.push_back(std::move(each));
+        if (system().cells) names.insert(names.end(), {"founders", "remove", "ey", "ez"});
         diagnostic.hint = hint_about(work_, declaration.name, WordContext::stage, names);
         if (is_side_word(declaration.name)) {
             diagnostic.hint =
@@ -227,6 +260,7 @@ void StageChecker::fill_defaults() {
     if (settings_.speed) stage().items[from.speed_item()] = std::move(*settings_.speed);
     mark_reads(work_, stage().items[from.frozen_item()], stage().system);
     mark_reads(work_, stage().items[from.speed_item()], stage().system);
+    if (from.cells) take_cells(work_, index_, std::move(axes_));
     for (const ItemId item : from.quantities.ids()) {
         take_default(item, &from.quantities[item].start, 0);
     }
@@ -234,13 +268,19 @@ void StageChecker::fill_defaults() {
     take_default(from.speed_item(), pick(defaults.speed, std::nullopt), 1);
 
     Stage& target = stage();
-    fill_time(target, settings_, defaults);
+    if (from.cells) {
+        fill_cell_time(work_, index_, settings_, defaults);
+    } else {
+        fill_time(target, settings_, defaults);
+    }
     if (const Formula* show = pick(settings_.show, defaults.show)) {
         target.show = *show;
         return;
     }
     const auto species = from.species();
-    target.show = {{Node{species.empty() ? ItemId() : species.front(), target.span}}};
+    ItemId shown = species.empty() ? ItemId() : species.front();
+    if (from.cells) shown = from.cells->radius;
+    target.show = {{Node{shown, target.span}}};
 }
 
 void StageChecker::order_items() {
@@ -270,7 +310,12 @@ void StageChecker::find_uniform() {
             for (const NodeId operand : node.reads()) operand_varies |= varies[operand];
             varies.push_back(differs_by_cell(node, operand_varies, work_.program, index_));
         }
-        target.uniform[item] = !system().is_species(item) && (varies.empty() || !varies.back());
+        // A value that starts again after a division belongs to its cell.
+        const auto& cells = system().cells;
+        const bool starts_again =
+            cells && item < cells->restarts.next() && !cells->restarts[item].nodes.empty();
+        target.uniform[item] =
+            !system().is_species(item) && !starts_again && (varies.empty() || !varies.back());
         depths[item] = check_nesting(work_, target.items[item], [&](const Node& node) {
             const auto* own = node.as<ItemId>();
             return own != nullptr ? depths[*own] : 0;
@@ -278,60 +323,11 @@ void StageChecker::find_uniform() {
     }
 }
 
-SystemId find_system(Workspace& work, const ast::Word& name) {
-    const auto found = work.systems.find(std::string(name.text));
-    if (found != work.systems.end()) return found->second;
-    if (!name.empty()) report_unknown_system(work, name);
-    return unknown_system;
-}
-
-void add_stage(Workspace& work, const ast::Block& block) {
-    const auto index = static_cast<std::uint32_t>(work.program.stages.size());
-    Stage stage;
-    stage.span = block.name.empty() ? block.keyword.span : block.name.span;
-    stage.name =
-        block.name.empty() ? fmt::format("stage{}", index + 1) : std::string(block.name.text);
-    stage.system = find_system(work, block.base);
-    const auto [first, is_new] = work.stages.try_emplace(stage.name, index);
-    if (!is_new) {
-        report_twice(work, stage.span, work.program.stages[first->second].span,
-                     fmt::format("there are two stages '{}'", stage.name));
-    }
-    work.draft->stages.push_back(std::move(stage));
-}
-
 }  // namespace
 
-void report_unknown_system(Workspace& work, const ast::Word& name) {
-    std::vector<std::string> names;
-    if (!is_hopeless(work)) {
-        for (const LibraryText& text : library_texts()) names.emplace_back(text.system_name());
-        for (const System& system : work.program.systems) {
-            if (!system.built_in) names.push_back(system.name);
-        }
-    }
-    Diagnostic diagnostic;
-    diagnostic.span = name.span;
-    diagnostic.message = fmt::format("there is no system '{}'", name.text);
-    diagnostic.hint = did_you_mean(work, name.text, names);
-    diagnostic.notes.push_back({std::nullopt, "'cascade systems' lists those of the library"});
-    work.diagnostics.add(std::move(diagnostic));
-}
-
 void check_stages(Workspace& work, const ast::Script& script) {
-    std::vector<const ast::Block*> blocks;
-    for (const ast::Block& block : script.blocks) {
-        if (block.kind != ast::BlockKind::stage && block.kind != ast::BlockKind::classic_stage) {
-            continue;
-        }
-        if (blocks.size() == most_stages) {
-            work.diagnostics.error(block.keyword.span,
-                                   fmt::format("a script has at most {} stages", most_stages));
-            break;
-        }
-        blocks.push_back(&block);
-        add_stage(work, block);
-    }
+    const std::vector<const ast::Block*> blocks = stage_blocks(script);
+    find_systems_of_stages(work, script, true);
     const StageOverrides overrides = distribute_overrides(work, script);
     const ast::Statement* const steps = find_option(script, "steps");
     const double most_steps =

@@ -120,7 +120,7 @@ void check_time(Workspace& work, std::uint32_t index) {
                                            name_of(time.solver)),
                                "euler and symplectic take one that varies");
     }
-    if (time.automatic_speed && !time.has_duration() && !time.open_end) {
+    if (time.automatic_speed && !time.has_duration() && !time.open_end && !system.cells) {
         work.diagnostics.error(speed_span, "with 'speed: auto' a stage ends by its duration",
                                "write duration: … in place of iterations");
     }

@@ -1,8 +1,7 @@
-// A `system` block: its declarations, formulas and settings.
+// A `system` or `cells` block: what it declares.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
-#include "lang/check/check_expression.h"
-#include "lang/check/check_time.h"
+#include "lang/check/system_checker.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -11,69 +10,15 @@
 
 namespace cascade::checking {
 
-namespace {
-
-struct RateStatements {
-    const Declaration* assignment = nullptr;
-    std::vector<const Declaration*> terms;
-    bool empty() const { return assignment == nullptr && terms.empty(); }
-};
-
-class SystemChecker {
-public:
-    SystemChecker(Workspace& work, const DerivedSystem& derived, SystemId index)
-        : work_(work),
-          derived_(derived),
-          index_(index),
-          declarations_(system_declarations(work, system(), derived.statements)) {}
-
-    void run();
-
-private:
-    System& system() { return work_.draft->systems[index_]; }
-    Scope scope(Context context, const Declaration& declaration) const {
-        Scope result;
-        result.context = context;
-        result.system = index_;
-        result.index = declaration.index;
-        return result;
-    }
-
-    void declare(const Declaration& declaration);
-    bool can_declare(const Declaration& declaration);
-    bool is_misspelt_text(const Declaration& declaration);
-    void collect_rate(const Declaration& declaration);
-    void report_rate_of_definition(const Declaration& rate);
-    void report_no_species(const Declaration& declaration, const Meaning* meaning);
-    void report_families();
-    void report_no_rates();
-    std::optional<CheckedExpression> check_value(const Declaration& declaration, Context context);
-    void check_values();
-    void check_definitions();
-    void check_rates();
-    void check_invariants();
-    void check_settings();
-
-    Workspace& work_;
-    const DerivedSystem& derived_;
-    SystemId index_;
-    std::vector<Declaration> declarations_;
-    std::unordered_map<std::string, Span> declared_;
-    IdVector<ItemId, const Declaration*> values_;
-    IdVector<DefinitionId, const Declaration*> definitions_;
-    std::vector<const Declaration*> invariants_, settings_;
-    std::vector<const Declaration*> rate_statements_;
-    IdVector<ItemId, RateStatements> rates_;
-};
-
 void SystemChecker::run() {
     for (const Index& index : system().indices) declared_.emplace(index.name, index.span);
+    if (is_cells()) add_cell_quantities();
     for (const Declaration& declaration : declarations_) declare(declaration);
     report_families();
     work_.names[index_] = names_of(system());
     rates_.resize(system().quantities.size());
     for (const Declaration* declaration : rate_statements_) collect_rate(*declaration);
-    if (rate_statements_.empty() && !is_incomplete(work_, index_)) {
+    if (rate_statements_.empty() && !is_incomplete(work_, index_) && !is_cells()) {
         report_no_rates();
     }
     work_.items_read[index_].assign(system().item_count(), false);
@@ -85,6 +30,7 @@ void SystemChecker::run() {
     check_settings();
     report_cycles_of_defaults(work_, index_);
     order_steps(work_, index_);
+    if (is_cells()) check_rules_of_cells();
 }
 
 /// `u_t = …` is a definition in the language, but a rate on paper.
@@ -127,6 +73,7 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
                                 fmt::format("write {}: …", name));
         return false;
     }
+    if (is_cells() && !can_declare_in_cells(declaration)) return false;
     const auto [first, is_new] = declared_.try_emplace(declaration.name, declaration.span());
     if (is_new) return true;
     report_twice(work_, declaration.span(), first->second,
@@ -148,23 +95,25 @@ bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
     return true;
 }
 
+void SystemChecker::declare_value(const Declaration& declaration) {
+    if (!can_declare(declaration)) return;
+    if (take_text(system(), declaration) || is_misspelt_text(declaration)) return;
+    if (reserved(declaration.name) == Reserved::setting) {
+        settings_.push_back(&declaration);
+        return;
+    }
+    values_.push_back(&declaration);
+    Quantity quantity;
+    quantity.name = declaration.name;
+    quantity.span = declaration.span();
+    quantity.doc = declaration.doc;
+    system().quantities.push_back(std::move(quantity));
+}
+
 void SystemChecker::declare(const Declaration& declaration) {
+    if (is_cells() && declare_of_cells(declaration)) return;
     switch (declaration.kind()) {
-        case ast::StatementKind::value: {
-            if (!can_declare(declaration)) return;
-            if (take_text(system(), declaration) || is_misspelt_text(declaration)) return;
-            if (reserved(declaration.name) == Reserved::setting) {
-                settings_.push_back(&declaration);
-                return;
-            }
-            values_.push_back(&declaration);
-            Quantity quantity;
-            quantity.name = declaration.name;
-            quantity.span = declaration.span();
-            quantity.doc = declaration.doc;
-            system().quantities.push_back(std::move(quantity));
-            return;
-        }
+        case ast::StatementKind::value: return declare_value(declaration);
         case ast::StatementKind::definition:
             if (!can_declare(declaration)) return;
             definitions_.push_back(&declaration);
@@ -240,13 +189,17 @@ void SystemChecker::report_no_species(const Declaration& declaration, const Mean
 }
 
 void SystemChecker::collect_rate(const Declaration& declaration) {
+    if (is_cells() && collect_rate_of_cells(declaration)) return;
     const Meaning* meaning = find(work_.names[index_], declaration.name);
     const bool is_quantity =
         meaning != nullptr && !meaning->is_definition() && meaning->item() < system().frozen_item();
     if (meaning != nullptr && meaning->has_error) return;
     if (!is_quantity) return report_no_species(declaration, meaning);
     system().quantities[meaning->item()].is_species = true;
-    RateStatements& rate = rates_[meaning->item()];
+    add_statement_of_rate(rates_[meaning->item()], declaration);
+}
+
+void SystemChecker::add_statement_of_rate(RateStatements& rate, const Declaration& declaration) {
     if (declaration.kind() == ast::StatementKind::rate_term) {
         rate.terms.push_back(&declaration);
     } else if (rate.assignment == nullptr) {
@@ -257,109 +210,8 @@ void SystemChecker::collect_rate(const Declaration& declaration) {
     }
 }
 
-/// The value of a declaration, which must be a number; reports errors.
-std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
-                                                            Context context) {
-    if (!has_one_value(work_, *declaration.script, *declaration.statement)) return std::nullopt;
-    auto checked = check_number(work_, *declaration.script, declaration.statement->values[0],
-                                scope(context, declaration));
-    if (checked) mark_reads(work_, checked->formula, index_);
-    return checked;
-}
-
-void SystemChecker::check_values() {
-    for (const ItemId id : values_.ids()) {
-        Quantity& quantity = system().quantities[id];
-        auto checked = check_value(*values_[id], Context::value);
-        if (checked) quantity.start = std::move(checked->formula);
-        if (values_[id]->range != nullptr) {
-            check_range(work_, *values_[id], quantity, checked ? checked->constant : std::nullopt);
-        }
-    }
-}
-
-void SystemChecker::check_definitions() {
-    for (const DefinitionId id : definitions_.ids()) {
-        auto checked = check_value(*definitions_[id], Context::rate);
-        if (checked) system().definitions[id].formula = std::move(checked->formula);
-    }
-}
-
-/// Appends a term to a sum.
-void superpose(Formula& sum, Formula term) {
-    if (sum.nodes.empty()) {
-        sum = std::move(term);
-        return;
-    }
-    const NodeId before = NodeId(sum.nodes.size() - 1);
-    for (Node& node : term.nodes) {
-        for (NodeId& operand : node.reads()) {
-            operand = NodeId(operand.index() + before.index() + 1);
-        }
-        sum.nodes.push_back(node);
-    }
-    Node addition;
-    addition.kind = Call();
-    addition.function = Function::add;
-    addition.span = sum.nodes.back().span;
-    addition.operands = {before, NodeId(sum.nodes.size() - 1)};
-    addition.operand_count = 2;
-    sum.nodes.push_back(addition);
-}
-
-void SystemChecker::check_rates() {
-    system().rates.resize(system().quantities.size());
-    for (const ItemId id : rates_.ids()) {
-        std::vector<const Declaration*> declarations = rates_[id].terms;
-        if (rates_[id].assignment != nullptr) {
-            declarations.insert(declarations.begin(), rates_[id].assignment);
-        }
-        for (const Declaration* declaration : declarations) {
-            auto checked = check_value(*declaration, Context::rate);
-            if (checked) superpose(system().rates[id], std::move(checked->formula));
-        }
-    }
-}
-
-void SystemChecker::check_invariants() {
-    for (const Declaration* declaration : invariants_) {
-        const Meaning* meaning = find(work_.names[index_], declaration->name);
-        if (meaning != nullptr && meaning->has_error) continue;
-        const auto species = find_species(work_, index_, declaration->name);
-        if (!species) {
-            report_not_species(work_, index_, declaration->name, declaration->span());
-            continue;
-        }
-        auto checked = check_value(*declaration, Context::bound);
-        if (!checked) continue;
-        system().invariants.push_back({*species,
-                                       declaration->kind() == ast::StatementKind::at_least,
-                                       std::move(checked->formula)});
-    }
-}
-
-void SystemChecker::check_settings() {
-    Settings settings;
-    std::uint32_t level_of_end = 0;
-    for (const Declaration* declaration : settings_) {
-        if (is_end_setting(declaration->name))
-            level_of_end = std::max(level_of_end, declaration->level);
-    }
-    for (const Declaration* declaration : settings_) {
-        if (is_end_setting(declaration->name) && declaration->level < level_of_end) continue;
-        check_setting(work_, *declaration->script, *declaration->statement,
-                      scope(Context::value, *declaration), settings);
-    }
-    for (const auto* formula :
-         {&settings.frozen, &settings.speed, &settings.show, &settings.time.until}) {
-        if (*formula) mark_reads(work_, **formula, index_);
-    }
-    system().settings = std::move(settings);
-}
-
-}  // namespace
-
-SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base) {
+SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base,
+                      std::vector<SystemId> joined) {
     const ast::Block& block = *derived.from.block;
     const SystemId index = work.program.systems.next();
     System system;
@@ -381,11 +233,19 @@ SystemId check_system(Workspace& work, const DerivedSystem& derived, std::option
         }
     }
     if (!derived.is_known) return unknown_system;
+    if (block.is_cells) {
+        system.cells.emplace();
+        system.joined = std::move(joined);
+    }
     work.draft->systems.push_back(std::move(system));
     work.names.emplace_back();
     work.items_read.emplace_back();
     work.definitions_read.emplace_back();
-    work.incomplete.push_back(block.is_damaged || (base && is_incomplete(work, *base)));
+    bool is_damaged = block.is_damaged || (base && is_incomplete(work, *base));
+    for (const SystemId each : work.program.systems[index].joined) {
+        is_damaged = is_damaged || is_incomplete(work, each);
+    }
+    work.incomplete.push_back(is_damaged);
     SystemChecker(work, derived, index).run();
     return index;
 }

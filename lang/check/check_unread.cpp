@@ -49,9 +49,14 @@ std::vector<Unread> find_unread(const Workspace& work, SystemId index) {
 /// something of the base. What the base has was reported there.
 void report_change_of_nothing(Workspace& work, const System& system, const Unread& unread) {
     const System& base = work.program.systems[*system.base];
-    if (find(work.names[*system.base], *unread.name) != nullptr) return;
     const std::string family = family_of(*unread.name);
-    if (family != *unread.name && has_family(base, family)) return;
+    std::vector<SystemId> bases = system.joined;
+    bases.push_back(*system.base);
+    for (const SystemId each : bases) {
+        if (find(work.names[each], *unread.name) != nullptr) return;
+        const bool is_member = family != *unread.name;
+        if (is_member && has_family(work.program.systems[each], family)) return;
+    }
     std::vector<std::string> names = quantity_names(base);
     for (const Definition& definition : base.definitions) names.push_back(definition.name);
     work.diagnostics.error(unread.span,
@@ -73,7 +78,10 @@ void warn_unread(Workspace& work) {
                 const bool is_parameter = unread.kind == std::string_view("parameter");
                 // A system may hold defaults for the settings of its stages.
                 const auto context = WordContext::stage;
-                const auto settings = settings_of({SettingBlock::stage, SettingBlock::system});
+                const auto settings =
+                    system.cells ? settings_of({SettingBlock::cells, SettingBlock::stage,
+                                                SettingBlock::system})
+                                 : settings_of({SettingBlock::stage, SettingBlock::system});
                 work.diagnostics.warning(
                     unread.span, fmt::format("{} '{}' is never read", unread.kind, *unread.name),
                     is_parameter ? hint_about(work, *unread.name, context, settings) : "");

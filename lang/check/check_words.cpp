@@ -31,7 +31,13 @@ NameTable names_of(const System& system) {
         table.try_emplace(std::string(system.item_name(item)), Meaning{item});
     }
     for (const DefinitionId id : system.definitions.ids()) {
-        table.try_emplace(system.definitions[id].name, Meaning{id});
+        const auto& [name, span, formula] = system.definitions[id];
+        const bool is_known = !formula.nodes.empty();
+        const ValueType type = is_known ? formula.nodes.back().type : ValueType::number;
+        table.try_emplace(name, Meaning{id, false, type});
+    }
+    if (system.cells) {
+        table.try_emplace("p", Meaning{system.cells->place, false, ValueType::vector});
     }
     return table;
 }
@@ -139,8 +145,11 @@ void add_call(const Workspace& work, Diagnostic& diagnostic) {
 
 std::vector<std::string> quantity_names(const System& system) {
     std::vector<std::string> names;
-    names.reserve(system.quantities.size());
-    for (const Quantity& quantity : system.quantities) names.push_back(quantity.name);
+    for (const ItemId item : system.quantities.ids()) {
+        if (system.cells && system.cells->has_component(item)) continue;
+        names.push_back(system.quantities[item].name);
+    }
+    if (system.cells) names.emplace_back("p");
     std::sort(names.begin(), names.end());
     return names;
 }

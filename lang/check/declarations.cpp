@@ -200,7 +200,8 @@ private:
     }
 
     void add_declaration(Declaration declaration) {
-        const auto [first, is_new] = declarations_.try_emplace(declaration.name, all_.size());
+        const std::string key = declaration.name + (declaration.is_restart() ? " after" : "");
+        const auto [first, is_new] = declarations_.try_emplace(key, all_.size());
         if (is_new) return keep(std::move(declaration));
         Declaration& before = all_[first->second];
         const bool is_same_level = before.level == declaration.level;

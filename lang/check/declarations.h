@@ -30,15 +30,17 @@ struct Declaration {
     const ast::Script* range_script = nullptr;
 
     ast::StatementKind kind() const { return statement->kind; }
+    /// Is it `u: e after divide`?
+    bool is_restart() const { return !statement->after.empty(); }
     Span span() const { return statement->name.span; }
 };
 
 /// The declarations of a system, in order. Fills in `system.indices`.
 ///
 /// A declaration of a higher level replaces that of its name on lower levels: `p:` and `d =` a
-/// value or a definition, in its position; `a' =` the whole rate; `a >= e` all bounds of the same
-/// kind. On one level `u[2]: e` replaces what `u[i]: e` says about u[2]; the same holds for
-/// definitions and rates.
+/// value or a definition, in its position; `p: e after divide` only one of these; `a' =` the whole
+/// rate; `a >= e` all bounds of the same kind. On one level `u[2]: e` replaces what `u[i]: e` says
+/// about u[2]; the same holds for definitions and rates.
 std::vector<Declaration> system_declarations(Workspace& work, System& system,
                                              std::span<const SystemStatement> statements);
 

@@ -187,7 +187,7 @@ void Expander::visit_name(const ast::Expr& here, const ast::Name& name) {
 }
 
 void Expander::visit_call(ast::ExprId part, const ast::Call& call) {
-    const UserFunction* function = functions_of(work_, script()).find(call.function.text);
+    const UserFunction* function = find_function(work_, script(), call.function.text).function;
     if (function != nullptr && function->has_error) return emit(expr(part).span, ast::Garbage{});
     if (function != nullptr && !has_right_count(work_, *function, call, expr(part).span)) {
         return emit(expr(part).span, ast::Garbage{});
@@ -200,8 +200,8 @@ void Expander::visit_call(ast::ExprId part, const ast::Call& call) {
 
 void Expander::enter(ast::ExprId part) {
     const auto& call = std::get<ast::Call>(expr(part).node);
-    const UserFunction* function = functions_of(work_, script()).find(call.function.text);
-    Frame frame{&script(), function, arguments_.size(), frames_.back().call};
+    const auto [function, home] = find_function(work_, script(), call.function.text);
+    Frame frame{home, function, arguments_.size(), frames_.back().call};
     if (!frame.call) frame.call = expr(part).span;
     arguments_.insert(arguments_.end(), results_.end() - call.argument_count, results_.end());
     results_.resize(results_.size() - call.argument_count);
@@ -358,7 +358,8 @@ std::string member_name(std::string_view family, std::int64_t index) {
 
 bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression expression,
                      const Scope& scope) {
-    const FunctionTable& functions = functions_of(work, script);
+    const bool has_functions =
+        !functions_of(work, script).empty() || work.cell_functions != nullptr;
     for (ast::ExprId id = expression.first; id <= expression.root; ++id) {
         const auto& node = script.expressions[id].node;
         if (std::holds_alternative<ast::Indexed>(node)) return true;
@@ -367,7 +368,7 @@ bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression
         } else if (const auto* name = std::get_if<ast::Name>(&node)) {
             if (scope.index && scope.index->name == name->name) return true;
         } else if (const auto* call = std::get_if<ast::Call>(&node)) {
-            if (!functions.empty() && functions.find(call->function.text) != nullptr) return true;
+            if (has_functions && find_function(work, script, call->function.text)) return true;
         }
     }
     return false;

@@ -30,18 +30,24 @@ std::string_view without_blanks_before(std::string_view text) {
 }
 
 void add_items(std::vector<KnownName>& names, const System& system) {
-    for (const Quantity& quantity : system.quantities) {
+    for (const ItemId item : system.quantities.ids()) {
+        const Quantity& quantity = system.quantities[item];
+        if (system.cells && system.cells->has_component(item)) continue;
         names.push_back({quantity.name,
                          quantity.is_species ? NameKind::species : NameKind::parameter,
                          quantity.doc});
     }
+    if (system.cells) names.push_back({"p", NameKind::species, "the place of a cell"});
 }
 
 std::vector<KnownName> names_of_program(const Program& program) {
     std::vector<KnownName> names;
     for (const System& system : program.systems) {
         add_items(names, system);
-        for (const Definition& definition : system.definitions) {
+        for (const DefinitionId id : system.definitions.ids()) {
+            const Definition& definition = system.definitions[id];
+            const auto& cells = system.cells;
+            if (cells && (id == cells->velocity || id == cells->spin)) continue;
             names.push_back({definition.name, NameKind::definition, ""});
         }
         names.push_back({system.name, NameKind::system, system.title});
@@ -193,13 +199,15 @@ bool has_settings_of(std::string_view block, SettingBlock of) {
     if (block == "picture") return of == SettingBlock::picture;
     if (of == SettingBlock::side) return true;
     if (block == "domain") return of == SettingBlock::domain;
-    return of == SettingBlock::stage || (block == "system" && of == SettingBlock::system);
+    if (of == SettingBlock::system) return block == "system" || block == "cells";
+    if (of == SettingBlock::cells) return block == "cells";
+    return of == SettingBlock::stage || (of == SettingBlock::cell_stage && block == "stage");
 }
 
 /// What statements of a block can begin with.
 std::vector<KnownName> names_that_begin(std::string_view block, const Program& program) {
     std::vector<KnownName> names;
-    if (block == "stage" || block == "system") {
+    if (block == "stage" || block == "system" || block == "cells") {
         names = of_kinds(program, {NameKind::species, NameKind::parameter});
     }
     for (std::size_t k = 0; k < setting_count; ++k) {
@@ -276,7 +284,7 @@ std::vector<KnownName> completions(std::string_view text, const Program& program
     }
     if (const auto stage = stage_before_dot(text, program)) return items_of(program, *stage);
     const std::string_view keyword = first_word(place.statement);
-    const bool is_header = keyword == "stage" || keyword == "system";
+    const bool is_header = keyword == "stage" || keyword == "system" || keyword == "cells";
     if (keyword == "use" || keyword == "system_name" ||
         (is_header && place.statement.find(':') != std::string_view::npos)) {
         return sorted(of_kinds(program, {NameKind::system}));

@@ -231,6 +231,13 @@ private:
 std::vector<SpeciesSide> read_side_rules(Workspace& work, const ast::Script& script,
                                          const Scope& scope,
                                          std::span<const ast::Statement> statements) {
+    if (is_of_cells(work, scope)) {
+        for (const ast::Statement& statement : statements) {
+            work.diagnostics.error(head_of(statement), "cells that crawl have no sides",
+                                   "where cells may be, their rates say: p' += …");
+        }
+        return {};
+    }
     return RuleChecker(work, script, scope).check(statements);
 }
 

@@ -4,6 +4,7 @@
 
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
+#include "lang/check/join_statements.h"
 #include "lang/program/order.h"
 
 #include <fmt/format.h>
@@ -27,30 +28,46 @@ public:
     std::vector<DerivedSystem> run();
 
 private:
-    std::optional<std::uint32_t> find_base(std::uint32_t index);
+    std::optional<std::uint32_t> find_base(std::uint32_t index, const ast::Word& base);
+    void take_base(DerivedSystem& system, std::size_t place,
+                   const std::vector<DerivedSystem>& before);
     void report_cycle(const std::vector<std::uint32_t>& cycle);
     DerivedSystem derive(std::uint32_t index, const std::vector<DerivedSystem>& before);
 
     Workspace& work_;
     const std::vector<SystemBlock>& blocks_;
     std::unordered_map<std::string_view, std::uint32_t> own_, library_;
-    std::vector<std::optional<std::uint32_t>> bases_;
+    std::vector<std::vector<std::uint32_t>> bases_;  ///< Of each block, the first base first.
     std::vector<bool> is_known_;
     std::vector<std::size_t> places_;  ///< The index in the result, by block.
     std::size_t copied_ = 0;
 };
 
-std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index) {
-    const ast::Word& base = blocks_[index].block->base;
+/// The block that a base names; reports errors.
+std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index, const ast::Word& base) {
     if (base.empty()) return std::nullopt;
     const auto own = own_.find(base.text);
     const auto library = library_.find(base.text);
     const bool changes_library =
         base.text == blocks_[index].block->name.text && library != library_.end();
-    if (own != own_.end() && !blocks_[index].built_in && !changes_library) return own->second;
-    if (library != library_.end()) return library->second;
+    std::optional<std::uint32_t> found;
+    if (own != own_.end() && !blocks_[index].built_in && !changes_library) {
+        found = own->second;
+    } else if (library != library_.end()) {
+        found = library->second;
+    }
+    const bool has_cells = blocks_[index].block->is_cells;
+    if (found && blocks_[*found].block->is_cells == has_cells) return found;
     is_known_[index] = false;
-    report_unknown_system(work_, base);
+    if (!found) {
+        report_unknown_system(work_, base);
+    } else if (has_cells) {
+        work_.diagnostics.error(base.span, fmt::format("'{}' is a system of fields", base.text),
+                                "cells are derived from cells");
+    } else {
+        work_.diagnostics.error(base.span, fmt::format("'{}' is a block of cells", base.text),
+                                "write 'cells' in place of 'system'");
+    }
     return std::nullopt;
 }
 
@@ -67,27 +84,38 @@ void Derivation::report_cycle(const std::vector<std::uint32_t>& cycle) {
                                               describe_cycle(names)));
 }
 
+/// Adds the statements of a base.
+void Derivation::take_base(DerivedSystem& system, std::size_t place,
+                           const std::vector<DerivedSystem>& before) {
+    const DerivedSystem& base = before[place];
+    system.is_known = system.is_known && base.is_known;
+    if (copied_ <= most_statements && copied_ + base.statements.size() > most_statements) {
+        work_.diagnostics.error(system.from.block->base.span,
+                                "the systems of this script are too large together");
+    }
+    copied_ += base.statements.size();
+    if (copied_ > most_statements) {
+        system.is_known = false;
+    } else if (!system.base) {
+        system.statements = base.statements;
+    } else {
+        join_statements(work_, system.statements, base.statements, *system.from.block);
+    }
+    if (!system.base) {
+        system.base = place;
+    } else {
+        system.joined.push_back(place);
+    }
+}
+
 DerivedSystem Derivation::derive(std::uint32_t index, const std::vector<DerivedSystem>& before) {
     DerivedSystem system;
     system.from = blocks_[index];
     system.is_known = is_known_[index];
-    std::uint32_t level = 0;
-    if (bases_[index] && system.is_known) {
-        system.base = places_[*bases_[index]];
-        const DerivedSystem& base = before[*system.base];
-        system.is_known = base.is_known;
-        if (copied_ <= most_statements && copied_ + base.statements.size() > most_statements) {
-            work_.diagnostics.error(system.from.block->base.span,
-                                    "the systems of this script are too large together");
-        }
-        copied_ += base.statements.size();
-        if (copied_ > most_statements) {
-            system.is_known = false;
-        } else if (!base.statements.empty()) {
-            system.statements = base.statements;
-            level = base.statements.back().level + 1;
-        }
+    for (const std::uint32_t base : bases_[index]) {
+        if (system.is_known) take_base(system, places_[base], before);
     }
+    const std::uint32_t level = system.statements.empty() ? 0 : system.statements.back().level + 1;
     for (const ast::Statement& statement : system.from.block->statements) {
         system.statements.push_back({system.from.script, &statement, level});
     }
@@ -98,8 +126,13 @@ std::vector<DerivedSystem> Derivation::run() {
     is_known_.assign(blocks_.size(), true);
     Dependencies reads(blocks_.size());
     for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
-        bases_.push_back(find_base(i));
-        if (bases_[i]) reads[i].push_back(*bases_[i]);
+        bases_.emplace_back();
+        std::vector<ast::Word> words{blocks_[i].block->base};
+        words.insert(words.end(), blocks_[i].block->joined.begin(), blocks_[i].block->joined.end());
+        for (const ast::Word& word : words) {
+            if (const auto base = find_base(i, word)) bases_[i].push_back(*base);
+        }
+        reads[i] = bases_[i];
     }
     const Order order = topological_order(reads);
     for (const auto& cycle : order.cycles) report_cycle(cycle);

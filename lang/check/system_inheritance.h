@@ -21,10 +21,11 @@ struct DerivedSystem {
     SystemBlock from;
     std::vector<SystemStatement> statements;  ///< Those of its bases first.
     std::optional<std::size_t> base;          ///< An index into the same list.
+    std::vector<std::size_t> joined;          ///< Of cells: those of the bases after the first.
     bool is_known = true;  ///< False if its base is unknown, which has been reported.
 };
 
-/// The systems of `blocks`, each after the one it is derived from. The base of a system is a system
+/// The systems of `blocks`, each after those it is derived from. The base of a system is a system
 /// of the script, else a built-in one; `system a: a { … }` changes the built-in a.
 std::vector<DerivedSystem> derive_systems(Workspace& work, const std::vector<SystemBlock>& blocks);
 

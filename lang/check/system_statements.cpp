@@ -25,7 +25,8 @@ bool is_rate(const ast::Statement& statement) {
 std::string subject_of(const ast::Statement& statement) {
     auto kind = is_rate(statement) ? ast::StatementKind::rate : statement.kind;
     if (kind == ast::StatementKind::definition) kind = ast::StatementKind::value;
-    return fmt::format("{} {}", static_cast<int>(kind), statement.name.text);
+    return fmt::format("{} {} {}", static_cast<int>(kind), statement.name.text,
+                       statement.after.text);
 }
 
 /// "[2]" for a statement about one member of a family, else "".
@@ -59,22 +60,37 @@ SystemBlocks system_blocks(const ast::Script& script) {
 
 SystemStatements::SystemStatements(const ast::Script& script, const Sources& sources,
                                    const SystemBlocks& blocks, std::string_view system) {
-    std::vector<FoundBlock> chain;  // From the system to the one that has no base.
-    FoundBlock found = find_block({&script, &sources, &blocks, nullptr}, system);
-    if (found.block == nullptr) found = find_in_library(system);
-    constexpr std::size_t longest_chain = 1000;  // The checker allows no cycle.
-    while (found.block != nullptr && chain.size() < longest_chain) {
-        chain.push_back(found);
-        const std::string_view base = found.block->base.text;
-        if (base.empty()) break;
-        // `system a: a { … }` changes the library's a.
-        const bool is_own_name = base == found.block->name.text;
-        found = is_own_name ? FoundBlock{} : find_block(found, base);
-        if (found.block == nullptr) found = find_in_library(base);
+    FoundBlock first = find_block({&script, &sources, &blocks, nullptr}, system);
+    if (first.block == nullptr) first = find_in_library(system);
+    found_ = first.block != nullptr;
+    if (found_) {
+        doc_ = first.block->doc;
+        is_cells_ = first.block->is_cells;
     }
-    found_ = !chain.empty();
-    if (found_) doc_ = chain.front().block->doc;
-    for (auto each = chain.rbegin(); each != chain.rend(); ++each) derive(*each);
+    // Depth first: a block comes when its bases have come, and each once.
+    struct Open {
+        FoundBlock found;
+        std::size_t bases_taken = 0;
+    };
+    std::vector<Open> open;
+    std::unordered_set<const ast::Block*> seen{first.block};
+    if (found_) open.push_back({first});
+    while (!open.empty()) {
+        const FoundBlock found = open.back().found;
+        const std::size_t next = open.back().bases_taken++;
+        const auto& joined = found.block->joined;
+        if (next > joined.size() || found.block->base.empty()) {
+            derive(found);
+            open.pop_back();
+            continue;
+        }
+        const ast::Word& base = next == 0 ? found.block->base : joined[next - 1];
+        // `system a: a { … }` changes the library's a.
+        const bool is_own_name = base.text == found.block->name.text;
+        FoundBlock other = is_own_name ? FoundBlock{} : find_block(found, base.text);
+        if (other.block == nullptr) other = find_in_library(base.text);
+        if (other.block != nullptr && seen.insert(other.block).second) open.push_back({other});
+    }
     for (const SaidStatement& each : statements_) {
         if (is_rate(*each.statement)) species_.insert(each.statement->name.text);
     }

@@ -41,6 +41,8 @@ public:
     /// False if there is no such system.
     bool found() const { return found_; }
     const std::vector<SaidStatement>& all() const { return statements_; }
+    /// Is it a block of cells?
+    bool is_cells() const { return is_cells_; }
     /// The doc comment of the system itself; may be empty.
     const std::string& doc() const { return doc_; }
     /// True if the name, without index, has a rate.
@@ -67,7 +69,7 @@ private:
     std::vector<SaidStatement> statements_;
     std::unordered_set<std::string_view> species_;
     std::string doc_;
-    bool found_ = false;
+    bool found_ = false, is_cells_ = false;
 };
 
 }  // namespace cascade

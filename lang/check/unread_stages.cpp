@@ -29,6 +29,14 @@ std::vector<std::string> species_of(const System& system) {
 /// A hint how the next stage can continue from a stage.
 std::string how_to_go_on(const Program& program, std::uint32_t stage) {
     const Stage& next = program.stages[stage + 1];
+    const bool has_cells = program.system_of(stage).cells.has_value();
+    if (has_cells != program.system_of(stage + 1).cells.has_value()) {
+        return has_cells ? ""
+                         : fmt::format("cells read fields at their places: {}.{}",
+                                       program.stages[stage].name,
+                                       species_of(program.system_of(stage)).front());
+    }
+    if (has_cells) return "without 'founders' the next stage would go on with its cells";
     const std::vector<std::string> species = species_of(program.system_of(stage));
     const bool is_alike = species == species_of(program.system_of(stage + 1));
     const bool is_family = std::any_of(species.begin(), species.end(), [](const std::string& name) {
@@ -56,7 +64,15 @@ void warn_of_unread_stages(const Program& program, std::uint32_t shown, const Fo
     for (const Stage& stage : program.stages) {
         for (const Formula& item : stage.items) note_reads(item, is_read);
         note_reads(stage.show, is_read);
+        note_reads(stage.remove, is_read);
+        if (stage.founders) note_reads(stage.founders->chance, is_read);
         if (stage.time.until) note_reads(*stage.time.until, is_read);
+        const System& system = program.systems[stage.system];
+        if (system.cells) {
+            for (const Definition& each : system.definitions) note_reads(each.formula, is_read);
+            for (const Formula& rate : system.rates) note_reads(rate, is_read);
+            for (const Formula* rule : rules_of(*system.cells)) note_reads(*rule, is_read);
+        }
         for (const auto& sides : stage.sides) {
             for (const SideSetting& side : sides) note_reads(side.value, is_read);
         }

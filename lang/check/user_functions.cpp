@@ -43,6 +43,12 @@ private:
     void check_name(UserFunction& function, std::string_view name, Span span);
     void check_call(std::uint32_t index, const ast::Call& call, Span span);
     void report_cycle(const std::vector<std::uint32_t>& cycle);
+    /// Null in the functions of cells themselves.
+    const UserFunction* find_of_cells(std::string_view name) {
+        const ast::Script* of_cells = work_.cell_functions;
+        if (of_cells == nullptr || of_cells == &script_) return nullptr;
+        return functions_of(work_, *of_cells).find(name);
+    }
     void error(UserFunction& function, Span span, std::string message, std::string hint) {
         work_.diagnostics.error(span, std::move(message), std::move(hint));
         function.has_error = true;
@@ -135,6 +141,8 @@ void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, 
     if (const UserFunction* called = table_.find(call.function.text)) {
         calls_[index].push_back(static_cast<std::uint32_t>(called - table_.functions_.data()));
         if (!has_right_count(work_, *called, call, span)) caller.has_error = true;
+    } else if (const UserFunction* of_cells = find_of_cells(call.function.text)) {
+        if (!has_right_count(work_, *of_cells, call, span)) caller.has_error = true;
     } else if (!is_function_name(call.function.text)) {
         caller.has_error = true;
         report_unknown_function(work_, call.function, table_.names());
@@ -169,6 +177,13 @@ const FunctionTable& functions_of(Workspace& work, const ast::Script& script) {
         table = std::make_shared<const FunctionTable>(FunctionTableMaker(work, script).run());
     }
     return *table;
+}
+
+FoundFunction find_function(Workspace& work, const ast::Script& script, std::string_view name) {
+    if (const UserFunction* own = functions_of(work, script).find(name)) return {own, &script};
+    if (work.cell_functions == nullptr) return {};
+    const UserFunction* of_cells = functions_of(work, *work.cell_functions).find(name);
+    return {of_cells, work.cell_functions};
 }
 
 bool has_right_count(Workspace& work, const UserFunction& function, const ast::Call& call,

@@ -37,6 +37,17 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> by_name_;
 };
 
+/// A function and the script that it is written in.
+struct FoundFunction {
+    const UserFunction* function = nullptr;
+    const ast::Script* script = nullptr;
+    explicit operator bool() const { return function != nullptr; }
+};
+
+/// The function that a call in `script` means: one of the script's own, else one of cells; nothing
+/// if there is none.
+FoundFunction find_function(Workspace& work, const ast::Script& script, std::string_view name);
+
 /// True for functions of the language and aggregates over an index.
 bool is_function_name(std::string_view name);
 

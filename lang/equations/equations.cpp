@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -75,6 +76,7 @@ private:
         const std::string symbol = statement.index.empty()
                                        ? symbols_.name(statement.name.text)
                                        : symbols_.member(statement.name.text, statement.index.text);
+        if (system_.is_cells() && take_of_cells(said, symbol)) return;
         switch (statement.kind) {
             case ast::StatementKind::rate:
             case ast::StatementKind::rate_term: return add_rate(said, symbol);
@@ -100,7 +102,31 @@ private:
     }
 
     std::string rate_of(const std::string& symbol) const {
+        // Cells turn by an angular velocity.
+        if (system_.is_cells() && symbol == symbols_.name("turn"))
+            return is_tex() ? "\\omega" : "ω";
         return is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t";
+    }
+
+    /// Takes what only cells have: divide, die, reach, values that start again.
+    bool take_of_cells(const SaidStatement& said, const std::string& symbol) {
+        const ast::Statement& statement = *said.statement;
+        if (statement.kind != ast::StatementKind::value) return false;
+        const std::string_view name = statement.name.text;
+        std::string value = typeset_value(said, statement.values.front());
+        if (name == "divide" || name == "die") {
+            const std::string word = name == "divide" ? "divides" : "dies";
+            events_.push_back({is_tex() ? fmt::format("\\text{{{}}}", word) : word,
+                               is_tex() ? "\\text{ if }" : "if", std::move(value)});
+            return true;
+        }
+        if (name == "along" || name == "reach") return true;
+        if (!statement.after.empty()) restarts_.push_back({symbol, "=", std::move(value)});
+        const bool is_start = std::ranges::any_of(system_.all(), [&](const SaidStatement& each) {
+            return each.statement->kind == statement.kind && each.statement->after.empty() &&
+                   each.statement->name.text == name;
+        });
+        return !statement.after.empty() && is_start;
     }
 
     /// All terms of one rate become one sum, wherever they were written.
@@ -164,6 +190,8 @@ private:
         list("for", indices_);
         list("where", definitions_);
         list("always", bounds_);
+        list("a cell", events_);
+        list("divided", restarts_);
         if (all) list("with", parameters_);
         if (all) list("at first", starts_);
         return text;
@@ -176,6 +204,8 @@ private:
         if (!definitions_.empty()) text += "where\n";
         align(text, "align*", definitions_);
         if (!bounds_.empty()) text += "Always " + inline_list(bounds_) + ".\n";
+        if (!events_.empty()) text += "A cell " + inline_list(events_) + ".\n";
+        if (!restarts_.empty()) text += "After a division " + inline_list(restarts_) + ".\n";
         if (all && !parameters_.empty()) text += "With " + inline_list(parameters_) + ".\n";
         if (all && !starts_.empty()) text += "At first " + inline_list(starts_) + ".\n";
         return text;
@@ -220,6 +250,7 @@ private:
     std::vector<std::pair<SaidStatement, const ast::FunctionDefinition*>> called_;
     std::unordered_set<std::string_view> called_names_;
     std::vector<Line> rates_, indices_, definitions_, bounds_, parameters_, starts_;
+    std::vector<Line> events_, restarts_;  ///< Of cells.
 };
 
 }  // namespace

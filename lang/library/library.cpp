@@ -6,17 +6,24 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <unordered_set>
 
 namespace cascade {
 
 namespace {
 
-/// The source of a library text; if an earlier check added it, that one is used again.
-SourceId source_of(const LibraryText& text, Sources& sources) {
+/// The source of a library text that an earlier check added.
+std::optional<SourceId> find_source(const LibraryText& text, const Sources& sources) {
     for (SourceId id = 0; id < sources.size(); ++id) {
         if (sources[id].name() == text.file_name && sources[id].text() == text.text) return id;
     }
+    return std::nullopt;
+}
+
+/// The source of a library text; if an earlier check added it, that one is used again.
+SourceId source_of(const LibraryText& text, Sources& sources) {
+    if (const auto known = find_source(text, sources)) return *known;
     return sources.add(std::string(text.file_name), std::string(text.text));
 }
 
@@ -50,6 +57,9 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
             continue;
         }
         wanted.push_back(block.base.text);
+        for (const ast::Word& base : block.joined) {
+            if (!own.contains(base.text)) wanted.push_back(base.text);
+        }
     }
     return wanted;
 }
@@ -63,6 +73,16 @@ const LibraryText* find_library_text(std::string_view system_name) {
                                             return each.system_name() < name;
                                         });
     return found != texts.end() && found->system_name() == system_name ? &*found : nullptr;
+}
+
+ast::Script read_cell_functions(Sources& sources, Diagnostics& diagnostics) {
+    return parse(source_of(cell_functions(), sources), sources, diagnostics);
+}
+
+ast::Script cell_functions_of(const Sources& sources) {
+    const auto source = find_source(cell_functions(), sources);
+    Diagnostics never_any;
+    return source ? parse(*source, sources, never_any) : ast::Script();
 }
 
 std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,

@@ -1,7 +1,8 @@
 // The library of systems: Cascade texts that are embedded in the binary (lang/systems/*.cascade).
 //
-// A text NAME.cascade holds the system NAME and usually a stage, a domain and a picture that show
-// it. Scripts use only its system. Texts that a script does not need are not parsed.
+// A text NAME.cascade holds the system or the cells NAME and usually a stage, a domain and a
+// picture that show it. Scripts use only its system. Texts that a script does not need are not
+// parsed.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -28,6 +29,15 @@ std::span<const LibraryText> library_texts();
 
 /// The text of the library's system of this name; null if there is none.
 const LibraryText* find_library_text(std::string_view system_name);
+
+/// The functions that scripts with cells can call, such as push(k): `fn` statements with docs.
+const LibraryText& cell_functions();
+
+/// These functions, parsed. Adds the text to `sources`, or uses that which an earlier call added.
+ast::Script read_cell_functions(Sources& sources, Diagnostics& diagnostics);
+/// The same with sources to which a check of the script has added the text; without functions if
+/// it has not.
+ast::Script cell_functions_of(const Sources& sources);
 
 /// A text of the library, parsed for a check.
 struct LibraryScript {

@@ -51,6 +51,12 @@ IdVector<ItemId, bool> items_of_aggregates(const Stage& stage) {
     return late;
 }
 
+/// Is the item a component of the place of a cell that crawls, which is known before its values?
+bool is_of_place(const System& system, ItemId item) {
+    return system.cells && item >= system.cells->place &&
+           item.index() < system.cells->place.index() + 3;
+}
+
 /// The starting values of the items that are computed before there are cells, or of the others.
 /// Items that are computed elsewhere are read.
 StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptions& options,
@@ -59,6 +65,7 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
     const IdVector<ItemId, bool> late = items_of_aggregates(source);
     std::vector<ItemId> items;
     for (const ItemId item : source.order) {
+        if (is_of_place(program.system_of(stage), item)) continue;
         if ((source.uniform[item] && !late[item]) == before_cells) items.push_back(item);
     }
     const PassContext context{program, stage};
@@ -161,6 +168,31 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
         }
     }
     return std::move(builder).finish();
+}
+
+StepPlan plan_restarts(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    CHECK(system.cells, "lowering: cells divide");
+    Expressions flat;
+    Flattening flattening(flat.graph);
+    std::vector<ItemId> items;
+    for (const ItemId item : system.cells->restarts.ids()) {
+        const Formula& formula = system.cells->restarts[item];
+        if (formula.nodes.empty()) continue;
+        items.push_back(item);
+        const std::string name(system.item_name(item));
+        flat.roots.push_back(flattening.add(formula, {name + " after divide", false}));
+    }
+    flat.origins = flattening.origins();
+    const PassContext context{program, stage};
+    const PlanGraph graph(lower_expressions(std::move(flat), context), context);
+    PlanBuilder builder({graph, graph.roots(), {}});
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        builder.result(std::string(system.item_name(items[k])), builder.value(graph.roots()[k])[0]);
+    }
+    StepPlan plan = std::move(builder).finish();
+    plan.results = std::move(items);
+    return plan;
 }
 
 StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage) {

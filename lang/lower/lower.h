@@ -28,7 +28,8 @@ namespace cascade {
 StepPlan plan_uniform_start(const Program& program, std::uint32_t stage);
 
 /// Starting values of all other items. A result that is uniform (Stage::uniform) has the same value
-/// in all cells of its plane. `frozen`, if it varies, is stored as a number like the others.
+/// in all cells of its plane. `frozen`, if it varies, is stored as a number like the others. The
+/// places of cells that crawl are not among them, but read like what is computed elsewhere.
 StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptions& options = {});
 
 /// One explicit Euler step, with one result for each species. If `frozen` varies, it is a mask
@@ -73,6 +74,10 @@ SidePlans plan_side(const Program& program, const SideSetting& setting, Side sid
 StepPlan plan_view(const Program& program, std::span<const Formula* const> formulas,
                    std::uint32_t stage, const PlanOptions& options = {});
 StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t stage);
+
+/// The values with which quantities of a stage of cells start again after a division, one result
+/// for each item that has such a value, over the state of the new cells before: their numbers draw.
+StepPlan plan_restarts(const Program& program, std::uint32_t stage);
 
 /// The expression graphs of every stage after each pass that changes one, for `--dump graph`.
 std::string describe_graphs(const Program& program);

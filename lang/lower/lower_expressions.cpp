@@ -64,7 +64,7 @@ Expressions flat_start(const Program& program, std::uint32_t stage, std::span<co
     Flattening flattening(flat.graph);
     std::vector<NodeId> roots;
     for (const ItemId item : items) {
-        const std::string name(program.system_of(stage).item_name(item));
+        const std::string name(program.system_of(stage).draw_name(item));
         roots.push_back(flattening.add(program.stages[stage].items[item], {name, false}));
         flattening.set_item(item, roots.back());
     }

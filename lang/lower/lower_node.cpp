@@ -69,7 +69,11 @@ Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
             return {assembly.item({in.graph.stage(), item}, in.at)};
         },
         [&](StageItem item) -> Value { return {assembly.item(item, in.at)}; },
-        [&](SensedItem sensed) -> Value { return {assembly.field(sensed, in.at)}; },
+        [&](SensedItem sensed) -> Value {
+            // A number of an earlier stage is the same wherever a cell is.
+            const bool is_number = in.graph.is_uniform(in.id);
+            return {is_number ? assembly.item(sensed.item, in.at) : assembly.field(sensed, in.at)};
+        },
         [&](Builtin builtin) -> Value { return {CellPlace(assembly, in.at).builtin(builtin)}; },
         [&](InsideMask) -> Value { return {assembly.inside(in.at)}; },
         [&](Call) { return lower_call(assembly, in); },

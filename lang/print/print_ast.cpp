@@ -107,6 +107,7 @@ std::string print_statement(const ast::Statement& statement, ExpressionPrinter& 
             result += fmt::format(" step {}", printer.print(statement.range->step->root));
         }
     }
+    if (!statement.after.empty()) result += fmt::format(" after {}", statement.after.text);
     if (!statement.doc.empty()) result += "  ## " + statement.doc;
     return result + "\n";
 }
@@ -135,6 +136,7 @@ std::string print_ast(const ast::Script& script, const Sources& sources) {
         result += block.keyword.text;
         if (!block.name.empty()) result += fmt::format(" {}", block.name.text);
         if (!block.base.empty()) result += fmt::format(": {}", block.base.text);
+        for (const ast::Word& base : block.joined) result += fmt::format(", {}", base.text);
         result += fmt::format("  # line {}\n", location.line);
         for (const ast::Statement& statement : block.sides) {
             result += "    " + print_statement(statement, printer);

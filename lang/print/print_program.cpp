@@ -29,12 +29,41 @@ void print_settings(const Program& program, const System& system, Output out) {
     print("show", settings.show);
 }
 
+/// The starting value of an item. That of a frame would fill pages; it is made of two axes.
+std::string print_start(const Program& program, const System& system, ItemId item,
+                        const Formula& start, std::optional<std::uint32_t> stage) {
+    const bool is_of_axes = system.cells && system.cells->has_component(item) &&
+                            item >= system.cells->frame && start.nodes.size() > 1;
+    return is_of_axes ? "(of ey and ez)" : print_formula(program, system, start, stage);
+}
+
+/// What only blocks of cells have.
+void print_rules(const Program& program, const System& system, Output out) {
+    const CellRules& rules = *system.cells;
+    const auto print = [&](std::string_view name, const Formula& formula, std::string_view end) {
+        if (formula.nodes.empty()) return;
+        fmt::format_to(out, "  {}: {}{}\n", name, print_formula(program, system, formula), end);
+    };
+    for (const ItemId item : rules.restarts.ids()) {
+        print(system.item_name(item), rules.restarts[item], " after divide");
+    }
+    print("divide", rules.divide, "");
+    print("die", rules.die, "");
+    print("along", rules.along, "");
+    print("ey", rules.ey, "");
+    print("ez", rules.ez, "");
+    fmt::format_to(out, "  reach: {}\n", rules.reach);
+    for (const Formula& distance : rules.near) print("near", distance, "");
+}
+
 void print_system(const Program& program, const System& system, Output out) {
-    fmt::format_to(out, "system {} {{\n", system.name);
+    fmt::format_to(out, "{} {} {{\n", system.cells ? "cells" : "system", system.name);
     print_settings(program, system, out);
-    for (const Quantity& quantity : system.quantities) {
+    if (system.cells) print_rules(program, system, out);
+    for (const ItemId item : system.quantities.ids()) {
+        const Quantity& quantity = system.quantities[item];
         fmt::format_to(out, "  {}: {}  # {}\n", quantity.name,
-                       print_formula(program, system, quantity.start),
+                       print_start(program, system, item, quantity.start, std::nullopt),
                        quantity.is_species ? "species" : "parameter");
     }
     for (const Definition& definition : system.definitions) {
@@ -80,6 +109,22 @@ void print_time(const Program& program, const System& system, const Stage& stage
     }
 }
 
+void print_start_of_cells(const Program& program, const System& system, const Stage& stage,
+                          std::uint32_t index, Output out) {
+    if (stage.founders) {
+        const Founders& founders = *stage.founders;
+        if (founders.places.empty()) {
+            fmt::format_to(out, "  founders: {}", founders.count);
+        } else {
+            fmt::format_to(out, "  founders: keys({})", fmt::join(founders.places, ", "));
+        }
+        const std::string chance = print_formula(program, system, founders.chance, index);
+        fmt::format_to(out, "{}{}\n", chance.empty() ? "" : ", ", chance);
+    }
+    if (stage.remove.nodes.empty()) return;
+    fmt::format_to(out, "  remove: {}\n", print_formula(program, system, stage.remove, index));
+}
+
 void print_sides(const Program& program, std::uint32_t index, ItemId item,
                  const std::array<SideSetting, side_count>& sides, Output out) {
     const System& system = program.system_of(index);
@@ -101,9 +146,10 @@ void print_stage(const Program& program, std::uint32_t index, Output out) {
     fmt::format_to(out, "stage {}: {} {{  # in order of computing\n", stage.name, system.name);
     fmt::format_to(out, "  iterations: {}\n  interval: {}\n", stage.iterations, stage.interval);
     print_time(program, system, stage, index, out);
+    if (system.cells) print_start_of_cells(program, system, stage, index, out);
     for (const ItemId item : stage.order) {
         fmt::format_to(out, "  {}: {}  # {}\n", system.item_name(item),
-                       print_formula(program, system, stage.items[item], index),
+                       print_start(program, system, item, stage.items[item], index),
                        kind_of(program, index, item));
     }
     const auto species = system.species();

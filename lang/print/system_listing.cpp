@@ -4,6 +4,7 @@
 #include "lang/check/check_names.h"
 #include "lang/check/system_statements.h"
 #include "lang/format/format_words.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -40,8 +41,9 @@ const ast::Text* text_of(const SaidStatement& said) {
 Row row_of(const SaidStatement& said, const SystemStatements& system) {
     const ast::Statement& statement = *said.statement;
     const std::string_view name = statement.name.text;
-    const bool is_setting =
-        statement.index.empty() && checking::reserved(name) != checking::Reserved::no;
+    const bool is_of_cells = system.is_cells() && is_setting_of(SettingBlock::cells, name);
+    const bool is_setting = statement.index.empty() &&
+                            (is_of_cells || checking::reserved(name) != checking::Reserved::no);
     Row row;
     row.kind = is_setting ? "setting" : system.is_species(name) ? "species" : "parameter";
     row.name = statement.index.empty() ? std::string(name)
@@ -51,6 +53,7 @@ Row row_of(const SaidStatement& said, const SystemStatements& system) {
         row.kind = "index";
         row.value += " .. " + source_of(said, statement.values.back());
     }
+    if (!statement.after.empty()) row.value += fmt::format(" after {}", statement.after.text);
     if (said.range != nullptr) {
         const SaidStatement from{said.range_script, said.range_sources, said.range};
         const ast::Range& range = *said.range->range;

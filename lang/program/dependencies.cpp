@@ -33,7 +33,10 @@ Dependencies item_dependencies(const std::vector<const Formula*>& items) {
     for (std::size_t item = 0; item < items.size(); ++item) {
         if (items[item] == nullptr) continue;
         for (const Node& node : items[item]->nodes) {
-            if (const auto* own = node.as<ItemId>()) reads[item].push_back(own->index());
+            const auto* own = node.as<ItemId>();
+            if (own == nullptr) continue;
+            const std::uint32_t count = node.type == ValueType::vector ? 3 : 1;
+            for (std::uint32_t k = 0; k < count; ++k) reads[item].push_back(own->index() + k);
         }
     }
     return reads;

@@ -42,7 +42,19 @@ std::optional<Function> of_model_only(const Program& program, const Node& node) 
     return std::nullopt;
 }
 
+/// Is it a formula of cells that crawl? In one of fields a vector is a flux, which is no value by
+/// itself, and only div makes a number of it.
+bool is_of_cells(const Formula& formula) {
+    return formula.nodes.back().type == ValueType::vector ||
+           std::ranges::any_of(formula.nodes, [](const Node& node) {
+               return node.is<CellValue>() ||
+                      (node.is<Call>() && info(node.function).domains == Domains::crawling);
+           });
+}
+
 bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
+    // Functions that cells do not have are refused where they are written.
+    if (is_of_cells(formula)) return true;
     bool has_meaning = true;
     for (const Node& node : formula.nodes) {
         if (!node.is<Call>()) continue;
@@ -142,7 +154,12 @@ std::vector<const Formula*> formulas_of(const Program& program) {
             const System& system = program.systems[stage.system];
             for (const Formula& rate : system.rates) add(rate);
             for (const Definition& definition : system.definitions) add(definition.formula);
+            if (system.cells) {
+                for (const Formula* rule : rules_of(*system.cells)) add(*rule);
+            }
         }
+        add(stage.remove);
+        if (stage.founders) add(stage.founders->chance);
         for (const Formula& formula : stage.items) add(formula);
         add(stage.show);
         if (stage.time.until) add(*stage.time.until);

@@ -57,6 +57,7 @@ bool differs_by_cell(const Node& node, bool operand_differs, const Program& prog
             return item_differs({stage, item});
         },
         item_differs,
+        [&](SensedItem sensed) { return item_differs(sensed.item); },
         [&](Builtin builtin) {
             if (builtin == Builtin::step) return false;
             return builtin != Builtin::t ||
@@ -85,6 +86,18 @@ std::optional<SpeciesId> System::species_of(ItemId item) const {
     const auto found = std::ranges::find(all, item);
     if (found == all.end()) return std::nullopt;
     return SpeciesId(static_cast<std::size_t>(found - all.begin()));
+}
+
+std::vector<const Formula*> rules_of(const CellRules& cells) {
+    std::vector<const Formula*> rules{&cells.divide, &cells.die, &cells.along};
+    for (const Formula& restart : cells.restarts) rules.push_back(&restart);
+    for (const Formula& distance : cells.near) rules.push_back(&distance);
+    return rules;
+}
+
+std::string_view System::draw_name(ItemId item) const {
+    const bool is_of_frame = cells && cells->has_component(item) && item >= cells->frame;
+    return is_of_frame ? "frame" : item_name(item);
 }
 
 std::string_view System::item_name(ItemId item) const {

@@ -277,23 +277,38 @@ struct SpeciesSide {
     SideSetting setting;
 };
 
-/// What makes a system one of cells that crawl.
+/// What makes a system one of cells that crawl (spec/cells.md). Its formulas read no definitions.
 struct CellRules {
     ItemId place;  ///< The first of three components.
     ItemId frame;  ///< The first of four, of a quaternion w, x, y, z.
     ItemId radius, age;
-    Formula divide, die;  ///< Conditions, numbers; empty: never.
-    Formula along;        ///< A vector; empty: a random direction in the tangent plane.
+    DefinitionId velocity, spin;  ///< The sums of the terms of p' and of turn', vectors.
+    Formula divide, die;          ///< Conditions, numbers; empty: never.
+    Formula along;                ///< A vector; empty: a random direction across the normal.
+    Formula ey, ez;               ///< Axes at the start, vectors; empty: see starting_frame().
     IdVector<ItemId, Formula> restarts;  ///< Values after a division; empty: inherited.
     double reach = 1.2;         ///< Cells touch at up to this multiple of the sum of their radii.
     std::vector<Formula> near;  ///< The distances of `over near(d)`: the same for all cells.
+
+    /// Is it a component of the place or of the frame, which no script can name?
+    bool has_component(ItemId item) const {
+        const auto is_of = [&](ItemId first, std::size_t count) {
+            return item.index() >= first.index() && item.index() < first.index() + count;
+        };
+        return is_of(place, 3) || is_of(frame, 4);
+    }
 };
+
+/// The formulas of divide, die, along, of values that start again, and of the distances of `near`.
+/// Some may be empty.
+std::vector<const Formula*> rules_of(const CellRules& cells);
 
 struct System {
     std::string name;
     Span span;
     bool built_in = false;
     std::optional<SystemId> base;                    ///< The system from which it is derived.
+    std::vector<SystemId> joined;                    ///< Of cells: the bases after the first.
     std::string doc;                                 ///< The text of its doc comment; may be empty.
     std::string title, cite, about;                  ///< Its texts; may be empty.
     std::vector<Index> indices;                      ///< Families become quantities u[1], u[2], …
@@ -312,6 +327,8 @@ struct System {
     std::size_t item_count() const { return quantities.size() + 2; }
     auto items() const { return ids_below<ItemId>(item_count()); }
     std::string_view item_name(ItemId item) const;
+    /// The name by which random numbers of a starting value are drawn: one for the whole frame.
+    std::string_view draw_name(ItemId item) const;
     bool is_species(ItemId item) const {
         return item < quantities.next() && quantities[item].is_species;
     }

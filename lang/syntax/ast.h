@@ -84,6 +84,7 @@ struct Statement {
     Word name;
     Word index;  ///< i of `u[i]: e`: a name or a number; empty without an index.
     Word side;   ///< left of `u.left: e`; empty if there is none.
+    Word after;  ///< divide of `u: e after divide`; empty if there is none.
     std::vector<Expression> values;  ///< At least one.
     std::optional<Range> range;      ///< Only for kind `value`.
     Span span;                       ///< From the name to the end of the last value.
@@ -91,7 +92,7 @@ struct Statement {
 };
 
 enum class BlockKind : std::uint8_t {
-    system,         ///< system NAME { … }
+    system,         ///< system NAME { … } or cells NAME { … }
     stage,          ///< stage NAME: SYSTEM { … }
     classic_stage,  ///< system_name: SYSTEM and the statements after it
     domain,         ///< domain { … }
@@ -100,12 +101,14 @@ enum class BlockKind : std::uint8_t {
 
 struct Block {
     BlockKind kind = BlockKind::system;
+    bool is_cells = false;  ///< Of a system: one of cells that crawl.
     Word keyword;  ///< `system`, `stage`, `system_name`, …: the place of the block in messages.
     Span span;     ///< From the keyword to the `}`; empty for a classic stage.
     Word name;     ///< Of a system or stage; empty otherwise.
     /// Of a stage: its system, empty if it could not be parsed. Of a system: its base, empty if it
     /// has none.
     Word base;
+    std::vector<Word> joined;  ///< Of cells: the bases after the first.
     std::vector<Statement> statements;
     std::vector<Statement> sides;  ///< `u.left: …`, `u[1].left: …`.
     std::string doc;               ///< The text of its doc comments, joined to one line.

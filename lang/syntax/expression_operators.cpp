@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace cascade {
@@ -38,10 +39,8 @@ constexpr const char* form_of_over = "write sum(e over i) or mean(e over domain)
 ExpressionParser::Progress ExpressionParser::read_operator() {
     const bool on_new_line = open_brackets_ > 0 && cursor_.take_if(TokenKind::newline);
     const Token token = cursor_.peek();
-    if (open_brackets_ == 0 && token.kind == TokenKind::name && !end_word_.empty() &&
-        cursor_.at_name(end_word_)) {
-        return Progress::finished;
-    }
+    const auto is_here = [&](std::string_view word) { return cursor_.at_name(word); };
+    if (open_brackets_ == 0 && std::ranges::any_of(ends_, is_here)) return Progress::finished;
     if (token.kind == TokenKind::assign) {  // Parsed as the comparison that was probably meant.
         cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
     }

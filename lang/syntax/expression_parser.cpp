@@ -9,9 +9,10 @@
 
 namespace cascade {
 
-ast::Expression ExpressionParser::parse(const std::string& owner, std::string_view end_word) {
+ast::Expression ExpressionParser::parse(const std::string& owner,
+                                        std::span<const std::string_view> ends) {
     owner_ = owner;
-    end_word_ = end_word;
+    ends_ = ends;
     first_ = static_cast<ast::ExprId>(script_.expressions.size());
     first_argument_ = static_cast<std::uint32_t>(script_.arguments.size());
     pending_.clear();

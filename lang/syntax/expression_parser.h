@@ -10,6 +10,7 @@
 #include "lang/syntax/token_cursor.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,9 +25,9 @@ public:
     /// Parses one expression and leaves the cursor at what ends it: a line break, `;`, `}`, `,` or
     /// the end of the text. On an error, reports it, skips to the end of the statement and returns
     /// Garbage. `owner` names what lacks a value in messages: `the value of 'ka'`. Outside of
-    /// brackets the expression also ends at `..`, and at the word `end_word` where an operator
+    /// brackets the expression also ends at `..`, and at one of the words `ends` where an operator
     /// could stand.
-    ast::Expression parse(const std::string& owner, std::string_view end_word = "");
+    ast::Expression parse(const std::string& owner, std::span<const std::string_view> ends = {});
 
 private:
     enum class PendingKind : std::uint8_t { binary, unary, group, call, index, near };
@@ -90,7 +91,7 @@ private:
     TokenCursor& cursor_;
     ast::Script& script_;
     std::string owner_;
-    std::string_view end_word_;
+    std::span<const std::string_view> ends_;
     ast::ExprId first_ = 0;
     std::uint32_t first_argument_ = 0;
     std::vector<Pending> pending_;

@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 ast::BlockKind kind_of_keyword(std::string_view keyword) {
-    if (keyword == "system") return ast::BlockKind::system;
+    if (keyword == "system" || keyword == "cells") return ast::BlockKind::system;
     if (keyword == "stage") return ast::BlockKind::stage;
     return keyword == "domain" ? ast::BlockKind::domain : ast::BlockKind::picture;
 }
@@ -35,7 +35,10 @@ void ScriptParser::parse_item() {
         }
         return;
     }
-    if (cursor_.begins_block()) return parse_block(cursor_.text(cursor_.peek()));
+    // Here the name of a block tells `cells` from a quantity, whatever follows it.
+    const bool begins_cells =
+        !in_classic_stage_ && cursor_.at_name("cells") && cursor_.kind(1) == TokenKind::name;
+    if (cursor_.begins_block() || begins_cells) return parse_block(cursor_.text(cursor_.peek()));
     if (begins_classic_stage()) return parse_classic_stage();
     if (parse_function_or_use() || parse_misspelt_block()) return;
     if (!in_classic_stage_) return parse_outside_statement();
@@ -64,6 +67,7 @@ void ScriptParser::parse_block(std::string_view keyword) {
     block.doc = docs_before();
     block.keyword = cursor_.word(cursor_.take());
     block.kind = kind_of_keyword(keyword);
+    block.is_cells = keyword == "cells";
     if (block.kind == ast::BlockKind::system) {
         parse_header_of_system(block);
     } else if (block.kind == ast::BlockKind::stage) {
@@ -76,22 +80,41 @@ void ScriptParser::parse_block(std::string_view keyword) {
     script_.blocks.push_back(std::move(block));
 }
 
-/// NAME, or NAME: BASE.
+/// NAME, or NAME: BASE; for cells also NAME: BASE, BASE.
 void ScriptParser::parse_header_of_system(ast::Block& block) {
     if (cursor_.at(TokenKind::name)) {
         block.name = cursor_.word(cursor_.take());
     } else {
-        cursor_.error(block.keyword.span, "this system has no name", "write 'system NAME {'");
+        cursor_.error(block.keyword.span,
+                      block.is_cells ? "these cells have no name" : "this system has no name",
+                      block.is_cells ? "write 'cells NAME {'" : "write 'system NAME {'");
         block.is_damaged = true;
     }
-    if (!cursor_.at(TokenKind::colon)) return;
-    const Token colon = cursor_.take();
-    if (cursor_.at(TokenKind::name)) {
+    if (cursor_.at(TokenKind::colon)) parse_bases(block);
+}
+
+/// : BASE { , BASE }
+void ScriptParser::parse_bases(ast::Block& block) {
+    while (cursor_.at(TokenKind::colon) || cursor_.at(TokenKind::comma)) {
+        const Token sign = cursor_.take();
+        if (sign.kind == TokenKind::comma && !block.is_cells) {
+            cursor_.error(sign.span, "a system has one base", "only 'cells' join several");
+        }
+        if (!cursor_.at(TokenKind::name)) {
+            if (cursor_.at(TokenKind::garbage)) return;
+            return cursor_.error(
+                sign.span,
+                fmt::format("the name of {} is missing after {}",
+                            block.is_cells ? "other cells" : "a system", cursor_.describe(sign)),
+                block.is_cells ? "write 'cells NAME: CELLS {'" : "write 'system NAME: SYSTEM {'");
+        }
         const ast::Word base = cursor_.word(cursor_.take());
-        if (!block.name.empty()) block.base = base;  // `system: NAME {` has been reported.
-    } else if (!cursor_.at(TokenKind::garbage)) {
-        cursor_.error(colon.span, "the name of a system is missing after ':'",
-                      "write 'system NAME: SYSTEM {'");
+        if (block.name.empty()) continue;  // `system: NAME {` has been reported.
+        if (sign.kind == TokenKind::colon) {
+            block.base = base;
+        } else if (block.is_cells) {
+            block.joined.push_back(base);
+        }
     }
 }
 

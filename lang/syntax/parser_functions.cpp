@@ -55,7 +55,7 @@ void ScriptParser::parse_function() {
         }
         return keep_damaged(std::move(function));
     }
-    function.body = parse_after_operator("the value of the function " + name, "");
+    function.body = parse_after_operator("the value of the function " + name, {});
     if (cursor_.at(TokenKind::dots) || cursor_.at(TokenKind::comma)) {
         cursor_.error(cursor_.peek().span,
                       fmt::format("{} has no place in a function",

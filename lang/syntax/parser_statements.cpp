@@ -12,6 +12,13 @@
 
 namespace cascade {
 
+namespace {
+
+/// Words that end a value where an operator could stand.
+constexpr std::array<std::string_view, 2> ends_of_value{"in", "after"};
+
+}  // namespace
+
 /// Parses the statement at the cursor and moves to its end. Reports an error and returns nothing if
 /// its name or relation is wrong; a value that is wrong becomes Garbage.
 std::optional<ast::Statement> ScriptParser::parse_statement() {
@@ -48,6 +55,10 @@ void ScriptParser::parse_side(ast::Statement& statement) {
 
 /// Statements about sides are kept in a list of their own.
 void ScriptParser::add_statement(ast::Block& block, ast::Statement statement) {
+    if (!statement.after.empty() && !block.is_cells) {
+        cursor_.error(statement.after.span, "only cells that crawl divide",
+                      "'after divide' belongs in a block 'cells NAME { … }'");
+    }
     (!statement.side.empty() ? block.sides : block.statements).push_back(std::move(statement));
 }
 
@@ -103,7 +114,7 @@ bool ScriptParser::report_no_statement() {
             break;
         case TokenKind::open_curly:
             cursor_.error(token.span, "no block begins here",
-                          "blocks are system, stage, domain and picture");
+                          "blocks are system, cells, stage, domain and picture");
             break;
         default:
             cursor_.error(token.span, fmt::format("no statement begins with {}", word),
@@ -241,12 +252,19 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
 }
 
 /// True if the tokens from `ahead` on have the shape of a block after its keyword: ` {`, ` large
-/// {`, ` large: leopard {`.
+/// {`, ` large: leopard {`, ` thorn: scale, guide {`.
 bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     const bool is_derived = cursor_.kind(ahead) == TokenKind::name &&
                             cursor_.kind(ahead + 1) == TokenKind::colon &&
                             cursor_.kind(ahead + 2) == TokenKind::name;
-    if (is_derived) return cursor_.kind(ahead + 3) == TokenKind::open_curly;
+    if (is_derived) {
+        ahead += 3;
+        while (cursor_.kind(ahead) == TokenKind::comma &&
+               cursor_.kind(ahead + 1) == TokenKind::name) {
+            ahead += 2;
+        }
+        return cursor_.kind(ahead) == TokenKind::open_curly;
+    }
     if (cursor_.kind(ahead) == TokenKind::name) ++ahead;
     if (cursor_.kind(ahead) == TokenKind::newline) ++ahead;
     return cursor_.kind(ahead) == TokenKind::open_curly;
@@ -254,11 +272,11 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
 
 /// Reports that a word does not begin a block; returns the keyword that was probably meant, or "".
 std::string ScriptParser::report_no_block(const ast::Word& word) {
-    const std::array<std::string, 4> keywords = {"system", "stage", "domain", "picture"};
+    const std::array<std::string, 5> keywords = {"system", "cells", "stage", "domain", "picture"};
     std::string near = nearest_name(word.text, keywords);
     cursor_.error(word.span,
                   cursor_.describe({TokenKind::name, word.span}) + " does not begin a block",
-                  near.empty() ? "blocks are system, stage, domain and picture"
+                  near.empty() ? "blocks are system, cells, stage, domain and picture"
                                : "did you mean '" + near + "'?");
     return near;
 }
@@ -277,7 +295,7 @@ void ScriptParser::parse_values(ast::Statement& statement) {
                         : "bound",
                     cursor_.describe({TokenKind::name, statement.name.span}));
     cursor_.mute(colon_is_missing);
-    statement.values.push_back(parse_after_operator(owner, "in"));
+    statement.values.push_back(parse_after_operator(owner, ends_of_value));
     if (cursor_.at(TokenKind::dots)) parse_end_of_index(statement);
     while (cursor_.at(TokenKind::comma)) {
         const Token comma = cursor_.take();
@@ -292,9 +310,10 @@ void ScriptParser::parse_values(ast::Statement& statement) {
             break;
         }
         if (cursor_.at(TokenKind::newline) && !cursor_.begins_statement(1)) cursor_.take();
-        statement.values.push_back(expressions_.parse(owner, "in"));
+        statement.values.push_back(expressions_.parse(owner, ends_of_value));
     }
     if (cursor_.at_name("in")) parse_range(statement);
+    if (cursor_.at_name("after")) parse_after(statement);
     if (cursor_.at(TokenKind::dots)) {
         cursor_.error(cursor_.peek().span, "'..' has no place here",
                       "a range is written 1..3, or p: 1 in 0 .. 2");
@@ -305,52 +324,11 @@ void ScriptParser::parse_values(ast::Statement& statement) {
 
 /// An expression that may begin on the next line if this line ends in an operator other than ':'.
 ast::Expression ScriptParser::parse_after_operator(const std::string& owner,
-                                                   std::string_view end_word) {
+                                                   std::span<const std::string_view> ends) {
     const bool goes_on = wants_operand(cursor_.previous().kind) && cursor_.at(TokenKind::newline) &&
                          !cursor_.begins_statement(1) && cursor_.kind(1) != TokenKind::close_curly;
     if (goes_on) cursor_.take();
-    return expressions_.parse(owner, end_word);
-}
-
-/// The `.. high` of `i: low .. high`.
-void ScriptParser::parse_end_of_index(ast::Statement& statement) {
-    const Token dots = cursor_.take();
-    if (statement.kind != ast::StatementKind::value || !statement.index.empty()) {
-        cursor_.error(dots.span, "a range declares an index", "write i: 1..3");
-        cursor_.skip_statement();
-        return;
-    }
-    statement.kind = ast::StatementKind::index;
-    statement.values.push_back(expressions_.parse("the end of the range"));
-}
-
-/// The `in low .. high [step e]` after a value.
-void ScriptParser::parse_range(ast::Statement& statement) {
-    const Token word = cursor_.take();
-    const std::string form = "write p: 1 in 0 .. 2";
-    if (statement.kind != ast::StatementKind::value || statement.values.size() != 1) {
-        cursor_.error(word.span, "only the value of a parameter has a range", form);
-        cursor_.skip_statement();
-        return;
-    }
-    ast::Range range;
-    range.low = expressions_.parse("the lower end of the range");
-    if (!cursor_.at(TokenKind::dots)) {
-        const auto& low = script_.expressions[range.low.root].node;
-        if (!std::holds_alternative<ast::Garbage>(low)) {
-            cursor_.error(word.span, "a range has two ends with '..' between them", form);
-        }
-        cursor_.skip_statement();
-        return;
-    }
-    cursor_.take();
-    range.high = expressions_.parse("the upper end of the range", "step");
-    if (cursor_.at_name("step")) {
-        cursor_.take();
-        range.step = expressions_.parse("the step of the range");
-    }
-    range.span = join(word.span, cursor_.previous().span);
-    statement.range = range;
+    return expressions_.parse(owner, ends);
 }
 
 }  // namespace cascade

@@ -31,6 +31,7 @@ private:
     void parse_block(std::string_view keyword);
     bool parse_misspelt_block();
     void parse_header_of_system(ast::Block& block);
+    void parse_bases(ast::Block& block);
     void parse_header_of_stage(ast::Block& block);
     void parse_header_without_name();
     void parse_body(ast::Block& block);
@@ -55,7 +56,7 @@ private:
     // Statements (parser_statements.cpp).
     std::optional<ast::Statement> parse_statement();
     void parse_side(ast::Statement& statement);
-    static void add_statement(ast::Block& block, ast::Statement statement);
+    void add_statement(ast::Block& block, ast::Statement statement);
     void report_dot(const ast::Statement& statement);
     bool parse_relation(ast::Statement& statement);
     bool parse_rate_relation(ast::Statement& statement);
@@ -69,7 +70,9 @@ private:
     bool parse_index(ast::Statement& statement);
     void parse_end_of_index(ast::Statement& statement);
     void parse_range(ast::Statement& statement);
-    ast::Expression parse_after_operator(const std::string& owner, std::string_view end_word);
+    void parse_after(ast::Statement& statement);
+    ast::Expression parse_after_operator(const std::string& owner,
+                                         std::span<const std::string_view> ends);
 
     /// The doc comments that belong to what begins at the cursor.
     std::string docs_before();

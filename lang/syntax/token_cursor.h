@@ -51,7 +51,8 @@ public:
 
     /// Line break, `;`, `}` or the end of the text.
     bool at_statement_end() const;
-    /// True if a block begins here. `system`, `stage`, `domain` and `picture` are names elsewhere.
+    /// True if a block begins here. `system`, `cells`, `stage`, `domain` and `picture` are names
+    /// elsewhere.
     bool begins_block(std::size_t ahead = 0) const;
     /// True if a statement or a block begins here, in a way that no correct expression contains.
     bool begins_statement(std::size_t ahead = 0) const;

@@ -1,9 +1,11 @@
-# The systems of the library are Cascade texts; this turns them into one C++ file of raw strings. It runs
-# when CMake configures, which a change of a text or a new text brings about.
+# The systems of the library and the functions of cells are Cascade texts; this turns them into one C++ file of
+# raw strings. It runs when CMake configures, which a change of a text or a new text brings about.
 file(GLOB built_in_systems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/systems/*.cascade)
 list(SORT built_in_systems)
+set(cell_functions_path ${PROJECT_SOURCE_DIR}/lang/library/cell_functions.cascade)
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
-  PROPERTY CMAKE_CONFIGURE_DEPENDS ${built_in_systems})
+  PROPERTY CMAKE_CONFIGURE_DEPENDS ${built_in_systems} ${cell_functions_path})
+file(READ ${cell_functions_path} cell_functions)
 
 set(built_in_entries "")
 foreach(path IN LISTS built_in_systems)
@@ -14,7 +16,7 @@ endforeach()
 
 set(built_in_source ${PROJECT_BINARY_DIR}/lang/built_in_systems.cpp)
 file(CONFIGURE OUTPUT ${built_in_source} @ONLY CONTENT [[
-// Made by lang/systems/embed.cmake from lang/systems/*.cascade.
+// Made by lang/systems/embed.cmake from lang/systems/*.cascade and lang/library/cell_functions.cascade.
 #include "lang/library/library.h"
 
 #include <array>
@@ -26,9 +28,13 @@ namespace {
 constexpr auto texts = std::to_array<LibraryText>({
 @built_in_entries@});
 
+constexpr LibraryText functions{"cell_functions.cascade", R"cascade(@cell_functions@)cascade"};
+
 }  // namespace
 
 std::span<const LibraryText> library_texts() { return texts; }
+
+const LibraryText& cell_functions() { return functions; }
 
 }  // namespace cascade
 ]])

@@ -56,6 +56,8 @@ std::string_view home_of(std::string_view word) {
         case SettingBlock::side: return "it is a setting of the domain";
         case SettingBlock::picture: return "it is a setting of the picture";
         case SettingBlock::system: return "it is a text of a system";
+        case SettingBlock::cells: return "it is a setting of a block of cells";
+        case SettingBlock::cell_stage: return "it is a setting of a stage of cells";
     }
     return "";
 }

@@ -25,7 +25,15 @@ inline constexpr std::size_t setting_count = 0
     ;
 
 // The columns of settings.def, which explains each word.
-enum class SettingBlock : std::uint8_t { stage, domain, side, picture, system };
+enum class SettingBlock : std::uint8_t {
+    stage,
+    domain,
+    side,
+    picture,
+    system,
+    cells,
+    cell_stage,
+};
 enum class SettingValue : std::uint8_t {
     count,
     number,
@@ -58,9 +66,9 @@ std::vector<std::string> words_taken_by(Setting setting);
 std::string_view home_of(std::string_view word);
 
 /// Words that begin statements and blocks or separate the parts of an expression.
-inline constexpr std::string_view keywords[] = {"system",      "stage", "domain", "picture",
-                                                "system_name", "fn",    "use",    "and",
-                                                "or",          "not",   "over",   "in",
-                                                "pi"};
+inline constexpr std::string_view keywords[] = {"system",  "cells",       "stage", "domain",
+                                                "picture", "system_name", "fn",    "use",
+                                                "and",     "or",          "not",   "over",
+                                                "in",      "after",       "pi"};
 
 }  // namespace cascade

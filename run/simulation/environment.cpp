@@ -132,6 +132,18 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
     return failure("the domain has no cells");
 }
 
+/// Nothing moves cells in a run so far: they are checked and compiled only.
+Result<void> has_no_cells_that_crawl(Script& script) {
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (!script.program->system_of(k).cells) continue;
+        script.diagnostics.error(script.program->stages[k].span,
+                                 "a stage of cells that crawl cannot be run yet",
+                                 "it can be checked, and --dump shows what becomes of it");
+        return failure("there are stages of cells that crawl");
+    }
+    return {};
+}
+
 }  // namespace
 
 bool Environment::takes_long(std::uint32_t k) const {
@@ -157,6 +169,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     Environment& here = *made;
     here.script = &script;
     here.program = &*script.program;
+    if (auto runs = has_no_cells_that_crawl(script); !runs) return tl::unexpected(runs.error());
     here.grid = here.program->domain.grid;
     here.tiling = options.tiling;
     here.threads = options.threads > 0 ? options.threads : hardware_threads();

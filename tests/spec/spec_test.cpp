@@ -192,7 +192,8 @@ TEST(FunctionsPage, HasARowForEveryFunction) {
 }
 
 std::string_view word_of(SettingBlock block) {
-    constexpr std::array<std::string_view, 5> words{"stage", "domain", "side", "picture", "system"};
+    constexpr std::array<std::string_view, 7> words{"stage",  "domain", "side",          "picture",
+                                                    "system", "cells",  "stage of cells"};
     return words[static_cast<std::size_t>(block)];
 }
 

@@ -30,6 +30,11 @@ std::string set_in(SettingBlock block, std::string_view word) {
         case SettingBlock::domain:
         case SettingBlock::side: return fmt::format("domain {{ {}: 1 }}\n{}", word, plain);
         case SettingBlock::picture: return fmt::format("picture {{ {}: 1 }}\n{}", word, plain);
+        case SettingBlock::cells:
+            return fmt::format("cells s {{ {}: 1 }}\nstage a: s {{ founders: 1; iterations: 1 }}\n",
+                               word);
+        case SettingBlock::cell_stage:
+            return fmt::format("cells s {{ }}\nstage a: s {{ {}: 1; iterations: 1 }}\n", word);
         case SettingBlock::system: break;
     }
     return fmt::format("system s {{ {}: \"x\"; u: 1; u' = 0 }}\nstage a: s {{ }}\n", word);

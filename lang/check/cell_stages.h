@@ -1,0 +1,45 @@
+// Stages of cells that crawl (internal to the checker): the cells with which they start, what these
+// bring with them, and when the stages end.
+#pragma once
+
+#include "lang/check/check_blocks.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace cascade::checking {
+
+/// The last stage of cells before this one, whose cells it goes on with unless it has founders;
+/// nothing if there is none.
+std::optional<std::uint32_t> stage_of_cells_before(const Program& program, std::uint32_t stage);
+
+/// Can the item of an earlier stage of cells be read here? Cells crawl, divide and die, so that
+/// only the stage that goes on with them knows their values. Reports an error and returns false if
+/// not.
+bool knows_cells(Workspace& work, const Scope& scope, StageItem item, Span span);
+
+/// The stage of `coat.b` in a block of cells, which senses it at the place of each cell; reports an
+/// error if there is none. check_cell_stage() knows whether it runs before the stages of the cells.
+std::optional<std::uint32_t> find_sensed_stage(Workspace& work, const ast::Qualified& qualified);
+
+/// Checks a statement `founders: …` or `remove: e` of a stage of cells.
+void check_cell_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
+                        const Scope& scope);
+
+/// Reports a solver or an end that a stage of cells cannot have, and fills in the rest of its time.
+void fill_cell_time(Workspace& work, std::uint32_t stage, const Settings& own,
+                    const Settings& defaults);
+/// The same for a solver that an option asks for.
+void change_cell_solver(Workspace& work, std::uint32_t stage, const TimeSettings& asked);
+
+/// Gives the items of a stage of cells that have no value yet those of the cells that it goes on
+/// with: place, frame, radius and age. `axes` are the stage's ey and ez, where it has them. Reports
+/// a stage that has no cells.
+void take_cells(Workspace& work, std::uint32_t stage, std::array<Formula, 2> axes);
+
+/// Checks what is known with the whole stage: that the fields that its cells sense are of earlier
+/// stages, and that distances of `near` are the same for all cells.
+void check_cell_stage(Workspace& work, std::uint32_t stage);
+
+}  // namespace cascade::checking

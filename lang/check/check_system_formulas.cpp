@@ -1,0 +1,135 @@
+// The formulas of a `system` or `cells` block: values, definitions, rates, bounds and settings.
+#include "lang/check/check_blocks.h"
+#include "lang/check/check_time.h"
+#include "lang/check/system_checker.h"
+#include "lang/program/order.h"
+
+#include <algorithm>
+
+namespace cascade::checking {
+
+std::vector<const Declaration*> SystemChecker::RateStatements::all() const {
+    std::vector<const Declaration*> statements = terms;
+    if (assignment != nullptr) statements.insert(statements.begin(), assignment);
+    return statements;
+}
+
+/// The value of a declaration, a number or a vector; reports errors.
+std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
+                                                            Context context, ValueType type) {
+    if (!has_one_value(work_, *declaration.script, *declaration.statement)) return std::nullopt;
+    const auto check = type == ValueType::vector ? check_vector : check_number;
+    auto checked = check(work_, *declaration.script, declaration.statement->values[0],
+                         scope(context, declaration));
+    if (checked) mark_reads(work_, checked->formula, index_);
+    return checked;
+}
+
+void SystemChecker::check_values() {
+    for (const ItemId id : values_.ids()) {
+        if (values_[id] == nullptr) continue;
+        Quantity& quantity = system().quantities[id];
+        auto checked = check_value(*values_[id], Context::value);
+        if (checked) quantity.start = std::move(checked->formula);
+        if (values_[id]->range == nullptr) continue;
+        // The radius of a cell is a number like a parameter as long as no rate changes it.
+        const bool is_still = is_cells() && id == system().cells->radius && rates_[id].empty();
+        if (quantity.is_species && !is_still) {
+            work_.diagnostics.error(values_[id]->range->span, "a range belongs to a parameter",
+                                    fmt::format("'{}' is a species", quantity.name));
+        } else {
+            check_range(work_, *values_[id], quantity, checked ? checked->constant : std::nullopt);
+        }
+    }
+}
+
+void SystemChecker::check_definitions() {
+    if (is_cells()) {
+        for (const DefinitionId id : order_of_definitions()) check_definition_of_cells(id);
+        return;
+    }
+    for (const DefinitionId id : definitions_.ids()) {
+        auto checked = check_value(*definitions_[id], Context::rate);
+        if (checked) system().definitions[id].formula = std::move(checked->formula);
+    }
+}
+
+namespace {
+
+/// Appends a term to a sum of the same type.
+void superpose(Formula& sum, Formula term) {
+    if (sum.nodes.empty()) {
+        sum = std::move(term);
+        return;
+    }
+    const NodeId before = NodeId(sum.nodes.size() - 1);
+    for (Node& node : term.nodes) {
+        for (NodeId& operand : node.reads()) {
+            operand = NodeId(operand.index() + before.index() + 1);
+        }
+        sum.nodes.push_back(node);
+    }
+    Node addition;
+    addition.kind = Call();
+    addition.function = Function::add;
+    addition.span = sum.nodes.back().span;
+    addition.type = sum.nodes.back().type;
+    addition.operands = {before, NodeId(sum.nodes.size() - 1)};
+    addition.operand_count = 2;
+    sum.nodes.push_back(addition);
+}
+
+}  // namespace
+
+Formula SystemChecker::sum_of(const RateStatements& rate, ValueType type) {
+    Formula sum;
+    for (const Declaration* declaration : rate.all()) {
+        auto checked = check_value(*declaration, Context::rate, type);
+        if (checked) superpose(sum, std::move(checked->formula));
+    }
+    return sum;
+}
+
+void SystemChecker::check_rates() {
+    system().rates.resize(system().quantities.size());
+    for (const ItemId id : rates_.ids()) system().rates[id] = sum_of(rates_[id]);
+    if (is_cells()) check_rates_of_cells();
+}
+
+void SystemChecker::check_invariants() {
+    for (const Declaration* declaration : invariants_) {
+        const Meaning* meaning = find(work_.names[index_], declaration->name);
+        if (meaning != nullptr && meaning->has_error) continue;
+        const auto species = find_species(work_, index_, declaration->name);
+        if (!species) {
+            report_not_species(work_, index_, declaration->name, declaration->span());
+            continue;
+        }
+        auto checked = check_value(*declaration, Context::bound);
+        if (!checked) continue;
+        system().invariants.push_back({*species,
+                                       declaration->kind() == ast::StatementKind::at_least,
+                                       std::move(checked->formula)});
+    }
+}
+
+void SystemChecker::check_settings() {
+    Settings settings;
+    std::uint32_t level_of_end = 0;
+    for (const Declaration* declaration : settings_) {
+        if (is_end_setting(declaration->name))
+            level_of_end = std::max(level_of_end, declaration->level);
+    }
+    for (const Declaration* declaration : settings_) {
+        if (is_end_setting(declaration->name) && declaration->level < level_of_end) continue;
+        check_setting(work_, *declaration->script, *declaration->statement,
+                      scope(Context::value, *declaration), settings);
+    }
+    for (const auto* formula :
+         {&settings.frozen, &settings.speed, &settings.show, &settings.time.until}) {
+        if (*formula) mark_reads(work_, **formula, index_);
+    }
+    system().settings = std::move(settings);
+}
+
+}  // namespace cascade::checking
