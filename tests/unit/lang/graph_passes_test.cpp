@@ -67,6 +67,17 @@ TEST(GraphPasses, EveryGraphOfTheLibraryIsWhole) {
     EXPECT_GT(count, 200u);
 }
 
+TEST(GraphPasses, GraphsOfCellsThatCrawlAreWhole) {
+    const auto steps = verified(
+        "cells c {\n  v = cross(p, ez) + mean(vector(q, distance) over near(0.1))\n"
+        "  q: 0; q' = lap(q) + mean(dot(v, own(ez)) over touching) + mean(q over domain)\n"
+        "  p' += push(1) + v; turn' += comb(1)\n}\n"
+        "domain { surface: sphere }\nstage s: c { founders: 2; duration: 1 }\n");
+    ASSERT_TRUE(steps.contains("tissue"));
+    EXPECT_EQ(steps.at("tissue").find("vector"), std::string::npos) << steps.at("tissue");
+    EXPECT_NE(steps.at("tissue").find("(link_sum)"), std::string::npos) << steps.at("tissue");
+}
+
 TEST(GraphPasses, EveryGraphOfTheExamplesIsWhole) {
     std::size_t count = 0;
     for (const auto& file :

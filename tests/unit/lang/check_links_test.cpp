@@ -1,0 +1,87 @@
+// What is refused of vectors and neighbours in systems of cells that crawl, and in those of fields.
+#include "check_helpers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace cascade::testing {
+namespace {
+
+/// The first fault of the rate of a number in a block of cells, without its place; "" if none.
+std::string fault_of(const std::string& rate, const std::string& before = "") {
+    const auto checked =
+        check_text(before + "cells c {\n  k: 2; q: 0\n  v = 2 * p\n  q' = k * dot(v, v) + q + " +
+                   rate + "\n}\nstage s: c { founders: 2; duration: 1 }\n");
+    const auto faults = checked->faults();
+    if (faults.empty()) return "";
+    return faults[0].substr(faults[0].find(' ') + 1);
+}
+
+TEST(CheckLinks, VectorsAreNoNumbers) {
+    EXPECT_EQ(fault_of("v"), "a number and a vector cannot be added");
+    EXPECT_EQ(fault_of("tanh(v)"),
+              "a vector is not a number | dot(a, b) and length(v) make a number of it");
+    EXPECT_EQ(fault_of("dot(k, v)"),
+              "a vector is needed here | such as p, normal or vector(1, 0, 0)");
+    EXPECT_EQ(
+        fault_of("length(v * p)"),
+        "a vector cannot be multiplied by a vector | dot(a, b) and cross(a, b) are products of "
+        "two vectors");
+    EXPECT_EQ(fault_of("length(if(k, v, q))"),
+              "if chooses between two numbers, two vectors or two colours");
+    EXPECT_EQ(fault_of("max(v over touching)"),
+              "a vector is not a number | dot(a, b) and length(v) make a number of it");
+    EXPECT_EQ(fault_of("length(if(k, v, unit(mix(v, ez, 0.5))))"), "");
+}
+
+TEST(CheckLinks, ValuesOfTwoCellsAreKnownInside) {
+    EXPECT_EQ(
+        fault_of("contact"),
+        "'contact' is of two cells and known inside of sums only | sum(contact over touching)");
+    EXPECT_EQ(
+        fault_of("sum(own(contact) over touching)"),
+        "'contact' is of two cells and known inside of sums only | sum(contact over touching)");
+    EXPECT_EQ(fault_of("own(q)"),
+              "own(e) has a meaning inside of sums over neighbours only | names outside are the "
+              "cell's own");
+    EXPECT_EQ(
+        fault_of("both(overlap)", "fn both(a) = a + sum(a over touching)\n"),
+        "'overlap' is of two cells and known inside of sums only | sum(overlap over touching)");
+    EXPECT_EQ(fault_of("both(q)", "fn both(a) = a + sum(a * gap over touching)\n"), "");
+    EXPECT_EQ(fault_of("sum(sum(distance over touching) over near(k))"), "");
+}
+
+TEST(CheckLinks, NearTakesOneDistance) {
+    EXPECT_EQ(fault_of("sum(q over near)"), "'near' takes a distance | sum(e over near(0.1))");
+    EXPECT_EQ(fault_of("sum(q over near(1, 2))"),
+              "'near' takes one distance | such as sum(e over near(0.1))");
+    EXPECT_EQ(
+        fault_of("sum(q over near(2 * q))"),
+        "the distance of 'near' is the same for all cells | a number or a parameter can stand "
+        "here");
+    EXPECT_EQ(fault_of("product(q over touching)"),
+              "product cannot be taken over neighbours | mean, sum, min and max can");
+}
+
+TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
+    const auto fault = [](const std::string& rate) {
+        return check_text("system s { u: 0; u' = " + rate + " }\nstage t: s { }\n")->faults()[0];
+    };
+    EXPECT_THAT(fault("sum(u over touching)"),
+                ::testing::EndsWith(
+                    "there is no index 'touching' | cells that crawl have neighbours; "
+                    "fields have none"));
+    EXPECT_THAT(fault("length(u)"),
+                ::testing::EndsWith("it belongs in a system of cells that crawl"));
+    EXPECT_THAT(fault("contact"),
+                ::testing::EndsWith("'contact' is known to cells that crawl only"));
+    EXPECT_EQ(
+        fault_of("dx(q)"),
+        "dx cannot stand here | cells that crawl are no grid; lap(e) and sums over neighbours "
+        "have a meaning");
+}
+
+}  // namespace
+}  // namespace cascade::testing
