@@ -195,7 +195,10 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
                    refuse("cells have no neighbours before the stage starts");
         case Contexts::rates:
             return at_step || refuse("it belongs in rates and definitions of a system");
-        case Contexts::values: return at_start || refuse("it belongs in values (name: …)");
+        case Contexts::values:
+            // A cell that crawls reads the model where it is.
+            if (in_cells() && at_step && needs_model(function)) return true;
+            return at_start || refuse("it belongs in values (name: …)");
         case Contexts::noisy:
             return at_start || at_step || refuse("pictures have no randomness of their own");
         case Contexts::picture:

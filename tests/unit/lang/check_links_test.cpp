@@ -65,6 +65,11 @@ TEST(CheckLinks, NearTakesOneDistance) {
               "product cannot be taken over neighbours | mean, sum, min and max can");
 }
 
+TEST(CheckLinks, CellsReadTheModelWhereTheyAre) {
+    EXPECT_EQ(fault_of("attr(\"fur\")").find("attr has a meaning on models only"), 0u);
+    EXPECT_EQ(fault_of("field(\"a.npy\")").find("field cannot stand here"), 0u);
+}
+
 TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
     const auto fault = [](const std::string& rate) {
         return check_text("system s { u: 0; u' = " + rate + " }\nstage t: s { }\n")->faults()[0];
