@@ -194,6 +194,7 @@ private:
     /// Ends the step at its first event, if there is one.
     bool finish_step(TriedStep tried, double length) {
         events_ = {};
+        is_quiet_ = false;
         if (rules_.conditions().values.problem != nullptr) {
             std::vector<Field> beginning = stepper_.lend_beginning(tried);
             const StepEnds ends{beginning, tissue_.species, stepper_.moment(length),
@@ -207,6 +208,7 @@ private:
             }
             const std::optional<FirstEvents>& found = *first;
             if (found) events_ = found->events;
+            is_quiet_ = !found;
             if (found && found->part < 1) {
                 stepper_.undo(tried);
                 length *= found->part;
@@ -255,6 +257,7 @@ private:
                                                    period[2] > 0 ? moved.z : 0});
         }
         if (!is_changed) return;
+        is_quiet_ = false;
         tissue_.pad();
         stepper_.forget_rates();
     }
@@ -262,7 +265,7 @@ private:
     /// Lets cells divide and die that do so now, and looks whether the stage goes on.
     bool happen() {
         EventRounds rounds(rules_, surroundings_, tissue_, species_, schedule_, stepper_);
-        outcome_.failure = rounds.happen(std::exchange(events_, {}));
+        if (!is_quiet_) outcome_.failure = rounds.happen(std::exchange(events_, {}));
         if (outcome_.failure) return false;
         if (rounds.has_changed()) {
             time().last_event = time().t;
@@ -300,7 +303,9 @@ private:
     Pace pace_;
     TissueOutcome outcome_;
     CellEvents events_;  ///< Found by the last step and not yet happened.
-    double now_ = 0;     ///< The present progress towards rest.
+    /// No condition holds at the end of the last step.
+    bool is_quiet_ = false;
+    double now_ = 0;  ///< The present progress towards rest.
     bool is_started_ = false;
 };
 

@@ -69,6 +69,38 @@ TEST(Events, HappenAtTheirMomentsOnCurves) {
     EXPECT_NEAR(times[0], std::log(2), 1e-6 * 0.013);
 }
 
+/// The moments are ln 2 and 2 ln 2. Bisection would evaluate the condition more than 20 times.
+TEST(Events, TakeFewEvaluationsOfConditionsThatGoSmoothlyThroughZero) {
+    for (const Precision precision : {Precision::single, Precision::binary64}) {
+        FunctionRules rules =
+            ripening([](const CellState& cell, double* rates) { rates[4] = 2 - cell.own(4); });
+        int evaluations = 0, before = 0, most = 0, least = 100;
+        rules.condition = [&](const CellState& cell, double* results) {
+            if (cell.element == 0) ++evaluations;
+            results[0] = cell.own(4) - 1;
+        };
+        rules.solver = Solver::rk4;
+        rules.is_judged = false;
+        TissueSchedule schedule;
+        schedule.step = 0.2;
+        schedule.end_time = 2;
+        Growth run(rules, cells_at({{1, 1, 1}}, 0.02, 5), schedule, precision);
+        std::vector<double> times;
+        run.go(100, [&](const Tissue& tissue) {
+            most = std::max(most, evaluations - before);
+            least = std::min(least, evaluations - before);
+            before = evaluations;
+            if (tissue.time.last_event == tissue.time.t) times.push_back(tissue.time.t);
+            return true;
+        });
+        EXPECT_LE(most, 11);
+        EXPECT_EQ(least, 1);
+        ASSERT_EQ(times.size(), 2U);
+        EXPECT_NEAR(times[0], std::log(2), 1e-4);
+        EXPECT_NEAR(times[1], 2 * std::log(2), 2e-4);
+    }
+}
+
 TEST(Events, OfASixteenthOfAStepHappenTogether) {
     TissueRecord start = cells_at({{1, 1, 1}, {1.5, 1, 1}, {1, 1.5, 1}}, 0.02, 5);
     start.species[4] = {0.5, 0.52, 0.46};  // The moments are 0.5, 0.48 and 0.54.
