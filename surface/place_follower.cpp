@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cascade {
 namespace {
@@ -40,22 +41,16 @@ PlaceFollower::PlaceFollower(const SurfaceMesh& mesh) : all_(mesh) {
         }
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
-        const Vector3d normal = mesh.double_area_normal(t);
-        Triangle triangle;
-        triangle.is_smooth = true;
-        for (const std::uint32_t other : around) {
-            triangle.is_smooth =
-                triangle.is_smooth && dot(normal, mesh.double_area_normal(other)) > 0;
-            if (other != t) around_.push_back(other);
-        }
+        around.erase(std::find(around.begin(), around.end(), t));
+        around_.insert(around_.end(), around.begin(), around.end());
         ends_.push_back(static_cast<std::uint32_t>(around_.size()));
+        insides_.push_back(inside_of(mesh, t));
+        insides_[t].steepness = steepness_around(mesh, t, around);
+        Triangle triangle;
         for (std::uint32_t k = 0; k < 3; ++k) {
             triangle.corners[k] = mesh.corner(t, k);
             triangle.is_open[k] = !mesh.across[t][corner_after(k)].exists();
             triangle.is_rim[k] = is_rim[mesh.triangles[t][k]];
-            const double edge =
-                length(mesh.corner(t, corner_before(k)) - mesh.corner(t, corner_after(k)));
-            triangle.heights[k] = edge > 0 ? length(normal) / edge : 0;
         }
         triangle.middle =
             (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) * (1.0 / 3);
@@ -66,28 +61,95 @@ PlaceFollower::PlaceFollower(const SurfaceMesh& mesh) : all_(mesh) {
     }
 }
 
+/// No point is inside a triangle without an area.
+PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
+    Inside inside;
+    inside.corner = mesh.corner(triangle, 0);
+    const Vector3d normal = mesh.double_area_normal(triangle);
+    const double inverse = 1 / dot(normal, normal);
+    if (!std::isfinite(inverse)) return inside;
+    const Vector3d second = mesh.corner(triangle, 1) - inside.corner;
+    const Vector3d third = mesh.corner(triangle, 2) - inside.corner;
+    inside.of_second = cross(third, normal) * inverse;
+    inside.of_third = cross(normal, second) * inverse;
+    inside.normal = unit(normal);
+    const Vector3d of_first = -inside.of_second - inside.of_third;
+    inside.heights = {1 / length(of_first), 1 / length(inside.of_second),
+                      1 / length(inside.of_third)};
+    return inside;
+}
+
+/// The largest ratio, for points of the triangles around, of the height over the plane of this one
+/// to the distance from it in that plane; at most 1 if no triangle is bent by 90° or more,
+/// otherwise infinite. Heights and the distance from an edge's line are linear, so corners decide;
+/// each triangle has one edge, which has all corners that it shares, beyond which it is.
+double PlaceFollower::steepness_around(const SurfaceMesh& mesh, std::uint32_t triangle,
+                                       std::span<const std::uint32_t> around) const {
+    const Inside& inside = insides_[triangle];
+    const std::array<std::uint32_t, 3> own = mesh.triangles[triangle];
+    double most = 0;
+    for (const std::uint32_t other : around) {
+        const bool is_flat = dot(inside.normal, mesh.double_area_normal(other)) > 0;
+        if (!is_flat) return std::numeric_limits<double>::infinity();
+        double of_other = 1;
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            double steepest = 0;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t point = mesh.triangles[other][k];
+                const auto shared = std::find(own.begin(), own.end(), point) - own.begin();
+                if (shared < 3 && static_cast<std::size_t>(shared) != edge) continue;
+                const Vector3d at = mesh.corner(other, k) - inside.corner;
+                const double second = dot(inside.of_second, at), third = dot(inside.of_third, at);
+                const double beyond =
+                    -std::array{1 - second - third, second, third}[edge] * inside.heights[edge];
+                const double height = std::abs(dot(inside.normal, at));
+                steepest = std::max(steepest, beyond > 0 ? height / beyond : 1);
+            }
+            of_other = std::min(of_other, steepest);
+        }
+        most = std::max(most, of_other);
+    }
+    return most;
+}
+
 PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point) const {
+    const Inside& inside = insides_[number];
+    const Vector3d at = point - inside.corner;
+    const double second = dot(inside.of_second, at), third = dot(inside.of_third, at);
+    const double first = 1 - second - third;
+    if (first > 0 && second > 0 && third > 0) {
+        const double height = dot(inside.normal, at);
+        return {number, true, height * height, height, {first, second, third}};
+    }
     const std::array<Vector3d, 3>& corners = triangles_[number].corners;
     const std::array<double, 3> weights = nearest_weights(corners, point);
     const Vector3d apart =
         (corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]) - point;
-    return {number, dot(apart, apart), weights};
+    return {number, false, dot(apart, apart), 0, weights};
 }
 
-/// Where no triangle around is folded over this one, they are all beyond its edges.
+/// All triangles around are beyond the edges, and rise towards the point more slowly than a ball
+/// around it that touches this one. Very near to an edge, rounding could decide.
 bool PlaceFollower::is_nearest_around(const Near& near) const {
-    const Triangle& triangle = triangles_[near.triangle];
-    double to_edge = triangle.heights[0] * near.weights[0];
-    for (std::size_t k = 1; k < 3; ++k) {
-        to_edge = std::min(to_edge, triangle.heights[k] * near.weights[k]);
-    }
-    return triangle.is_smooth && near.square < to_edge * to_edge;
+    if (!near.is_inside) return false;
+    constexpr double rounding = 1e-9;
+    const Inside& inside = insides_[near.triangle];
+    const double to_edge = std::min({inside.heights[0] * (near.weights[0] - rounding),
+                                     inside.heights[1] * (near.weights[1] - rounding),
+                                     inside.heights[2] * (near.weights[2] - rounding)});
+    return inside.steepness * std::abs(near.height) < to_edge;
 }
 
-PlaceFollower::Found PlaceFollower::found(const Near& near) const {
-    const Triangle& triangle = triangles_[near.triangle];
+PlaceFollower::Found PlaceFollower::found(const Near& near, Vector3d point) const {
     Found result;
     result.place = {near.triangle, near.weights};
+    if (near.is_inside) {
+        result.position = point - insides_[near.triangle].normal * near.height;
+        result.distance = std::abs(near.height);
+        return result;
+    }
+    const Triangle& triangle = triangles_[near.triangle];
+    result.distance = std::sqrt(near.square);
     for (std::size_t k = 0; k < 3; ++k) {
         result.position = result.position + triangle.corners[k] * near.weights[k];
         result.is_border = result.is_border || (near.weights[k] == 0 && triangle.is_open[k]) ||
@@ -117,14 +179,14 @@ std::optional<PlaceFollower::Found> PlaceFollower::find(Vector3d point, std::uin
                 }
             }
             if (best.triangle != before) continue;
-            const Found result = found(best);
+            const Found result = found(best, point);
             if (result.is_border) break;
             return result;
         }
     }
     const std::optional<SurfacePlace> place = all_.find(point);
     CHECK(place.has_value(), "a surface has a nearest place");
-    return found(measured(place->triangle, point));
+    return found(measured(place->triangle, point), point);
 }
 
 }  // namespace cascade

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -22,6 +23,7 @@ public:
     struct Found {
         SurfacePlace place;
         Vector3d position;
+        double distance = 0;     ///< Of the point from there.
         bool is_border = false;  ///< The place is on a boundary of the surface.
     };
     /// From the triangle of an earlier place. From none, after a long way, and where the way ends
@@ -30,25 +32,37 @@ public:
     std::optional<Found> find(Vector3d point, std::uint32_t from) const;
 
 private:
+    /// What a point over the inside of a triangle needs, side by side in memory.
+    struct alignas(64) Inside {
+        Vector3d corner;                ///< The first one.
+        Vector3d of_second, of_third;   ///< The gradients of these corners' weights.
+        Vector3d normal;                ///< Of length 1.
+        std::array<double, 3> heights;  ///< Of each corner over its opposite edge.
+        double steepness = 0;           ///< See steepness_around().
+    };
     struct Triangle {
         std::array<Vector3d, 3> corners;
         Vector3d middle;
-        double radius = 0;                ///< Of a ball around the middle with all corners in it.
-        std::array<double, 3> heights{};  ///< Of each corner over its opposite edge.
-        bool is_smooth = false;           ///< No triangle around it is bent by 90° or more.
-        std::array<bool, 3> is_open{};    ///< By corner: the edge opposite is at a boundary.
-        std::array<bool, 3> is_rim{};     ///< By corner: it is at a boundary.
+        double radius = 0;              ///< Of a ball around the middle with all corners in it.
+        std::array<bool, 3> is_open{};  ///< By corner: the edge opposite is at a boundary.
+        std::array<bool, 3> is_rim{};   ///< By corner: it is at a boundary.
     };
     struct Near {
         std::uint32_t triangle = 0;
-        double square = 0;  ///< Of the distance.
+        bool is_inside = false;  ///< The place is not on an edge.
+        double square = 0;       ///< Of the distance.
+        double height = 0;       ///< Of the point over the triangle, where the place is inside.
         std::array<double, 3> weights{};
     };
+    static Inside inside_of(const SurfaceMesh& mesh, std::uint32_t triangle);
+    double steepness_around(const SurfaceMesh& mesh, std::uint32_t triangle,
+                            std::span<const std::uint32_t> around) const;
     Near measured(std::uint32_t triangle, Vector3d point) const;
     bool is_nearest_around(const Near& near) const;
-    Found found(const Near& near) const;
+    Found found(const Near& near, Vector3d point) const;
 
     NearestPlace all_;
+    std::vector<Inside> insides_;
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> ends_;  ///< Those around triangle t end before around_[ends_[t]].
     std::vector<std::uint32_t>

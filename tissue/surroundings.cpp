@@ -22,6 +22,9 @@ class AroundSurface : public Surroundings {
 public:
     explicit AroundSurface(const SurfaceMesh& mesh)
         : mesh_(mesh), follower_(mesh), normals_(sphere_normals(mesh)) {
+        for (const auto& [a, b, c] : mesh.triangles) {
+            corner_normals_.push_back({normals_[a], normals_[b], normals_[c]});
+        }
         for (const auto& edges : mesh.across) {
             for (const TriangleEdge& edge : edges) is_open_ = is_open_ || !edge.exists();
         }
@@ -34,11 +37,11 @@ public:
         if (!found) return near;
         near.place = found->place;
         near.position = found->position;
-        near.normal = normal_at(mesh_, normals_, near.place);
+        near.normal = normal_of(near.place);
         near.is_beyond = found->is_border;
         const Vector3d apart = point - near.position;
         const double height = dot(apart, near.normal);
-        near.off = near.is_beyond ? height : std::copysign(length(apart), height);
+        near.off = near.is_beyond ? height : std::copysign(found->distance, height);
         return near;
     }
     Vector3d held_inside(Vector3d point, const NearPlace& near) const override {
@@ -53,9 +56,18 @@ public:
     }
 
 private:
+    /// As normal_at(), which looks for the corners' normals in several places.
+    Vector3d normal_of(const SurfacePlace& place) const {
+        const auto& [a, b, c] = corner_normals_[place.triangle];
+        const auto& weights = place.weights;
+        const Vector3d sum = a * weights[0] + b * weights[1] + c * weights[2];
+        return dot(sum, sum) > 0 ? unit(sum) : normal_at(mesh_, normals_, place);
+    }
+
     const SurfaceMesh& mesh_;
     PlaceFollower follower_;
-    std::vector<Vector3d> normals_;
+    std::vector<Vector3d> normals_;                        ///< By point,
+    std::vector<std::array<Vector3d, 3>> corner_normals_;  ///< and by triangle and corner.
     bool is_open_ = false;
 };
 

@@ -27,8 +27,11 @@ void expect_nearest_places(const SurfaceMesh& mesh, double step, double rise) {
         ASSERT_TRUE(found);
         const auto expected = all.find(point);
         EXPECT_EQ(found->place.triangle, expected->triangle);
-        EXPECT_EQ(found->place.weights, expected->weights);
-        EXPECT_EQ(found->position, position_of(mesh, *expected));
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            EXPECT_NEAR(found->place.weights[corner], expected->weights[corner], 1e-12);
+        }
+        EXPECT_LT(length(found->position - position_of(mesh, *expected)), 1e-13);
+        EXPECT_NEAR(found->distance, length(point - found->position), 1e-13);
         triangle = found->place.triangle;
         on_surface = found->position + random_step(random, rise);
     }
@@ -42,6 +45,32 @@ TEST(PlaceFollower, FindsTheNearestPlacesOfATorus) {
 
 TEST(PlaceFollower, FindsTheNearestPlacesAtSharpEdges) {
     expect_nearest_places(*box_mesh({1, 2, 1}, 0.2), 0.1, 0);
+}
+
+/// Slivers share corners and lie at every angle, and points are far from the surface.
+TEST(PlaceFollower, FindsTheNearestPlacesOfARoughSurface) {
+    SurfaceMesh mesh = *sphere_mesh(1, 0.3);
+    RandomStream random(11);
+    for (Vector3d& point : mesh.points) point = point + random_step(random, 0.05);
+    expect_nearest_places(mesh, 0.05, 0.02);
+}
+
+/// The same place to the last bit, from wherever the way begins.
+TEST(PlaceFollower, FindsPlacesThatDoNotDependOnTheWay) {
+    const SurfaceMesh mesh = *torus_mesh(1, 0.42, 0.1);
+    const PlaceFollower follower(mesh);
+    RandomStream random(5);
+    for (int k = 0; k < 5000; ++k) {
+        const auto triangle = static_cast<std::uint32_t>(random.next() % mesh.triangles.size());
+        const Vector3d point = mesh.corner(triangle, 0) + random_step(random, 0.1);
+        const auto found = follower.find(point, triangle);
+        for (const std::uint32_t from : {found->place.triangle, TriangleEdge::none}) {
+            const auto again = follower.find(point, from);
+            EXPECT_EQ(again->place.triangle, found->place.triangle);
+            EXPECT_EQ(again->place.weights, found->place.weights);
+            EXPECT_EQ(again->position, found->position);
+        }
+    }
 }
 
 /// Beyond the boundary the nearest place is on it.
