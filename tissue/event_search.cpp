@@ -11,9 +11,11 @@
 namespace cascade {
 namespace {
 
-constexpr double part_to_find = 0x1p-20;
-/// Bisection would take 20. Conditions without slopes take a few more, smooth ones a fifth of it.
-constexpr int most_probes = 24;
+/// The part of a step to which moments are found: 2 to this power. In single precision species
+/// change by less than their rounding in shorter ones.
+int power_of(Precision precision) { return precision == Precision::single ? -16 : -20; }
+/// Conditions without slopes take a few probes more than bisection, smooth ones a fifth of them.
+constexpr int more_than_bisection = 4;
 
 /// The cubic through the ends of a step.
 class Cubic {
@@ -154,13 +156,16 @@ struct Bracket {
 /// method: I. Oliveira, R. Takahashi, "An Enhancement of the Bisection Method Average Performance
 /// Preserving Minmax Optimality", ACM Trans. Math. Software 47(1), 2020). `look` gives the probe
 /// at a part.
-Result<void> narrow(Bracket& bracket, const std::function<Result<Probe>(double part)>& look) {
+Result<void> narrow(Bracket& bracket, int power,
+                    const std::function<Result<Probe>(double part)>& look) {
+    const double part_to_find = std::ldexp(1, power);
     double beyond = part_to_find / 2, estimate_before = -1;
-    for (int left = most_probes - 1; bracket.width() > part_to_find; --left) {
+    for (int left = more_than_bisection - power - 1; bracket.width() > part_to_find; --left) {
         const double begin = bracket.first.part, end = bracket.last.part;
         const double estimate = bracket.estimate();
         const bool is_near_begin = estimate - begin < end - estimate;
-        double part = is_near_begin ? estimate + beyond : estimate - beyond;
+        const double further = std::min(beyond, bracket.width() / 2);
+        double part = is_near_begin ? estimate + further : estimate - further;
         const double longest = std::ldexp(part_to_find, left);
         part = std::clamp(part, begin + part_to_find / 2, end - part_to_find / 2);
         part = std::max(end - longest, std::min(begin + longest, part));
@@ -213,7 +218,7 @@ Result<std::optional<FirstEvents>> first_events(TissueRules& rules, const StepEn
     Cubic cubic(ends, rates_at(ends.old_state, 0), std::move(new_rates));
     const auto look = [&](double part) { return probe_at(cubic.at(part), part); };
     Bracket bracket{*at_beginning, std::move(*at_end), *at_beginning};
-    if (const auto narrowed = narrow(bracket, look); !narrowed) {
+    if (const auto narrowed = narrow(bracket, power_of(tissue.precision()), look); !narrowed) {
         return tl::unexpected(narrowed.error());
     }
     FirstEvents first{bracket.last.part, bracket.last.events()};

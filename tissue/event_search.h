@@ -29,12 +29,12 @@ struct FirstEvents {
     CellEvents events;
 };
 
-/// The first moment of the step at which a condition holds, to 2^-20 of its length, and the cells
-/// for which one holds then or in the following `window`, a part of the step. Conditions whose
-/// values go smoothly through 0 take about five evaluations, others up to 24. Values between the
-/// ends are those of the cubic through both with the rates there (Hermite), which differs from the
-/// solution by a term in step⁴. Nothing if no condition holds at the end. Conditions must not hold
-/// at the beginning. Fails if `reach` does.
+/// The first moment of the step at which a condition holds, to 2^-20 of its length (2^-16 in single
+/// precision), and the cells for which one holds then or in the following `window`, a part of the
+/// step. Conditions whose values go smoothly through 0 take about five evaluations, others up
+/// to 24. Values between the ends are those of the cubic through both with the rates there
+/// (Hermite), which differs from the solution by a term in step⁴. Nothing if no condition holds at
+/// the end. Conditions must not hold at the beginning. Fails if `reach` does.
 Result<std::optional<FirstEvents>> first_events(TissueRules& rules, const StepEnds& ends,
                                                 double window, const Tissue& tissue,
                                                 ValueRunner& runner);
