@@ -52,11 +52,6 @@ PlaceFollower::PlaceFollower(const SurfaceMesh& mesh) : all_(mesh) {
             triangle.is_open[k] = !mesh.across[t][corner_after(k)].exists();
             triangle.is_rim[k] = is_rim[mesh.triangles[t][k]];
         }
-        triangle.middle =
-            (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) * (1.0 / 3);
-        for (const Vector3d& corner : triangle.corners) {
-            triangle.radius = std::max(triangle.radius, length(corner - triangle.middle));
-        }
         triangles_.push_back(triangle);
     }
 }
@@ -74,52 +69,72 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
     inside.of_third = cross(normal, second) * inverse;
     inside.normal = unit(normal);
     const Vector3d of_first = -inside.of_second - inside.of_third;
-    inside.heights = {1 / length(of_first), 1 / length(inside.of_second),
-                      1 / length(inside.of_third)};
+    const std::array gradients{of_first, inside.of_second, inside.of_third};
+    for (std::size_t k = 0; k < 3; ++k) {
+        inside.heights[k] = static_cast<float>(1 / length(gradients[k]));
+    }
     return inside;
 }
 
-/// The largest ratio, for points of the triangles around, of the height over the plane of this one
-/// to the distance from it in that plane; at most 1 if no triangle is bent by 90° or more,
-/// otherwise infinite. Heights and the distance from an edge's line are linear, so corners decide;
-/// each triangle has one edge, which has all corners that it shares, beyond which it is.
-double PlaceFollower::steepness_around(const SurfaceMesh& mesh, std::uint32_t triangle,
-                                       std::span<const std::uint32_t> around) const {
+/// The largest ratio, for points of the triangles around, of the height over the plane of this one,
+/// on either side of it, to the distance from it in that plane; at most 1 if no triangle is bent by
+/// 90° or more, otherwise infinite. Heights and the distance from an edge's line are linear, so
+/// corners decide; each triangle has one edge, which has all corners that it shares, beyond which
+/// it is.
+std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
+                                                     std::uint32_t triangle,
+                                                     std::span<const std::uint32_t> around) const {
     const Inside& inside = insides_[triangle];
     const std::array<std::uint32_t, 3> own = mesh.triangles[triangle];
-    double most = 0;
+    std::array<double, 2> most{};
     for (const std::uint32_t other : around) {
         const bool is_flat = dot(inside.normal, mesh.double_area_normal(other)) > 0;
-        if (!is_flat) return std::numeric_limits<double>::infinity();
-        double of_other = 1;
+        if (!is_flat) return {INFINITY, INFINITY};
+        std::array<double, 2> of_other{1, 1};
         for (std::size_t edge = 0; edge < 3; ++edge) {
-            double steepest = 0;
+            std::array<double, 2> steepest{};
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t point = mesh.triangles[other][k];
                 const auto shared = std::find(own.begin(), own.end(), point) - own.begin();
                 if (shared < 3 && static_cast<std::size_t>(shared) != edge) continue;
                 const Vector3d at = mesh.corner(other, k) - inside.corner;
                 const double second = dot(inside.of_second, at), third = dot(inside.of_third, at);
-                const double beyond =
-                    -std::array{1 - second - third, second, third}[edge] * inside.heights[edge];
-                const double height = std::abs(dot(inside.normal, at));
-                steepest = std::max(steepest, beyond > 0 ? height / beyond : 1);
+                const double beyond = -std::array{1 - second - third, second, third}[edge] *
+                                      double{inside.heights[edge]};
+                const double height = dot(inside.normal, at);
+                for (const std::size_t side : {0, 1}) {
+                    const double rise = std::max(0.0, side == 0 ? height : -height);
+                    steepest[side] = std::max(steepest[side], beyond > 0 ? rise / beyond : 1);
+                }
             }
-            of_other = std::min(of_other, steepest);
+            for (const std::size_t side : {0, 1}) {
+                of_other[side] = std::min(of_other[side], steepest[side]);
+            }
         }
-        most = std::max(most, of_other);
+        for (const std::size_t side : {0, 1}) most[side] = std::max(most[side], of_other[side]);
     }
-    return most;
+    constexpr double rounding = 1 + 1e-6;
+    return {static_cast<float>(most[0] * rounding), static_cast<float>(most[1] * rounding)};
 }
 
-PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point) const {
+/// A place whose distance has a square above `most` may be given as infinitely far.
+PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point,
+                                            double most) const {
     const Inside& inside = insides_[number];
     const Vector3d at = point - inside.corner;
     const double second = dot(inside.of_second, at), third = dot(inside.of_third, at);
     const double first = 1 - second - third;
+    const double height = dot(inside.normal, at);
     if (first > 0 && second > 0 && third > 0) {
-        const double height = dot(inside.normal, at);
         return {number, true, height * height, height, {first, second, third}};
+    }
+    // The triangle is on the other side of each of its edges' lines.
+    const double beyond =
+        std::max({-first * double{inside.heights[0]}, -second * double{inside.heights[1]},
+                  -third * double{inside.heights[2]}});
+    constexpr double rounding = 1 - 1e-6;
+    if ((height * height + beyond * beyond) * rounding > most) {
+        return {number, false, infinity, 0, {}};
     }
     const std::array<Vector3d, 3>& corners = triangles_[number].corners;
     const std::array<double, 3> weights = nearest_weights(corners, point);
@@ -134,10 +149,11 @@ bool PlaceFollower::is_nearest_around(const Near& near) const {
     if (!near.is_inside) return false;
     constexpr double rounding = 1e-9;
     const Inside& inside = insides_[near.triangle];
-    const double to_edge = std::min({inside.heights[0] * (near.weights[0] - rounding),
-                                     inside.heights[1] * (near.weights[1] - rounding),
-                                     inside.heights[2] * (near.weights[2] - rounding)});
-    return inside.steepness * std::abs(near.height) < to_edge;
+    const double to_edge = std::min({double{inside.heights[0]} * (near.weights[0] - rounding),
+                                     double{inside.heights[1]} * (near.weights[1] - rounding),
+                                     double{inside.heights[2]} * (near.weights[2] - rounding)});
+    const double steepness = inside.steepness[near.height < 0 ? 1 : 0];
+    return steepness * std::abs(near.height) < to_edge * (1 - 1e-6);
 }
 
 PlaceFollower::Found PlaceFollower::found(const Near& near, Vector3d point) const {
@@ -167,11 +183,7 @@ std::optional<PlaceFollower::Found> PlaceFollower::find(Vector3d point, std::uin
             if (!is_nearest_around(best)) {
                 const std::uint32_t first = before == 0 ? 0 : ends_[before - 1];
                 for (std::uint32_t k = first; k < ends_[before]; ++k) {
-                    const Triangle& other = triangles_[around_[k]];
-                    const Vector3d apart = other.middle - point;
-                    const double reached = std::sqrt(best.square) + other.radius;
-                    if (dot(apart, apart) > reached * reached * (1 + 1e-12)) continue;
-                    const Near near = measured(around_[k], point);
+                    const Near near = measured(around_[k], point, best.square);
                     if (near.square < best.square ||
                         (near.square == best.square && near.triangle < best.triangle)) {
                         best = near;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,18 +33,19 @@ public:
     std::optional<Found> find(Vector3d point, std::uint32_t from) const;
 
 private:
-    /// What a point over the inside of a triangle needs, side by side in memory.
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    /// A triangle as points near it need it, side by side in memory.
     struct alignas(64) Inside {
-        Vector3d corner;                ///< The first one.
-        Vector3d of_second, of_third;   ///< The gradients of these corners' weights.
-        Vector3d normal;                ///< Of length 1.
-        std::array<double, 3> heights;  ///< Of each corner over its opposite edge.
-        double steepness = 0;           ///< See steepness_around().
+        Vector3d corner;                 ///< The first one.
+        Vector3d of_second, of_third;    ///< The gradients of these corners' weights.
+        Vector3d normal;                 ///< Of length 1; 0 if there is no area.
+        std::array<float, 3> heights{};  ///< Of each corner over its opposite edge.
+        /// How steeply the triangles around rise on the side of the normal and on the other one:
+        /// see steepness_around().
+        std::array<float, 2> steepness{};
     };
     struct Triangle {
         std::array<Vector3d, 3> corners;
-        Vector3d middle;
-        double radius = 0;              ///< Of a ball around the middle with all corners in it.
         std::array<bool, 3> is_open{};  ///< By corner: the edge opposite is at a boundary.
         std::array<bool, 3> is_rim{};   ///< By corner: it is at a boundary.
     };
@@ -55,9 +57,9 @@ private:
         std::array<double, 3> weights{};
     };
     static Inside inside_of(const SurfaceMesh& mesh, std::uint32_t triangle);
-    double steepness_around(const SurfaceMesh& mesh, std::uint32_t triangle,
-                            std::span<const std::uint32_t> around) const;
-    Near measured(std::uint32_t triangle, Vector3d point) const;
+    std::array<float, 2> steepness_around(const SurfaceMesh& mesh, std::uint32_t triangle,
+                                          std::span<const std::uint32_t> around) const;
+    Near measured(std::uint32_t triangle, Vector3d point, double most = infinity) const;
     bool is_nearest_around(const Near& near) const;
     Found found(const Near& near, Vector3d point) const;
 
