@@ -16,6 +16,9 @@ namespace {
 constexpr std::array<std::uint32_t, 14> numbers_of_stages{3,  5,  7,  9,  11, 13, 17,
                                                           21, 27, 35, 45, 57, 75, 99};
 
+/// The number of lists after a repeated step that are made to last for any step.
+constexpr int builds_after_repeat = 16;
+
 NeighbourRule rule_of(const TissueSchedule& schedule, const Surroundings& surroundings) {
     NeighbourRule rule = schedule.neighbours;
     rule.period = surroundings.period();
@@ -65,7 +68,8 @@ Result<void> TissueStepper::reach(const std::vector<Field>& state, double around
 }
 
 Result<void> TissueStepper::build_lists(const std::vector<Field>& state, bool is_full) {
-    auto built = lists_.build(tissue_, state, is_full);
+    auto built = lists_.build(tissue_, state, is_full || full_builds_ > 0);
+    full_builds_ = std::max(0, full_builds_ - 1);
     const auto cells = static_cast<std::int64_t>(tissue_.count());
     for (auto& [stages, problem] : problems_) problem.cells_inside = cells;
     return built;
@@ -155,6 +159,7 @@ Result<TriedStep> TissueStepper::attempt(double length) {
             return tried;
         }
         undo(tried);
+        full_builds_ = builds_after_repeat;
         const auto built = build_lists(tissue_.species, true);
         if (!built) return tl::unexpected(built.error());
     }

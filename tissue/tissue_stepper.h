@@ -81,6 +81,7 @@ private:
     const TissueSchedule& schedule_;
     Team team_;
     CellLists lists_;
+    int full_builds_ = 0;  ///< The number of lists to be made that last for any step.
     ValueRunner values_;
     std::map<std::uint32_t, StepProblem> problems_;  ///< By stages.
     std::optional<Stepper> stepper_;
