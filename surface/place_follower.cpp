@@ -77,31 +77,37 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
 }
 
 /// The largest ratio, for points of the triangles around, of the height over the plane of this one,
-/// on either side of it, to the distance from it in that plane; at most 1 if no triangle is bent by
-/// 90° or more, otherwise infinite. Heights and the distance from an edge's line are linear, so
-/// corners decide; each triangle has one edge, which has all corners that it shares, beyond which
-/// it is.
+/// on either side of it, to the distance from it in that plane. Almost all triangles are beyond the
+/// line of an edge or beyond a corner; heights and the distance from there are linear, so their
+/// corners decide. At most 1, by which no triangle that is bent by less than 90° comes nearer to a
+/// point whose height is less than its distance from the edges; infinite if one is bent by more.
 std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
                                                      std::uint32_t triangle,
                                                      std::span<const std::uint32_t> around) const {
     const Inside& inside = insides_[triangle];
     const std::array<std::uint32_t, 3> own = mesh.triangles[triangle];
+    const std::array outward{unit(inside.of_second + inside.of_third), -unit(inside.of_second),
+                             -unit(inside.of_third)};
+    // By edge, numbered by the corner opposite, then by corner.
+    std::array<Vector3d, 6> directions;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        directions[k] = outward[k];
+        directions[3 + k] = unit(outward[corner_after(k)] + outward[corner_before(k)]);
+    }
     std::array<double, 2> most{};
     for (const std::uint32_t other : around) {
         const bool is_flat = dot(inside.normal, mesh.double_area_normal(other)) > 0;
         if (!is_flat) return {INFINITY, INFINITY};
         std::array<double, 2> of_other{1, 1};
-        for (std::size_t edge = 0; edge < 3; ++edge) {
+        for (std::uint32_t k = 0; k < 6; ++k) {
+            const std::uint32_t corner = k % 3;
+            const Vector3d from = mesh.corner(triangle, k < 3 ? corner_after(corner) : corner);
             std::array<double, 2> steepest{};
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t point = mesh.triangles[other][k];
+            for (const std::uint32_t point : mesh.triangles[other]) {
                 const auto shared = std::find(own.begin(), own.end(), point) - own.begin();
-                if (shared < 3 && static_cast<std::size_t>(shared) != edge) continue;
-                const Vector3d at = mesh.corner(other, k) - inside.corner;
-                const double second = dot(inside.of_second, at), third = dot(inside.of_third, at);
-                const double beyond = -std::array{1 - second - third, second, third}[edge] *
-                                      double{inside.heights[edge]};
-                const double height = dot(inside.normal, at);
+                if (shared < 3 && (shared == corner) == (k >= 3)) continue;
+                const Vector3d at = mesh.points[point] - from;
+                const double beyond = dot(directions[k], at), height = dot(inside.normal, at);
                 for (const std::size_t side : {0, 1}) {
                     const double rise = std::max(0.0, side == 0 ? height : -height);
                     steepest[side] = std::max(steepest[side], beyond > 0 ? rise / beyond : 1);
@@ -121,19 +127,18 @@ std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
 PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point,
                                             double most) const {
     const Inside& inside = insides_[number];
-    const Vector3d at = point - inside.corner;
-    const double second = dot(inside.of_second, at), third = dot(inside.of_third, at);
-    const double first = 1 - second - third;
-    const double height = dot(inside.normal, at);
+    const Over over = inside.over(point);
+    const auto& [first, second, third] = over.weights;
+    const double square = over.height * over.height;
     if (first > 0 && second > 0 && third > 0) {
-        return {number, true, height * height, height, {first, second, third}};
+        return {number, true, square, over.height, over.weights};
     }
     // The triangle is on the other side of each of its edges' lines.
     const double beyond =
         std::max({-first * double{inside.heights[0]}, -second * double{inside.heights[1]},
                   -third * double{inside.heights[2]}});
     constexpr double rounding = 1 - 1e-6;
-    if ((height * height + beyond * beyond) * rounding > most) {
+    if ((square + beyond * beyond) * rounding > most) {
         return {number, false, infinity, 0, {}};
     }
     const std::array<Vector3d, 3>& corners = triangles_[number].corners;
@@ -141,19 +146,6 @@ PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point
     const Vector3d apart =
         (corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]) - point;
     return {number, false, dot(apart, apart), 0, weights};
-}
-
-/// All triangles around are beyond the edges, and rise towards the point more slowly than a ball
-/// around it that touches this one. Very near to an edge, rounding could decide.
-bool PlaceFollower::is_nearest_around(const Near& near) const {
-    if (!near.is_inside) return false;
-    constexpr double rounding = 1e-9;
-    const Inside& inside = insides_[near.triangle];
-    const double to_edge = std::min({double{inside.heights[0]} * (near.weights[0] - rounding),
-                                     double{inside.heights[1]} * (near.weights[1] - rounding),
-                                     double{inside.heights[2]} * (near.weights[2] - rounding)});
-    const double steepness = inside.steepness[near.height < 0 ? 1 : 0];
-    return steepness * std::abs(near.height) < to_edge * (1 - 1e-6);
 }
 
 PlaceFollower::Found PlaceFollower::found(const Near& near, Vector3d point) const {
@@ -180,7 +172,10 @@ std::optional<PlaceFollower::Found> PlaceFollower::find(Vector3d point, std::uin
         Near best = measured(from, point);
         for (int move = 0; move < most_moves; ++move) {
             const std::uint32_t before = best.triangle;
-            if (!is_nearest_around(best)) {
+            const bool is_nearest =
+                best.is_inside &&
+                insides_[before].is_nearest({best.weights, best.height, insides_[before].normal});
+            if (!is_nearest) {
                 const std::uint32_t first = before == 0 ? 0 : ends_[before - 1];
                 for (std::uint32_t k = first; k < ends_[before]; ++k) {
                     const Near near = measured(around_[k], point, best.square);

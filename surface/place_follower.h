@@ -3,7 +3,9 @@
 
 #include "surface/nearest_place.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -32,6 +34,22 @@ public:
     /// Nothing if the point is not finite.
     std::optional<Found> find(Vector3d point, std::uint32_t from) const;
 
+    /// A point over the inside of a triangle.
+    struct Over {
+        std::array<double, 3> weights;
+        double height = 0;  ///< Over the triangle.
+        Vector3d normal;    ///< Of the triangle, of length 1.
+    };
+    /// The same as find() where it stays in the inside of the triangle that it begins from, at
+    /// once; nothing elsewhere.
+    std::optional<Over> stay(Vector3d point, std::uint32_t from) const {
+        if (from >= insides_.size()) return std::nullopt;
+        const Inside& inside = insides_[from];
+        const Over over = inside.over(point);
+        if (!inside.is_nearest(over)) return std::nullopt;
+        return over;
+    }
+
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     /// A triangle as points near it need it, side by side in memory.
@@ -43,6 +61,23 @@ private:
         /// How steeply the triangles around rise on the side of the normal and on the other one:
         /// see steepness_around().
         std::array<float, 2> steepness{};
+
+        Over over(Vector3d point) const {
+            const Vector3d at = point - corner;
+            const double second = dot(of_second, at), third = dot(of_third, at);
+            return {{1 - second - third, second, third}, dot(normal, at), normal};
+        }
+        /// Is no place of the triangles around nearer? They are all beyond the edges, and rise
+        /// towards the point more slowly than a ball around it that touches this one. Very near to
+        /// an edge, rounding could decide, and the answer is no.
+        bool is_nearest(const Over& over) const {
+            constexpr double edge = 1e-9, rounding = 1 - 1e-6;
+            const double to_edge = std::min({double{heights[0]} * (over.weights[0] - edge),
+                                             double{heights[1]} * (over.weights[1] - edge),
+                                             double{heights[2]} * (over.weights[2] - edge)});
+            const double steep = double{steepness[over.height < 0 ? 1 : 0]};
+            return steep * std::abs(over.height) < to_edge * rounding;
+        }
     };
     struct Triangle {
         std::array<Vector3d, 3> corners;
@@ -60,7 +95,6 @@ private:
     std::array<float, 2> steepness_around(const SurfaceMesh& mesh, std::uint32_t triangle,
                                           std::span<const std::uint32_t> around) const;
     Near measured(std::uint32_t triangle, Vector3d point, double most = infinity) const;
-    bool is_nearest_around(const Near& near) const;
     Found found(const Near& near, Vector3d point) const;
 
     NearestPlace all_;

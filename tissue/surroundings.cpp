@@ -33,14 +33,20 @@ public:
     NearPlace near(Vector3d point, std::uint32_t triangle) const override {
         NearPlace near = near_nothing(point);
         near.place.triangle = triangle;
+        if (const auto over = follower_.stay(point, triangle)) {
+            near.place.weights = over->weights;
+            near.position = point - over->normal * over->height;
+            near.normal = normal_of(triangle, over->weights);
+            near.off = std::copysign(over->height, dot(point - near.position, near.normal));
+            return near;
+        }
         const auto found = follower_.find(point, triangle);
         if (!found) return near;
         near.place = found->place;
         near.position = found->position;
-        near.normal = normal_of(near.place);
+        near.normal = normal_of(near.place.triangle, near.place.weights);
         near.is_beyond = found->is_border;
-        const Vector3d apart = point - near.position;
-        const double height = dot(apart, near.normal);
+        const double height = dot(point - near.position, near.normal);
         near.off = near.is_beyond ? height : std::copysign(found->distance, height);
         return near;
     }
@@ -57,11 +63,10 @@ public:
 
 private:
     /// As normal_at(), which looks for the corners' normals in several places.
-    Vector3d normal_of(const SurfacePlace& place) const {
-        const auto& [a, b, c] = corner_normals_[place.triangle];
-        const auto& weights = place.weights;
+    Vector3d normal_of(std::uint32_t triangle, const std::array<double, 3>& weights) const {
+        const auto& [a, b, c] = corner_normals_[triangle];
         const Vector3d sum = a * weights[0] + b * weights[1] + c * weights[2];
-        return dot(sum, sum) > 0 ? unit(sum) : normal_at(mesh_, normals_, place);
+        return dot(sum, sum) > 0 ? unit(sum) : normal_at(mesh_, normals_, {triangle, weights});
     }
 
     const SurfaceMesh& mesh_;

@@ -25,6 +25,11 @@ void expect_nearest_places(const SurfaceMesh& mesh, double step, double rise) {
         const Vector3d point = on_surface + random_step(random, step);
         const auto found = follower.find(point, triangle);
         ASSERT_TRUE(found);
+        if (const auto over = follower.stay(point, triangle)) {
+            EXPECT_EQ(found->place.triangle, triangle);
+            EXPECT_EQ(found->place.weights, over->weights);
+            EXPECT_EQ(found->position, point - over->normal * over->height);
+        }
         const auto expected = all.find(point);
         EXPECT_EQ(found->place.triangle, expected->triangle);
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -99,6 +104,24 @@ TEST(PlaceFollower, TakesAnyTriangleToBeginWith) {
         }
     }
     EXPECT_FALSE(follower.find({NAN, 0, 0}, 0));
+}
+
+/// Where cells move little, most of them stay in the inside of their triangles.
+TEST(PlaceFollower, MostlyStaysWherePlacesMoveLittle) {
+    const SurfaceMesh mesh = *sphere_mesh(1, 0.05);
+    const PlaceFollower follower(mesh);
+    RandomStream random(3);
+    int stays = 0;
+    constexpr int points = 2000;
+    for (int k = 0; k < points; ++k) {
+        const Vector3d outside = unit(random_step(random, 1)) * 1.01;
+        const auto found = follower.find(outside, TriangleEdge::none);
+        const Vector3d point = outside + random_step(random, 0.001);
+        stays += follower.stay(point, found->place.triangle) ? 1 : 0;
+    }
+    EXPECT_GT(stays, points * 8 / 10);
+    EXPECT_FALSE(follower.stay({1, 0, 0}, TriangleEdge::none));
+    EXPECT_FALSE(follower.stay({NAN, 0, 0}, 0));
 }
 
 /// A cell that is on one sheet stays there when another one is near.
