@@ -1,6 +1,6 @@
 // cascade_tissue_bench: 100,000 cells on a torus, one core. Their neighbours, their order in
 // memory, what they sense, and their rates (collision, adhesion, combing) by native code and by a
-// scalar loop in C++.
+// scalar loop in C++; and a tissue that grows (tissue_growth.cpp).
 #include "bench/straight_tissue.h"
 #include "core/floating_point.h"
 #include "ir/expression.h"
