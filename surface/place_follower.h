@@ -34,6 +34,12 @@ public:
     /// Nothing if the point is not finite.
     std::optional<Found> find(Vector3d point, std::uint32_t from) const;
 
+    /// Brings the data of stay() to the cache.
+    void prepare(std::uint32_t triangle) const {
+        if (triangle >= insides_.size()) return;
+        __builtin_prefetch(&insides_[triangle]);
+        __builtin_prefetch(reinterpret_cast<const char*>(&insides_[triangle]) + 64);
+    }
     /// A point over the inside of a triangle.
     struct Over {
         std::array<double, 3> weights;

@@ -11,6 +11,9 @@
 namespace cascade {
 namespace {
 
+/// How far ahead of the present cell, in cells, data is brought to the cache.
+constexpr std::int64_t ahead = 6;
+
 class SenseKernel : public Kernel {
 public:
     SenseKernel(std::shared_ptr<const Surroundings> surroundings, std::vector<Sense> senses,
@@ -35,6 +38,10 @@ private:
             for (std::int64_t column = 0; column < layout.width; ++column) {
                 const std::int64_t place = row * layout.width + column;
                 const auto cell = static_cast<std::size_t>(std::min(place, count - 1));
+                if (place + ahead < count) {
+                    surroundings_->prepare(
+                        triangles_->before[static_cast<std::size_t>(place + ahead)]);
+                }
                 const std::int64_t at = layout.row_start(row) + column;
                 const Vector3d point = {arguments.fields[0][at], arguments.fields[1][at],
                                         arguments.fields[2][at]};

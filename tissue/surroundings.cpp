@@ -50,6 +50,13 @@ public:
         near.off = near.is_beyond ? height : std::copysign(found->distance, height);
         return near;
     }
+    void prepare(std::uint32_t triangle) const override {
+        if (triangle >= corner_normals_.size()) return;
+        follower_.prepare(triangle);
+        const auto* const normals = reinterpret_cast<const char*>(&corner_normals_[triangle]);
+        __builtin_prefetch(normals);
+        __builtin_prefetch(normals + sizeof(corner_normals_[0]) - 1);
+    }
     Vector3d held_inside(Vector3d point, const NearPlace& near) const override {
         return near.is_beyond ? near.position + near.normal * near.off : point;
     }

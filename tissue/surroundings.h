@@ -35,6 +35,9 @@ public:
     /// The place nearest to a cell, by way of the triangle that was nearest to it before or
     /// no_triangle. `off` is NaN if the point is not finite.
     virtual NearPlace near(Vector3d point, std::uint32_t triangle) const = 0;
+    /// Says that near() will be asked about this triangle soon, so that its data comes to the
+    /// cache.
+    virtual void prepare(std::uint32_t) const {}
     /// Where a cell is if walls stop it at the sides of a plane or at the boundary of an open
     /// surface, and periodic sides bring it back from the opposite one.
     virtual Vector3d held_inside(Vector3d point, const NearPlace& near) const = 0;
