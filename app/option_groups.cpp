@@ -202,6 +202,9 @@ void add_files(CLI::App& app, RunRequest& run) {
     app.add_flag("--retile", run.model_files.retile,
                  "Models as triangles between their cells, instead of\ntheir own triangles refined")
         ->group(group);
+    app.add_flag("--merge", run.model_files.merge,
+                 "Cells that crawl as plain triangles, for programs that\nknow no instances")
+        ->group(group);
     add_value(app, "--bake", "N",
               "A model .glb with maps of N x N texels, which are\nwritten beside it too; by the "
               "model's texture coordinates",

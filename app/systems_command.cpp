@@ -65,7 +65,9 @@ void print_line(std::string_view name, std::string_view about, Console& console)
 
 std::vector<std::string> library_names() {
     std::vector<std::string> names;
-    for (const LibraryText& text : library_texts()) names.emplace_back(text.system_name());
+    for (const auto texts : {library_texts(), library_cells()}) {
+        for (const LibraryText& text : texts) names.emplace_back(text.system_name());
+    }
     return names;
 }
 
@@ -79,12 +81,12 @@ Failure unknown_system(std::string_view name) {
 /// Systems of the library that contain all `words`.
 std::vector<std::string> matches(const std::vector<std::string>& words) {
     std::vector<std::string> names;
-    for (const LibraryText& text : library_texts()) {
-        const LibraryNote note = note_of(text);
+    for (const std::string& name : library_names()) {
+        const LibraryNote note = note_of(*find_library_text(name));
         const bool mentions_all =
             std::all_of(words.begin(), words.end(),
                         [&](const std::string& word) { return note.mentions(word); });
-        if (mentions_all) names.emplace_back(text.system_name());
+        if (mentions_all) names.push_back(name);
     }
     return names;
 }

@@ -103,6 +103,10 @@ bool EventRounds::restart(const Divided& divided) {
         for (const auto* const cells : {&divided.mothers, &divided.children}) {
             for (const std::uint32_t cell : *cells) {
                 const double value = value_in(values[k], tissue_, cell);
+                if (species >= tissue_.species.size()) {
+                    tissue_.set_kept(species - tissue_.species.size(), cell, value);
+                    continue;
+                }
                 has_grown = has_grown || (species == species_.radius &&
                                           !(value <= tissue_.value(species, cell)));
                 tissue_.set(species, cell, value);

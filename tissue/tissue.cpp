@@ -58,6 +58,10 @@ std::vector<std::vector<double>> numbers_in(const std::vector<Field>& fields,
                                             std::span<const std::uint32_t> cells) {
     std::vector<std::vector<double>> result;
     for (const Field& field : fields) {
+        if (field.empty()) {
+            result.emplace_back();
+            continue;
+        }
         field.visit([&](const auto& plane) {
             const auto values = read(plane, cells);
             result.emplace_back(values.begin(), values.end());
@@ -84,6 +88,12 @@ std::vector<Value> gathered(const std::vector<Value>& from,
     return to;
 }
 
+void set_in(Field& field, std::int64_t element, double value) {
+    field.visit([&]<typename Number>(Plane<Number>& plane) {
+        plane.origin()[element] = static_cast<Number>(value);
+    });
+}
+
 }  // namespace
 
 Tissue::Tissue(const TissueRecord& record, Precision precision)
@@ -104,7 +114,13 @@ Tissue::Tissue(const TissueRecord& record, Precision precision)
         CHECK(values.size() == count(), "a value for each cell");
         stiffest.push_back(field_of(values, layout_, precision_));
     }
+    for (const std::vector<double>& values : record.kept) {
+        CHECK(values.empty() || values.size() == count(), "a value for each cell");
+        kept.push_back(values.empty() ? Field() : field_of(values, layout_, precision_));
+    }
+    frozen_by_ = record.frozen;
     number_cells();
+    find_frozen();
 }
 
 TissueRecord Tissue::record() const {
@@ -115,6 +131,8 @@ TissueRecord Tissue::record() const {
     }
     result.species = numbers_in(species, by_number_);
     result.stiffest = numbers_in(stiffest, by_number_);
+    result.kept = numbers_in(kept, by_number_);
+    result.frozen = frozen_by_;
     result.next_number = next_number;
     result.births = births;
     result.deaths = deaths;
@@ -147,6 +165,7 @@ void Tissue::number_cells() {
     if (number_plane_.empty() || number_plane_.layout() != layout_) {
         number_plane_ = Field(layout_, precision_);
         inside_ = Mask(layout_);
+        ones_ = Field(layout_, precision_);
     }
     number_plane_.visit([&]<typename Number>(Plane<Number>& plane) {
         using Word = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;
@@ -159,6 +178,11 @@ void Tissue::number_cells() {
     for_each_row(inside_, capacity_of(layout_), [&](std::uint8_t* row, auto first, auto places) {
         for (std::size_t i = 0; i < places; ++i) row[i] = first + i < count() ? 1 : 0;
     });
+    ones_.visit([&]<typename Number>(Plane<Number>& plane) {
+        for_each_row(plane, capacity_of(layout_), [&](Number* row, auto first, auto places) {
+            for (std::size_t i = 0; i < places; ++i) row[i] = first + i < count() ? 1 : 0;
+        });
+    });
 }
 
 bool Tissue::rearrange(std::span<const std::uint32_t> sources, std::size_t first_born) {
@@ -167,11 +191,33 @@ bool Tissue::rearrange(std::span<const std::uint32_t> sources, std::size_t first
     if (sources.size() > room || sources.size() < room / 4) choose_layout(sources.size());
     for (Field& field : species) rearrange_field(field, layout_, sources);
     for (Field& field : stiffest) rearrange_field(field, layout_, sources);
+    for (Field& field : kept) {
+        if (!field.empty()) rearrange_field(field, layout_, sources);
+    }
     triangles = gathered(triangles, sources);
     numbers_ = gathered(numbers_, sources);
     for (std::size_t k = first_born; k < numbers_.size(); ++k) numbers_[k] = next_number++;
     number_cells();
+    find_frozen();
     return layout_ != before;
+}
+
+void Tissue::freeze_by(std::size_t kept_plane) {
+    frozen_by_ = kept_plane;
+    find_frozen();
+}
+
+void Tissue::find_frozen() {
+    if (!frozen_by_) return;
+    if (frozen_.empty() || frozen_.layout() != layout_) frozen_ = Mask(layout_);
+    kept[*frozen_by_].visit([&](const auto& plane) {
+        for_each_row(frozen_, capacity_of(layout_),
+                     [&](std::uint8_t* row, auto first, auto places) {
+                         for (std::size_t i = 0; i < places; ++i) {
+                             row[i] = plane.origin()[element(first + i)] != 0 ? 1 : 0;
+                         }
+                     });
+    });
 }
 
 void Tissue::pad() {
@@ -188,9 +234,11 @@ void Tissue::pad() {
 }
 
 void Tissue::set(std::size_t species_index, std::size_t cell, double value) {
-    species[species_index].visit([&]<typename Number>(Plane<Number>& plane) {
-        plane.origin()[element(cell)] = static_cast<Number>(value);
-    });
+    set_in(species[species_index], element(cell), value);
+}
+
+void Tissue::set_kept(std::size_t kept_index, std::size_t cell, double value) {
+    set_in(kept[kept_index], element(cell), value);
 }
 
 }  // namespace cascade

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct TissueRecord {
     std::vector<std::uint32_t> numbers;
     std::vector<std::vector<double>> species;   ///< By species, then by cell.
     std::vector<std::vector<double>> stiffest;  ///< Likewise: the direction of fastest change.
+    std::vector<std::vector<double>> kept;      ///< Tissue::kept, empty where that is.
+    std::optional<std::size_t> frozen;          ///< Which of them says which cells are frozen.
     std::vector<std::uint32_t> triangles;       ///< Of the surface, nearest to each cell.
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
@@ -77,6 +80,8 @@ public:
 
     /// By species; lent to the steps while these go on.
     std::vector<Field> species;
+    /// Values that no rate changes, which go along with their cells; some may be empty.
+    std::vector<Field> kept;
     /// The direction in which the rates change fastest; empty until it is
     /// known.
     std::vector<Field> stiffest;
@@ -99,6 +104,13 @@ public:
     /// 1 for cells, 0 for the places that repeat the last one.
     const Mask& inside() const { return inside_; }
 
+    /// The same as numbers.
+    const Field& ones() const { return ones_; }
+    /// 1 for cells that are frozen; empty if none can be.
+    const Mask& frozen() const { return frozen_; }
+    /// From now on cells are frozen where this kept plane is not 0.
+    void freeze_by(std::size_t kept_plane);
+
     /// Puts a copy of cell sources[k] at place k, for all k; cells that are not among the sources
     /// disappear. Cells from `first_born` on get the next numbers. Returns whether the layout has
     /// changed; otherwise all planes stay where they are. Throws std::bad_alloc.
@@ -108,17 +120,20 @@ public:
 
     double value(std::size_t species_index, std::size_t cell) const;
     void set(std::size_t species_index, std::size_t cell, double value);
+    void set_kept(std::size_t kept_index, std::size_t cell, double value);
 
 private:
     void choose_layout(std::size_t cells);
     void number_cells();
+    void find_frozen();
 
     Precision precision_;
     Grid grid_;
     PlaneLayout layout_;
     std::vector<std::uint32_t> numbers_, by_number_, elements_by_number_, ranks_;
-    Field number_plane_;
-    Mask inside_;
+    Field number_plane_, ones_;
+    Mask inside_, frozen_;
+    std::optional<std::size_t> frozen_by_;  ///< Of `kept`.
 };
 
 /// The value of a cell in a plane of the tissue's layout.

@@ -83,7 +83,9 @@ public:
     /// in their places and still have all values of their mothers.
     struct Restarts {
         CellValues values;
-        std::vector<std::size_t> species;  ///< Plane k is the new value of species[k].
+        /// Plane k is the new value of species[k]; numbers from that of species on are those of
+        /// Tissue::kept.
+        std::vector<std::size_t> species;
     };
     virtual Restarts restarts() = 0;
 };

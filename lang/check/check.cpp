@@ -138,13 +138,14 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     return std::move(checked->formula);
 }
 
-std::optional<ast::Expression> picture_expression(const ast::Script& script) {
+std::optional<ast::Expression> picture_expression(const ast::Script& script,
+                                                  std::string_view setting) {
     for (const ast::Block& block : script.blocks) {
         if (block.kind != ast::BlockKind::picture) continue;
         for (const ast::Statement& statement : block.statements) {
-            const bool is_color = statement.kind == ast::StatementKind::value &&
-                                  statement.name.text == "color" && !statement.values.empty();
-            if (is_color) return statement.values[0];
+            const bool is_sought = statement.kind == ast::StatementKind::value &&
+                                   statement.name.text == setting && !statement.values.empty();
+            if (is_sought) return statement.values[0];
         }
     }
     return std::nullopt;

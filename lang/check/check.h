@@ -6,6 +6,7 @@
 #include "lang/syntax/ast.h"
 
 #include <optional>
+#include <string_view>
 
 namespace cascade {
 
@@ -24,7 +25,8 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
                                   const Program& program, const Sources& sources,
                                   Diagnostics& diagnostics);
 
-/// The value of `color:` in the script's picture block, if it has one.
-std::optional<ast::Expression> picture_expression(const ast::Script& script);
+/// The value of a setting of the script's picture block, such as `color`, if it has one.
+std::optional<ast::Expression> picture_expression(const ast::Script& script,
+                                                  std::string_view setting = "color");
 
 }  // namespace cascade

@@ -76,6 +76,14 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
 /// left, right, top, bottom, front, back or sides.
 bool is_side_word(std::string_view word);
 
+/// The script's only block of this kind, `name` in messages; null if it has none. Reports a second
+/// one.
+const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
+                             std::string_view name);
+
+/// Reports rules for sides of a single species in a block that cannot have them.
+void report_sides(Workspace& work, const ast::Block& block);
+
 /// Checks the `domain` block, if there is one, and the options for the domain.
 void check_domain(Workspace& work, const ast::Script& script);
 

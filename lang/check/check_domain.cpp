@@ -1,4 +1,4 @@
-// The `domain` and `picture` blocks.
+// The `domain` block.
 #include "ir/multiply_add.h"
 #include "lang/check/check_blocks.h"
 #include "lang/vocabulary/settings.h"
@@ -16,21 +16,6 @@ namespace {
 constexpr double most_cells = 2147483648.0;  // 2^31: a cell's number fits a 32-bit word.
 constexpr double largest_seed = 4294967295.0;
 constexpr double least_spacing = 1e-15;  // Its square and inverse square are normal numbers.
-
-const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
-                             const char* name) {
-    const ast::Block* first = nullptr;
-    for (const ast::Block& block : script.blocks) {
-        if (block.kind != kind) continue;
-        if (first == nullptr) {
-            first = &block;
-        } else {
-            report_twice(work, block.keyword.span, first->keyword.span,
-                         fmt::format("there are two {} blocks", name));
-        }
-    }
-    return first;
-}
 
 Span span_of(const ast::Script& script, ast::Expression expression) {
     return script.expressions[expression.root].span;
@@ -182,15 +167,6 @@ void check_fast(Workspace& work, const ast::Statement& option) {
                              "--fast changes nothing");
 }
 
-/// Reports rules for sides of a single species, which the domain cannot have.
-void report_sides(Workspace& work, const ast::Block& block) {
-    for (const ast::Statement& statement : block.sides) {
-        work.diagnostics.error(join(statement.name.span, statement.side.span),
-                               "the sides of one species belong in its system or in a stage",
-                               "left: … in the domain is for all species");
-    }
-}
-
 void report_no_setting(Workspace& work, const ast::Word& name) {
     std::string hint = hint_about(work, name.text, WordContext::domain,
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
@@ -222,31 +198,6 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
     }
 }
 
-/// The last stage that takes a step, or the last stage if none does.
-std::uint32_t shown_stage(const Program& program) {
-    for (std::size_t i = program.stages.size(); i > 0; --i) {
-        if (program.stages[i - 1].iterations > 0) return static_cast<std::uint32_t>(i - 1);
-    }
-    return static_cast<std::uint32_t>(program.stages.size() - 1);
-}
-
-void check_color(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (work.program.stages.empty() || !has_one_value(work, script, statement)) return;
-    Scope scope;
-    scope.context = Context::picture;
-    scope.stage = shown_stage(work.program);
-    scope.system = work.program.stages[*scope.stage].system;
-    scope.last_stage = static_cast<std::uint32_t>(work.program.stages.size() - 1);
-    const auto checked = check_expression(work, script, statement.values[0], scope);
-    if (!checked) return;
-    if (checked->type() != ValueType::colour) {
-        work.diagnostics.error(span_of(script, statement.values[0]), "color must be a colour",
-                               "rgb(…) and palette(…) make colours");
-        return;
-    }
-    mark_reads(work, checked->formula, scope.system);
-}
-
 }  // namespace
 
 void check_domain(Workspace& work, const ast::Script& script) {
@@ -271,30 +222,6 @@ void check_domain(Workspace& work, const ast::Script& script) {
     }
     if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
     if (!check_model(work, script, block)) check_surface(work, script, block);
-}
-
-void check_picture(Workspace& work, const ast::Script& script) {
-    const ast::Block* block = find_block(work, script, ast::BlockKind::picture, "picture");
-    if (block == nullptr) return;
-    report_sides(work, *block);
-    const ast::Statement* first = nullptr;
-    for (const ast::Statement& statement : block->statements) {
-        if (statement.name.empty() || statement.values.empty()) continue;
-        if (statement.kind != ast::StatementKind::value || statement.name.text != "color") {
-            const std::string hint = hint_about(work, statement.name.text, WordContext::picture,
-                                                settings_of({SettingBlock::picture}));
-            work.diagnostics.error(statement.name.span,
-                                   fmt::format("'{}' is not a setting of the picture",
-                                               statement.name.text),
-                                   hint.empty() ? "a picture has color: …" : hint);
-        } else if (first != nullptr) {
-            report_twice(work, statement.name.span, first->name.span,
-                         "'color' is given a value twice");
-        } else {
-            first = &statement;
-            check_color(work, script, statement);
-        }
-    }
 }
 
 }  // namespace cascade::checking

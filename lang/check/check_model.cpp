@@ -17,7 +17,8 @@ namespace cascade::checking {
 namespace {
 
 constexpr double most_stretched = 100;
-constexpr double most_cells = 268435456;  // 2^28: elements of a plane are indexed by 32-bit words.
+constexpr double most_model_cells =
+    268435456;  // 2^28: elements of a plane are indexed by 32-bit words.
 
 struct ShapeName {
     std::string_view word;
@@ -229,7 +230,7 @@ private:
         }
         const auto count = check_constant(work_, script_, statement.values[0], "cells");
         if (!count) return;
-        if (!(*count >= 1 && *count <= most_cells) || *count != std::floor(*count)) {
+        if (!(*count >= 1 && *count <= most_model_cells) || *count != std::floor(*count)) {
             work_.diagnostics.error(span_of(statement),
                                     "cells must be a whole number from 1 to 268435456",
                                     "cells: 20000, or --cells 20000");

@@ -1,6 +1,8 @@
 // Statements are compared by what they are about and, where two bases disagree, by their text.
 #include "lang/check/join_statements.h"
 
+#include "lang/vocabulary/settings.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -85,8 +87,12 @@ void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
         }
         const std::string subject = subject_of(statement) + " " + std::string(statement.index.text);
         const auto other = by_subject.find(subject);
+        // Of texts for readers, such as the title, the first base's count.
+        const bool is_for_readers = is_setting_of(SettingBlock::system, statement.name.text);
         if (other == by_subject.end()) {
             statements.push_back(each);
+        } else if (is_for_readers) {
+            continue;
         } else if (text_of(*other->second) != text_of(statement) && !said.contains(subject)) {
             Diagnostic diagnostic;
             diagnostic.span = block.joined.empty() ? block.base.span : block.joined.front().span;

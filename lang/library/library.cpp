@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace cascade {
@@ -67,12 +68,12 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
 }  // namespace
 
 const LibraryText* find_library_text(std::string_view system_name) {
-    const auto texts = library_texts();
-    const auto found = std::lower_bound(texts.begin(), texts.end(), system_name,
-                                        [](const LibraryText& each, std::string_view name) {
-                                            return each.system_name() < name;
-                                        });
-    return found != texts.end() && found->system_name() == system_name ? &*found : nullptr;
+    for (const std::span<const LibraryText> texts : {library_texts(), library_cells()}) {
+        const auto found =
+            std::ranges::lower_bound(texts, system_name, {}, &LibraryText::system_name);
+        if (found != texts.end() && found->system_name() == system_name) return &*found;
+    }
+    return nullptr;
 }
 
 ast::Script read_cell_functions(Sources& sources, Diagnostics& diagnostics) {
@@ -89,17 +90,29 @@ std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sour
                                         Diagnostics& diagnostics) {
     std::vector<LibraryScript> result;
     std::unordered_set<std::string_view> read;
-    for (std::string_view name : names_wanted(script)) {
-        // From a system to its bases; the last one must be checked first.
-        std::vector<LibraryScript> chain;
-        while (!name.empty() && !read.contains(name)) {
-            const LibraryText* const found = find_library_text(name);
-            if (found == nullptr) break;
-            read.insert(name);
-            chain.push_back(read_text(*found, sources, diagnostics));
-            name = chain.back().script.blocks[chain.back().block].base.text;
+    for (const std::string_view name : names_wanted(script)) {
+        // A system is looked at twice: first its bases are added to the list, then it comes itself.
+        std::vector<std::string_view> open{name};
+        std::unordered_map<std::string_view, LibraryScript> waiting;
+        while (!open.empty()) {
+            const std::string_view next = open.back();
+            if (const auto known = waiting.find(next); known != waiting.end()) {
+                open.pop_back();
+                result.push_back(std::move(known->second));
+                waiting.erase(known);
+                continue;
+            }
+            const LibraryText* const found = find_library_text(next);
+            if (found == nullptr || !read.insert(next).second) {
+                open.pop_back();
+                continue;
+            }
+            const LibraryScript& each =
+                waiting.emplace(next, read_text(*found, sources, diagnostics)).first->second;
+            const ast::Block& block = each.script.blocks[each.block];
+            for (const ast::Word& base : block.joined) open.push_back(base.text);
+            if (!block.base.empty()) open.push_back(block.base.text);
         }
-        std::move(chain.rbegin(), chain.rend(), std::back_inserter(result));
     }
     return result;
 }

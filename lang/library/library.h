@@ -26,8 +26,10 @@ struct LibraryText {
 
 /// All texts of the library, in alphabetical order.
 std::span<const LibraryText> library_texts();
+/// Those of cells that crawl (lang/cells/*.cascade), likewise.
+std::span<const LibraryText> library_cells();
 
-/// The text of the library's system of this name; null if there is none.
+/// The text of the library's system, or cells, of this name; null if there is none.
 const LibraryText* find_library_text(std::string_view system_name);
 
 /// The functions that scripts with cells can call, such as push(k): `fn` statements with docs.

@@ -1,22 +1,26 @@
 # The systems of the library and the functions of cells are Cascade texts; this turns them into one C++ file of
 # raw strings. It runs when CMake configures, which a change of a text or a new text brings about.
 file(GLOB built_in_systems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/systems/*.cascade)
+file(GLOB built_in_cells CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/cells/*.cascade)
 list(SORT built_in_systems)
+list(SORT built_in_cells)
 set(cell_functions_path ${PROJECT_SOURCE_DIR}/lang/library/cell_functions.cascade)
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
-  PROPERTY CMAKE_CONFIGURE_DEPENDS ${built_in_systems} ${cell_functions_path})
+  PROPERTY CMAKE_CONFIGURE_DEPENDS ${built_in_systems} ${built_in_cells} ${cell_functions_path})
 file(READ ${cell_functions_path} cell_functions)
 
-set(built_in_entries "")
-foreach(path IN LISTS built_in_systems)
-  get_filename_component(name ${path} NAME)
-  file(READ ${path} text)
-  string(APPEND built_in_entries "    {\"${name}\", R\"cascade(${text})cascade\"},\n")
+foreach(kind systems cells)
+  set(built_in_${kind}_entries "")
+  foreach(path IN LISTS built_in_${kind})
+    get_filename_component(name ${path} NAME)
+    file(READ ${path} text)
+    string(APPEND built_in_${kind}_entries "    {\"${name}\", R\"cascade(${text})cascade\"},\n")
+  endforeach()
 endforeach()
 
 set(built_in_source ${PROJECT_BINARY_DIR}/lang/built_in_systems.cpp)
 file(CONFIGURE OUTPUT ${built_in_source} @ONLY CONTENT [[
-// Made by lang/systems/embed.cmake from lang/systems/*.cascade and lang/library/cell_functions.cascade.
+// Made by lang/systems/embed.cmake from the texts in lang/systems/, lang/cells/ and lang/library/.
 #include "lang/library/library.h"
 
 #include <array>
@@ -26,13 +30,18 @@ namespace cascade {
 namespace {
 
 constexpr auto texts = std::to_array<LibraryText>({
-@built_in_entries@});
+@built_in_systems_entries@});
+
+constexpr auto cells = std::to_array<LibraryText>({
+@built_in_cells_entries@});
 
 constexpr LibraryText functions{"cell_functions.cascade", R"cascade(@cell_functions@)cascade"};
 
 }  // namespace
 
 std::span<const LibraryText> library_texts() { return texts; }
+
+std::span<const LibraryText> library_cells() { return cells; }
 
 const LibraryText& cell_functions() { return functions; }
 

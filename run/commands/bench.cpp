@@ -280,6 +280,7 @@ private:
 
 Result<void> bench(Script& script, const BenchRequest& request, RunControl& control,
                    const std::function<void(const StageBench&)>& tell) {
+    if (auto good = check_for_fields(script, "'cascade bench' measures"); !good) return good;
     return ScriptBench(script, request, control).run(tell);
 }
 

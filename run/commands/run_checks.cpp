@@ -219,6 +219,32 @@ void check_on_plane(OptionRefuser& options, const RunRequest& request) {
                       message, hint);
 }
 
+/// Outputs of rows and columns, which cells that crawl do not lie in.
+void check_with_cells(OptionRefuser& options, const RunRequest& request) {
+    const std::string message = "cells that crawl have no rows and columns";
+    options.refuse_if(request.picture.space_time, "--space-time", message,
+                      "--frames writes a picture each interval");
+    options.refuse_if(request.picture.flat, "--flat", message, "");
+    options.refuse_if(request.picture.bump != 0, "--bump", message, "a shape has a height");
+    options.refuse_if(!request.sheet.empty(), "--sheet", message, "--show e draws another value");
+    options.refuse_if(!request.volume.empty(), "--volume", message,
+                      "-o NAME.cells.vtp has all values for ParaView");
+    options.refuse_if(request.features, "--features", message, "");
+    options.refuse_if(request.model_files.retile, "--retile", message, "");
+    options.refuse_if(request.model_files.bake > 0, "--bake", message, "");
+    const std::string unsaved = "runs with cells that crawl cannot be saved yet";
+    options.refuse_if(!request.save.empty(), "--save", unsaved,
+                      "-o NAME.npz writes the cells and their values");
+    options.refuse_if(!request.resume.empty(), "--resume", unsaved, "");
+}
+
+bool has_cells(const Script& script) {
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (script.program->system_of(k).cells) return true;
+    }
+    return false;
+}
+
 /// What is written while a run takes its steps.
 void check_with_session(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "a session is played to its end before anything is written";
@@ -249,7 +275,9 @@ Result<void> check_request(Script& script, const RunRequest& request) {
                       how_to_make_a_movie(request.frames));
     options.refuse_if(request.picture.slice != Slice{} && domain.grid.depth == 1, "--slice",
                       "a plane has no slices", "grid: W, H, D makes a volume");
-    if (domain.model) {
+    if (has_cells(script)) {
+        check_with_cells(options, request);
+    } else if (domain.model) {
         check_on_model(options, request);
         check_model_files(options, request);
     } else {

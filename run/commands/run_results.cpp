@@ -4,6 +4,7 @@
 #include "core/counted.h"
 #include "picture/vti.h"
 #include "run/commands/run_checks.h"
+#include "run/pictures/cell_files.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/model_picture.h"
@@ -102,6 +103,23 @@ Result<void> RunResults::write_model_files(const Canvas& canvas) {
     return {};
 }
 
+/// Of a stage of cells that crawl.
+Result<void> RunResults::write_cell_files(const Canvas& canvas) {
+    const std::vector<Colour> colours = painter.colours_of_cells(canvas);
+    const GrownCells cells{simulation, simulation.shown_stage().value_or(0), *canvas.cells,
+                           colours};
+    std::optional<Failure> first;
+    for (const auto& output : outputs) {
+        if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
+        say(fmt::format("writing {}", output.filename().string()));
+        const auto written = write_cells(output, cells, request.model_files);
+        if (written) report.written.push_back(output);
+        else if (!first) first = written.error();
+    }
+    if (first) return tl::unexpected(*first);
+    return {};
+}
+
 Result<void> RunResults::write_outputs() {
     const Canvas canvas = painter.canvas(simulation);
     Result<void> result;
@@ -111,7 +129,7 @@ Result<void> RunResults::write_outputs() {
         if (result) result = done;
     }
     if (!has(OutputKind::model) && !has(OutputKind::cells)) return result;
-    auto done = write_model_files(canvas);
+    auto done = canvas.cells ? write_cell_files(canvas) : write_model_files(canvas);
     return result ? done : result;
 }
 

@@ -31,6 +31,7 @@ private:
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
     Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
     Result<void> write_model_files(const Canvas& canvas);
+    Result<void> write_cell_files(const Canvas& canvas);
     std::vector<Channel> channels(const Canvas& canvas) const;
     bool has(OutputKind kind) const;
     void say(std::string what) const;

@@ -363,6 +363,9 @@ Result<void> Sweeper::write_outputs() {
 tl::expected<SweepReport, SweepError> Sweeper::run() {
     const auto failed = [](const Failure& why) { return tl::unexpected(SweepError{why}); };
     // Tiles and features need rows and columns.
+    if (auto good = check_for_fields(script_, "a sweep has a sheet for"); !good) {
+        return failed(good.error());
+    }
     if (script_.program->domain.model) {
         return failed({"a sweep has no sheet for the cells of a model",
                        "run it once for each value, with --set"});

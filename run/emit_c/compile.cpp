@@ -135,6 +135,9 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     Program program = *script.program;
     if (program.stages.empty()) return failure("this script has no stage to compile");
     if (!request.target.empty()) program.domain.fast = script.overrides.fast;
+    if (auto good = check_for_fields(script, "C is made of"); !good) {
+        return tl::unexpected(good.error());
+    }
     const auto stage = find_stage(program, request.stage.value_or("1"));
     if (!stage) return tl::unexpected(stage.error());
     if (auto fits = check_header_knows(program, *stage); !fits) return tl::unexpected(fits.error());

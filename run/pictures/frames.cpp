@@ -42,9 +42,10 @@ Result<FrameRecorder> FrameRecorder::create(const std::filesystem::path& folder,
 
 void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::int64_t step) {
     if (failure_) return;
-    layout_ = canvas.fields[0].layout();
+    const PlaneLayout layout = canvas.fields[0].layout();
     if (const Field* number = canvas.number()) values_.add(spread_of(*number));
-    frames_.push_back({stage, step, canvas.fields.size(), !canvas.relief.empty()});
+    frames_.push_back(
+        {stage, step, canvas.fields.size(), !canvas.relief.empty(), layout, canvas.cells});
     if (file_) {
         bool is_kept = true;
         for (const Field& field : canvas.fields) is_kept = is_kept && keep(field);
@@ -68,15 +69,16 @@ bool FrameRecorder::holds_starts_alone() const {
 }
 
 bool FrameRecorder::keep(const Field& field) {
-    const std::size_t count = plane_size(layout_);
+    const std::size_t count = plane_size(field.layout());
     return std::fwrite(storage(field), sizeof(float), count, file_.get()) == count;
 }
 
 Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     Canvas canvas;
+    canvas.cells = frame.cells;
     for (std::size_t plane = 0; plane < frame.planes + (frame.has_relief ? 1 : 0); ++plane) {
-        Field field(layout_);
-        const std::size_t count = plane_size(layout_);
+        Field field(frame.layout);
+        const std::size_t count = plane_size(frame.layout);
         if (std::fread(storage(field), sizeof(float), count, file_.get()) != count) {
             return cascade::failure("the frames cannot be read back");
         }
@@ -92,8 +94,9 @@ int FrameRecorder::threads_for(const Painter& painter, int threads) const {
     if (frames_.empty() || !painter.is_flat()) return 1;
     constexpr std::uint64_t bytes_of_pixel = 40;
     const auto scale = static_cast<std::uint64_t>(painter.request().scale);
+    const PlaneLayout& layout = frames_.front().layout;
     const std::uint64_t pixels =
-        static_cast<std::uint64_t>(layout_.width * layout_.height) * scale * scale;
+        static_cast<std::uint64_t>(layout.width * layout.height) * scale * scale;
     const std::uint64_t fitting = available_memory() / 2 / (pixels * bytes_of_pixel);
     const std::uint64_t most =
         std::min<std::uint64_t>(static_cast<unsigned>(threads), frames_.size());

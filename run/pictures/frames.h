@@ -43,6 +43,8 @@ private:
         std::int64_t step = 0;
         std::size_t planes = 1;
         bool has_relief = false;  ///< As an additional plane.
+        PlaneLayout layout;
+        std::shared_ptr<const DrawnCells> cells;  ///< Of a stage of cells that crawl.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -57,7 +59,6 @@ private:
     std::unique_ptr<std::FILE, CloseFile> file_;
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
-    PlaneLayout layout_;
     Spread values_;  ///< Of all frames.
     std::optional<Failure> failure_;
 };

@@ -31,6 +31,7 @@ std::optional<OutputKind> output_kind(const std::filesystem::path& path);
 struct ModelFileOptions {
     bool retile = false;    ///< Triangulate the cells instead of refining the model's triangles.
     std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 for none.
+    bool merge = false;     ///< Of cells that crawl: plain triangles instead of instances.
     static constexpr std::int64_t most_texels = 8192;
     /// True if this file gets maps.
     bool is_baked(const std::filesystem::path& path) const;

@@ -7,9 +7,12 @@
 #include "lang/syntax/parse.h"
 #include "run/domain/metric_planes.h"
 #include "run/pictures/model_picture.h"
+#include "run/pictures/drawn_cells.h"
 #include "run/pictures/surface_picture.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace cascade {
 
@@ -24,6 +27,13 @@ Field shown(Field field, const PictureRequest& request) {
 /// The same for a copy that is NaN outside of the mask.
 Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request) {
     return shown(mask ? with_outside(field, *mask, nothing_outside) : field.clone(), request);
+}
+
+/// Cell k of rows of cells.
+template <typename PlaneOfCells>
+auto& cell_of(PlaneOfCells& plane, std::size_t k) {
+    const auto width = static_cast<std::size_t>(plane.layout().width);
+    return plane.row(static_cast<std::int64_t>(k / width))[k % width];
 }
 
 }  // namespace
@@ -84,6 +94,8 @@ Canvas Painter::values(const Simulation& simulation) {
 Canvas Painter::canvas(const Simulation& simulation) {
     Canvas canvas = values(simulation);
     model_ = simulation.model();
+    shows_cells_ = simulation.state(simulation.shown_stage().value_or(0)).tissue != nullptr;
+    if (shows_cells_) return canvas_of_cells(simulation, std::move(canvas));
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
     if (model_ && request_.bump != 0 && canvas.is_colour()) {
         const std::uint32_t stage = simulation.shown_stage().value_or(0);
@@ -131,10 +143,51 @@ Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
 }
 
 bool Painter::is_flat() const {
-    return !model_ && (!script_->program->domain.surface || request_.flat);
+    return !shows_cells_ && !model_ && (!script_->program->domain.surface || request_.flat);
+}
+
+/// The values in the order of the cells' numbers, and the cells.
+Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const Tissue& tissue = *simulation.state(stage).tissue;
+    for (Field& field : values.fields) {
+        const std::vector<double> in_order = number_order(field, tissue);
+        field = Field(PlaneLayout(rows_of_cells(static_cast<std::int64_t>(in_order.size()))));
+        for (std::size_t k = 0; k < in_order.size(); ++k) {
+            cell_of(field.plane(), k) = static_cast<float>(in_order[k]);
+        }
+    }
+    values.cells = std::make_shared<const DrawnCells>(drawn_cells(*script_, simulation, stage));
+    return values;
+}
+
+std::vector<Colour> Painter::colours_of_cells(const Canvas& canvas,
+                                              std::optional<ValueRange> range) const {
+    const ValueRange used = range_of(canvas, range);
+    std::vector<Colour> colours;
+    for (std::size_t cell = 0; cell < canvas.cells->count; ++cell) {
+        const auto value = [&](std::size_t channel) {
+            return cell_of(canvas.fields[channel].plane(), cell);
+        };
+        const auto shown = [](float part) { return std::clamp(part, 0.0F, 1.0F); };
+        colours.push_back(canvas.is_colour()
+                              ? Colour{shown(value(0)), shown(value(1)), shown(value(2))}
+                              : colour_at(*palette_, position_in(used, value(0))));
+    }
+    return colours;
+}
+
+Image Painter::with_cells(const Canvas& canvas, std::optional<ValueRange> range) {
+    DrawOptions options;
+    options.width *= request_.scale;
+    options.height *= request_.scale;
+    options.view = request_.view;
+    options.view.up = {0, 1, 0};
+    return draw_cells(*canvas.cells, colours_of_cells(canvas, range), model_.get(), options);
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
+    if (canvas.cells) return with_cells(canvas, range);
     if (model_) return on_model(canvas, range);
     Image flat = texture(canvas, range);
     if (is_flat()) return enlarge(std::move(flat), request_.scale);

@@ -12,10 +12,14 @@
 
 namespace cascade {
 
+struct DrawnCells;
+
 /// Values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
     std::vector<Field> fields;
     Field relief = {};  ///< For a colour with bumps: the number that gives the heights.
+    /// Of a stage of cells that crawl, in whose order the fields are; else null.
+    std::shared_ptr<const DrawnCells> cells = nullptr;
     bool is_colour() const { return fields.size() == 3; }
     /// The number that heights and range refer to; null if there are only colours.
     const Field* number() const;
@@ -48,6 +52,9 @@ public:
     void set_view(const View& view) { request_.view = view; }
     /// Sets the slice of later canvases.
     void set_slice(const Slice& slice) { request_.slice = slice; }
+    /// The colours of a canvas of cells that crawl, in the order of their numbers.
+    std::vector<Colour> colours_of_cells(const Canvas& canvas,
+                                         std::optional<ValueRange> range = {}) const;
     /// The values of the last canvas at the cells of its model.
     ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
@@ -55,6 +62,8 @@ private:
     Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
     ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range) const;
     Image on_model(const Canvas& canvas, std::optional<ValueRange> range);
+    Canvas canvas_of_cells(const Simulation& simulation, Canvas values);
+    Image with_cells(const Canvas& canvas, std::optional<ValueRange> range);
     std::optional<Formula> formula_for(std::uint32_t stage, std::uint32_t last_stage);
 
     Script* script_ = nullptr;
@@ -64,6 +73,7 @@ private:
     bool fell_back_ = false;
     std::shared_ptr<const ModelCells> model_;  ///< Of the last canvas; null on grids.
     std::shared_ptr<ModelDrawer> drawer_;      ///< Made with the first picture.
+    bool shows_cells_ = false;                 ///< The last canvas was of cells that crawl.
     Field outside_;  ///< Of the last canvas: NaN outside of the domain; empty without a mask.
 };
 

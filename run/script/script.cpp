@@ -153,6 +153,16 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
     return script;
 }
 
+Result<void> check_for_fields(const Script& script, std::string_view what) {
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (!script.program->system_of(k).cells) continue;
+        return failure(fmt::format("stage '{}' is one of cells that crawl, and {} stages of fields",
+                                   script.program->stages[k].name, what),
+                       "'cascade run' grows and draws them");
+    }
+    return {};
+}
+
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
     constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
     constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,6 +73,9 @@ struct Script {
     /// The number of stages that run: all, or those up to `until_stage`.
     std::uint32_t stage_count() const;
 };
+
+/// Fails if a stage that runs is one of cells that crawl, which `what` is not made for.
+Result<void> check_for_fields(const Script& script, std::string_view what);
 
 /// Parses and checks `text` with its overrides and the files it uses, and the picture block. Errors
 /// are reported in the diagnostics only.

@@ -99,6 +99,9 @@ Failure Refusal::in_brief() const {
 }
 
 Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunControl& control) const {
+    if (auto good = check_for_fields(script, "sessions run"); !good) {
+        return refuse(std::move(script), good.error());
+    }
     SimulationOptions options = options_;
     options.control = &control;
     const bool is_known = simulation_ && have_same_cells(*script_->program, *script.program);

@@ -132,18 +132,6 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
     return failure("the domain has no cells");
 }
 
-/// Nothing moves cells in a run so far: they are checked and compiled only.
-Result<void> has_no_cells_that_crawl(Script& script) {
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        if (!script.program->system_of(k).cells) continue;
-        script.diagnostics.error(script.program->stages[k].span,
-                                 "a stage of cells that crawl cannot be run yet",
-                                 "it can be checked, and --dump shows what becomes of it");
-        return failure("there are stages of cells that crawl");
-    }
-    return {};
-}
-
 }  // namespace
 
 bool Environment::takes_long(std::uint32_t k) const {
@@ -169,7 +157,6 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     Environment& here = *made;
     here.script = &script;
     here.program = &*script.program;
-    if (auto runs = has_no_cells_that_crawl(script); !runs) return tl::unexpected(runs.error());
     here.grid = here.program->domain.grid;
     here.tiling = options.tiling;
     here.threads = options.threads > 0 ? options.threads : hardware_threads();
@@ -208,11 +195,21 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         stepper = std::move(*own);
     }
     here.tilings = std::make_unique<KeptTilings>(options.kernel_cache, stepper->code_identity());
-    here.kernels = std::make_unique<KernelMaker>(here.grid, std::move(stepper),
-                                                 options.starts_interpreted, here.account);
+    here.kernels =
+        std::make_unique<KernelMaker>(here.grid, stepper, options.starts_interpreted, here.account);
     here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : here.threads);
     if (auto values = make_surface_values(here, control); !values)
         return tl::unexpected(values.error());
+    const auto is_of_cells = [&](const Stage& stage) {
+        return here.program->systems[stage.system].cells.has_value();
+    };
+    if (std::ranges::any_of(here.program->stages, is_of_cells)) {
+        constexpr std::int64_t usual_cells = 4096;
+        here.tissue_kernels =
+            std::make_unique<KernelMaker>(rows_of_cells(usual_cells), std::move(stepper),
+                                          options.starts_interpreted, here.account);
+        here.ground = std::make_unique<TissueGround>(here.grid, here.model.get(), *here.team);
+    }
     warn_of_even_pictures(here, control);
     if (auto found = find_mask(here, script, control); !found) return tl::unexpected(found.error());
     return made;

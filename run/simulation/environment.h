@@ -15,6 +15,7 @@
 #include "run/stage/kept_tilings.h"
 #include "run/stage/stage_plans.h"
 #include "run/stage/stage_state.h"
+#include "run/tissue/ground.h"
 
 #include <cstdint>
 #include <memory>
@@ -37,7 +38,9 @@ struct Environment {
     std::unique_ptr<KeptTilings> tilings;  ///< Null on coarser grids.
     std::unique_ptr<StagePlans> plans;
     std::unique_ptr<KernelMaker> kernels;
-    std::unique_ptr<Team> team;  ///< Computes starting values and pictures.
+    std::unique_ptr<KernelMaker> tissue_kernels;  ///< Of stages of cells that crawl,
+    std::unique_ptr<TissueGround> ground;         ///< and where they do; else null.
+    std::unique_ptr<Team> team;                   ///< Computes starting values and pictures.
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;

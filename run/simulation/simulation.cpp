@@ -9,6 +9,8 @@
 #include "run/simulation/stage_run.h"
 #include "run/simulation/stage_start.h"
 #include "run/simulation/stage_tools.h"
+#include "run/simulation/tissue_run.h"
+#include "run/simulation/tissue_stage.h"
 #include "run/stage/stage_remarks.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
@@ -53,12 +55,20 @@ struct Simulation::Implementation {
     std::unique_ptr<Environment> environment;
     std::vector<StageState> states;
     Keeping keeping;
-    bool has_expected = false;      ///< Has the stepper been told what later stages need?
-    std::unique_ptr<StageRun> run;  ///< The run of the stage that advanced last, if it can go on.
+    bool has_expected = false;  ///< Has the stepper been told what later stages need?
+    std::unique_ptr<RunningStage>
+        run;  ///< The run of the stage that advanced last, if it can go on.
     /// By stage: kernels of stages that ended before it was known whether all can be compiled.
     std::map<std::uint32_t, StepKernels> unsettled;
 
     StageView view(std::uint32_t stage) const { return {*environment, states, stage}; }
+
+    std::unique_ptr<RunningStage> make_run(std::uint32_t k) {
+        if (environment->program->system_of(k).cells) {
+            return std::make_unique<TissueRun>(*environment, states, k, keeping);
+        }
+        return std::make_unique<StageRun>(*environment, states, k, keeping);
+    }
 
     /// Must be called before states are changed.
     void end_run() {
@@ -79,7 +89,8 @@ struct Simulation::Implementation {
         if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;
         const TimeAccount::Scope spent(environment->account, Spent::compiling);
         for (std::uint32_t later = k + 1; later < environment->script->stage_count(); ++later) {
-            if (!environment->takes_long(later)) continue;
+            const bool is_of_fields = !environment->program->system_of(later).cells;
+            if (!is_of_fields || !environment->takes_long(later)) continue;
             const Stage& stage = environment->stage(later);
             const auto species = environment->program->system_of(later).species_count();
             const Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
@@ -107,7 +118,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
 
 Result<void> Simulation::start_stage(std::uint32_t k) {
     self_->end_run();
-    return cascade::start_stage(*self_->environment, self_->states, k);
+    const auto start = program().system_of(k).cells ? start_tissue : cascade::start_stage;
+    return start(*self_->environment, self_->states, k);
 }
 
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
@@ -120,7 +132,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
     if (self.run && self.run->stage() != k) self.end_run();
     if (!self.run) {
         self.expect_stages_after(k);
-        self.run = std::make_unique<StageRun>(*self.environment, self.states, k, self.keeping);
+        self.run = self.make_run(k);
     }
     auto end = self.run->advance(last_step, control, observe, every);
     if (!self.run->can_go_on()) self.end_run();
@@ -131,6 +143,7 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
 
 std::string Simulation::remark_on(std::uint32_t k) const {
     const StageView view = self_->view(k);
+    if (view.state().tissue) return remark_on_cells(view);
     const Environment& here = *self_->environment;
     const std::string remark = describe_end(view.stage(), view.system(), view.state(),
                                             k == here.script->final_stage(), here.counted());
@@ -247,6 +260,7 @@ bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
     constexpr double times_at_start = 3;
     const Stage& stage = simulation.program().stages[k];
     const System& system = simulation.program().system_of(k);
+    if (system.cells) return false;
     const auto is_of_neighbours = [](const Node& node) {
         return node.is<Call>() && differentiates(node.function);
     };

@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
+#include "run/simulation/running_stage.h"
 #include "run/simulation/stage_view.h"
 #include "run/simulation/undefined_values.h"
 #include "run/stage/kept_tilings.h"
@@ -18,31 +19,18 @@
 
 namespace cascade {
 
-/// When and how the state of a run is kept while steps are taken; never without `is_due`.
-struct Keeping {
-    std::function<bool()> is_due;
-    std::function<void()> keep;
-};
-
-/// The run of one stage that has been started. While it exists, nothing else may change the states
-/// of the simulation.
-class StageRun {
+/// The run of a stage of fields.
+class StageRun : public RunningStage {
 public:
     /// All must outlive the run.
     StageRun(const Environment& environment, std::span<StageState> states, std::uint32_t stage,
              const Keeping& keeping);
-    StageRun(const StageRun&) = delete;
-    StageRun& operator=(const StageRun&) = delete;
 
-    std::uint32_t stage() const { return view_.number(); }
-    StepKernels& kernels() { return kernels_; }
-
-    /// Like Simulation::advance_stage.
+    std::uint32_t stage() const override { return view_.number(); }
+    StepKernels& kernels() override { return kernels_; }
     Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
-                             const std::function<void()>& observe, std::int64_t every);
-    /// May it be called again? Not after the end of the stage, a failure or a cancellation, nor if
-    /// doubts were looked for: their checks reuse the stage's memory.
-    bool can_go_on() const { return can_go_on_; }
+                             const std::function<void()>& observe, std::int64_t every) override;
+    bool can_go_on() const override { return can_go_on_; }
 
 private:
     std::optional<Result<StageEnd>> begin(std::int64_t last_step);

@@ -19,18 +19,6 @@
 namespace cascade {
 namespace {
 
-/// Computes the items that are the same in all cells, on a grid of one cell.
-void start_uniform_items(const StageView& view, StageState& state) {
-    const StepPlan plan = plan_uniform_start(view.program(), view.number());
-    const Grid one{1, 1, Boundary::periodic};
-    const Environment& here = view.environment();
-    const std::vector<Field> values =
-        run_plan(plan, here.kernels->interpreted_on(one), view.context(), one, *here.team);
-    for (std::size_t r = 0; r < values.size(); ++r) {
-        state.numbers[plan.results[r]] = values[r].number_at(0, 0);
-    }
-}
-
 void start_varying_items(const StageView& view, StageState& state) {
     const StepPlan& plan = view.environment().plans->start(view.number());
     std::vector<Field> values = view.evaluate(plan);
@@ -126,6 +114,18 @@ Result<void> check_speed(const StageView& view) {
 }
 
 }  // namespace
+
+void start_uniform_items(const StageView& view, StageState& state) {
+    // On a grid of one cell.
+    const StepPlan plan = plan_uniform_start(view.program(), view.number());
+    const Grid one{1, 1, Boundary::periodic};
+    const Environment& here = view.environment();
+    const std::vector<Field> values =
+        run_plan(plan, here.kernels->interpreted_on(one), view.context(), one, *here.team);
+    for (std::size_t r = 0; r < values.size(); ++r) {
+        state.numbers[plan.results[r]] = values[r].number_at(0, 0);
+    }
+}
 
 Result<void> start_stage(const Environment& environment, std::span<StageState> states,
                          std::uint32_t stage) {

@@ -2,6 +2,7 @@
 #include "run/simulation/stage_view.h"
 
 #include "lang/calculus/derivative.h"
+#include "run/simulation/tissue_stage.h"
 #include "run/stage/plan_runner.h"
 
 #include <cmath>
@@ -17,6 +18,7 @@ BindingContext StageView::context() const {
 }
 
 std::vector<Field> StageView::evaluate(const StepPlan& plan) const {
+    if (state().tissue) return evaluate_in_cells(*this, plan);
     return run_plan(plan, environment_->kernels->once(), context(), environment_->grid,
                     *environment_->team);
 }

@@ -145,6 +145,9 @@ private:
         if (context_.tissue && source == PlaneSource(ModelPlane::number)) {
             return context_.tissue->numbers;
         }
+        if (context_.tissue && source == PlaneSource(ModelPlane::area)) {
+            return context_.tissue->ones;
+        }
         const auto& species_of = context_.states[stage_].species_of_item;
         if (const auto* const temporary = std::get_if<TemporaryId>(&source)) return *temporary;
         if (const auto* const input = std::get_if<SweepInput>(&source)) {
@@ -200,7 +203,7 @@ private:
             bound.fields.push_back(bind_plane(source));
         }
         for (const StageItem mask : pass.bound.masks) {
-            bound.masks.push_back(context_.states[mask.stage].frozen.origin());
+            bound.masks.push_back(context_.states[mask.stage].frozen_cells().origin());
         }
         for (const UniformSource& source : pass.bound.uniforms) bind_uniform(source, bound);
         for (const PassTarget& target : pass.targets) bound.results.push_back(bind_result(target));
@@ -265,7 +268,7 @@ private:
             own.species = form_->species.empty() ? SpeciesId(position) : form_->species[position];
         }
         result.plane = own;
-        result.needs_halo = system_ != nullptr &&
+        result.needs_halo = system_ != nullptr && !context_.grid.linked &&
                             problem_.species_needs_halo[own.species.index()] &&
                             (form_ == nullptr || halo_registers_[own.in_register]);
         return result;

@@ -32,7 +32,8 @@ using StepInvariants = IdVector<StepInvariantId, StepInvariant>;
 struct TissueBinding {
     std::int64_t count = 0;          ///< Cells, without the padding of the last row.
     const Links* links = nullptr;    ///< Their present neighbours.
-    const Field* numbers = nullptr;  ///< ModelPlane::number: their numbers, in order of birth.
+    const Field* numbers = nullptr;  ///< ModelPlane::number: their numbers, in order of birth;
+    const Field* ones = nullptr;     ///< ModelPlane::area: all cells count alike.
     /// Computes what cells sense at their places: one result for each of `sensed`.
     KernelPointer sense;
     std::vector<PlaneSource> sensed;

@@ -104,6 +104,7 @@ double memory_of(const Program& program, StagePlans& plans, const ModelFacts* mo
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
         const System& system = program.systems[stage.system];
+        if (system.cells) continue;  // Their number is known while they run.
         for (const ItemId item : system.items()) {
             if (system.is_species(item)) {
                 planes += stage.time.steady ? 2 : 1;
@@ -114,6 +115,7 @@ double memory_of(const Program& program, StagePlans& plans, const ModelFacts* mo
     }
     std::uint64_t while_running = 0;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (program.system_of(k).cells) continue;
         while_running = std::max(while_running, planes_while_running(program, k, plans, grid) +
                                                     planes_to_choose(program, k, model));
     }

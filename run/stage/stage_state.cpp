@@ -2,6 +2,7 @@
 #include "run/stage/stage_state.h"
 
 #include "core/floating_point.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,14 @@ StageState empty_state(const System& system) {
     state.species.resize(species.size());
     return state;
 }
+
+const Field& StageState::field(ItemId item) const {
+    const auto id = species_of_item[item];
+    if (tissue) return id ? tissue->species[id->index()] : tissue->kept[item.index()];
+    return id ? species[id->index()] : fields[item];
+}
+
+const Mask& StageState::frozen_cells() const { return tissue ? tissue->frozen() : frozen; }
 
 void StageState::go_to(std::int64_t complete, double time_then) {
     steps = complete;

@@ -10,11 +10,14 @@
 #include "solvers/steady.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cascade {
+
+class Tissue;
 
 /// Values of one stage's items. A copy owns planes of its own; it is made only where that is
 /// written.
@@ -36,7 +39,9 @@ struct StageState {
     IdVector<ItemId, Field> fields;    ///< Empty where uniform, and for species.
     std::vector<Field> species;        ///< By SpeciesId.
     IdVector<ItemId, std::optional<SpeciesId>> species_of_item;
-    Mask frozen;                               ///< Only where `frozen` varies.
+    Mask frozen;  ///< Only where `frozen` varies.
+    /// Of a stage of cells that crawl: their values, in place of `fields`, `species` and `frozen`.
+    std::shared_ptr<Tissue> tissue;
     std::vector<SideRules> sides;              ///< By species; empty if the boundary holds for all.
     std::vector<ChangingSide> changing_sides;  ///< The sides whose values change with time.
 
@@ -44,10 +49,9 @@ struct StageState {
     void go_to(std::int64_t complete, double time_then);
 
     /// The plane of an item that varies (a species or a varying parameter).
-    const Field& field(ItemId item) const {
-        const auto id = species_of_item[item];
-        return id ? species[id->index()] : fields[item];
-    }
+    const Field& field(ItemId item) const;
+    /// Where `frozen` varies.
+    const Mask& frozen_cells() const;
 };
 
 /// A state with room for all items of a system, but without planes.

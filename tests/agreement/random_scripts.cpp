@@ -19,11 +19,19 @@ struct FunctionRow {
     Contexts places;
 };
 
-constexpr std::array rows = {
+/// All functions but those of cells that crawl, of which no script here is.
+std::vector<FunctionRow> functions_of_fields() {
+    std::vector<FunctionRow> rows;
+    const auto add = [&](Function function, const FunctionRow& row) {
+        if (info(function).domains != Domains::crawling) rows.push_back(row);
+    };
 #define CASCADE_FUNCTION(id, spelling, arity, places) \
-    FunctionRow{spelling, arity, Contexts::places},
+    add(Function::id, FunctionRow{spelling, arity, Contexts::places});
 #include "lang/vocabulary/functions.def"
-};
+    return rows;
+}
+
+const std::vector<FunctionRow> rows = functions_of_fields();
 
 bool is_word(std::string_view spelling) {
     return spelling.front() >= 'a' && spelling.front() <= 'z' && spelling != "and" &&
@@ -182,6 +190,7 @@ private:
         switch (row.places) {
             case Contexts::any:
             case Contexts::cells: return true;
+            case Contexts::steps:
             case Contexts::rates: return place == Place::rate && !species_.empty();
             case Contexts::noisy: return true;
             case Contexts::values:

@@ -90,12 +90,14 @@ TEST(Options, run_takes_logs_and_limits) {
 }
 
 TEST(Options, run_takes_what_models_have) {
-    const Options options = parsed(
-        {"run",   "a.cascade", "--mesh",   "sphere",      "--cells",  "500",     "-o",  "a.png",
-         "-o",    "b.PLY",     "--output", "c.cells.vtp", "--retile", "--bake",  "256", "--bump",
-         "-0.02", "--up",      "z",        "--turntable", "12",       "--cache", "kept"});
+    const Options options =
+        parsed({"run",      "a.cascade",   "--mesh", "sphere",  "--cells",  "500",
+                "-o",       "a.png",       "-o",     "b.PLY",   "--output", "c.cells.vtp",
+                "--retile", "--bake",      "256",    "--bump",  "-0.02",    "--up",
+                "z",        "--turntable", "12",     "--cache", "kept",     "--merge"});
     EXPECT_THAT(options.run.outputs, ElementsAre("a.png", "b.PLY", "c.cells.vtp"));
     EXPECT_TRUE(options.run.model_files.retile);
+    EXPECT_TRUE(options.run.model_files.merge);
     EXPECT_EQ(options.run.model_files.bake, 256);
     EXPECT_EQ(options.run.turntable, 12);
     EXPECT_EQ(options.run.simulation.cell_cache, "kept");

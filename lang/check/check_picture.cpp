@@ -1,0 +1,144 @@
+// The `picture` block: a colour and, for cells that crawl, their shape and its measures.
+#include "lang/check/check_blocks.h"
+#include "lang/check/setting_words.h"
+#include "lang/vocabulary/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+
+namespace cascade::checking {
+
+namespace {
+
+/// The last stage that takes a step, or the last stage if none does.
+std::uint32_t shown_stage(const Program& program) {
+    for (std::size_t i = program.stages.size(); i > 0; --i) {
+        if (program.stages[i - 1].iterations > 0) return static_cast<std::uint32_t>(i - 1);
+    }
+    return static_cast<std::uint32_t>(program.stages.size() - 1);
+}
+
+class PictureChecker {
+public:
+    PictureChecker(Workspace& work, const ast::Script& script) : work_(work), script_(script) {
+        scope_.context = Context::picture;
+        if (work.program.stages.empty()) return;
+        scope_.stage = shown_stage(work.program);
+        scope_.system = work.program.stages[*scope_.stage].system;
+        scope_.last_stage = static_cast<std::uint32_t>(work.program.stages.size() - 1);
+    }
+
+    void check(const ast::Statement& statement) {
+        const std::string_view name = statement.name.text;
+        const bool is_setting = statement.kind == ast::StatementKind::value &&
+                                is_setting_of(SettingBlock::picture, name);
+        if (!is_setting) return report_no_setting(statement.name);
+        if (!scope_.stage || !has_one_value(work_, script_, statement)) return;
+        const Setting setting = *setting_named(name);
+        if (setting == Setting::color) return check_type(statement, ValueType::colour);
+        if (!shows_cells()) return report_no_cells(statement.name);
+        if (setting == Setting::shape) return check_shape(statement);
+        check_type(statement, setting == Setting::skin ? ValueType::colour : ValueType::number);
+    }
+
+private:
+    bool shows_cells() const {
+        if (scope_.system == unknown_system) return true;  // It has been reported.
+        return work_.program.systems[scope_.system].cells.has_value();
+    }
+
+    void report_no_setting(const ast::Word& name) {
+        const std::string hint = hint_about(work_, name.text, WordContext::picture,
+                                            settings_of({SettingBlock::picture}));
+        work_.diagnostics.error(name.span,
+                                fmt::format("'{}' is not a setting of the picture", name.text),
+                                hint.empty() ? "a picture has color: …" : hint);
+    }
+
+    void report_no_cells(const ast::Word& name) {
+        work_.diagnostics.error(name.span,
+                                fmt::format("'{}' is for pictures of cells that crawl", name.text),
+                                fmt::format("stage '{}', which the picture shows, is one of fields",
+                                            work_.program.stages[*scope_.stage].name));
+    }
+
+    void check_type(const ast::Statement& statement, ValueType type) {
+        const auto checked = check_expression(work_, script_, statement.values[0], scope_);
+        if (!checked) return;
+        if (checked->type() != type) {
+            const bool is_colour = type == ValueType::colour;
+            work_.diagnostics.error(script_.expressions[statement.values[0].root].span,
+                                    fmt::format("{} must be {}", statement.name.text,
+                                                words_of(type, true).name),
+                                    is_colour ? "rgb(…) and palette(…) make colours" : "");
+            return;
+        }
+        mark_reads(work_, checked->formula, scope_.system);
+    }
+
+    void check_shape(const ast::Statement& statement) {
+        const ast::Expr& value = value_of(script_, statement);
+        const auto* name = std::get_if<ast::Name>(&value.node);
+        const std::vector<std::string> known = words_taken_by(Setting::shape);
+        if (name != nullptr && std::ranges::find(known, name->name) != known.end()) return;
+        std::string hint;
+        if (name != nullptr) hint = did_you_mean(work_, name->name, known);
+        work_.diagnostics.error(value.span,
+                                name != nullptr ? fmt::format("there is no shape '{}'", name->name)
+                                                : std::string("a shape is a word"),
+                                hint.empty() ? fmt::format("shapes are {}", fmt::join(known, ", "))
+                                             : hint);
+    }
+
+    Workspace& work_;
+    const ast::Script& script_;
+    Scope scope_;
+};
+
+}  // namespace
+
+const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
+                             std::string_view name) {
+    const ast::Block* first = nullptr;
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind != kind) continue;
+        if (first == nullptr) {
+            first = &block;
+        } else {
+            report_twice(work, block.keyword.span, first->keyword.span,
+                         fmt::format("there are two {} blocks", name));
+        }
+    }
+    return first;
+}
+
+void report_sides(Workspace& work, const ast::Block& block) {
+    for (const ast::Statement& statement : block.sides) {
+        work.diagnostics.error(join(statement.name.span, statement.side.span),
+                               "the sides of one species belong in its system or in a stage",
+                               "left: … in the domain is for all species");
+    }
+}
+
+void check_picture(Workspace& work, const ast::Script& script) {
+    const ast::Block* block = find_block(work, script, ast::BlockKind::picture, "picture");
+    if (block == nullptr) return;
+    report_sides(work, *block);
+    PictureChecker checker(work, script);
+    std::unordered_map<std::string_view, Span> seen;
+    for (const ast::Statement& statement : block->statements) {
+        if (statement.name.empty() || statement.values.empty()) continue;
+        const auto [first, is_new] = seen.try_emplace(statement.name.text, statement.name.span);
+        if (is_new) {
+            checker.check(statement);
+        } else {
+            report_twice(work, statement.name.span, first->second,
+                         fmt::format("'{}' is given a value twice", statement.name.text));
+        }
+    }
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,27 @@
+// Cells that crawl as the files of `-o`: instances or triangles for other programs, and tables.
+#pragma once
+
+#include "core/result.h"
+#include "run/pictures/drawn_cells.h"
+#include "run/pictures/model_files.h"
+
+#include <filesystem>
+#include <span>
+
+namespace cascade {
+
+/// Cells, their colours (sRGB, by cell in the order of numbers) and where they are.
+struct GrownCells {
+    const Simulation& simulation;
+    std::uint32_t stage = 0;
+    const DrawnCells& drawn;
+    std::span<const Colour> colours;
+};
+
+/// Writes them in the coordinates of the model's file or, without a model, of scripts: .glb and
+/// .obj with the things that a picture shows, .npz and .cells.vtp with the cells and all their
+/// values. Throws std::bad_alloc. Fails as the writers of export/ do.
+Result<void> write_cells(const std::filesystem::path& path, const GrownCells& cells,
+                         const ModelFileOptions& options);
+
+}  // namespace cascade

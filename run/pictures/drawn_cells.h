@@ -1,0 +1,50 @@
+// Cells that crawl as things in space: a shape, a place and measures for each.
+#pragma once
+
+#include "mesh/cell_shapes.h"
+#include "mesh/instances.h"
+#include "picture/image.h"
+#include "render/draw.h"
+#include "run/domain/model_cells.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+class Tissue;
+
+/// The cells of a stage that have a size, in ascending order of their numbers. Lengths are those of
+/// scripts.
+struct DrawnCells {
+    std::vector<CellShape> shapes;      ///< Those in use.
+    std::vector<Placement> placements;  ///< `mesh` is the shape. Without colours.
+    std::vector<std::size_t> cells;     ///< By placement: the place of its cell in number_order().
+    std::size_t count = 0;              ///< Of all cells, also of those without a size.
+    Colour skin{0.25F, 0.24F, 0.23F};   ///< Of the surface below them, sRGB.
+    Vector3d extent;                    ///< Of the plane, or of the box of space.
+};
+
+/// Places the cells as the settings of the picture block say, of which some may be missing.
+/// Settings that read what has no value yet count as missing, too.
+DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage);
+
+/// The values of a plane of a tissue in ascending order of the cells' numbers.
+std::vector<double> number_order(const Field& field, const Tissue& tissue);
+
+/// The rotation of a quaternion of any length; none for 0 and for what is not finite.
+Quaternion of_length_1(const Quaternion& q);
+
+/// Draws the cells with their colours (sRGB, in the order of numbers) on their model, or over their
+/// plane if `model` is null. Throws std::bad_alloc.
+Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
+                 const DrawOptions& options);
+
+/// Meshes in which nothing that is larger than half a pixel is missing, if a length of 1 has this
+/// number of pixels. Throws std::bad_alloc.
+Instances instances_of(const DrawnCells& cells, double pixels);
+
+}  // namespace cascade

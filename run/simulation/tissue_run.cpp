@@ -1,0 +1,208 @@
+// Hands a stage's equations to the time loop of tissues, and says in its script's words how it
+// went.
+#include "run/simulation/tissue_run.h"
+
+#include "run/domain/free_memory.h"
+#include "run/simulation/tissue_stage.h"
+#include "solvers/schedule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+ScriptRules::Makers makers(const Environment& here, StepKernels& kernels,
+                           std::function<void(const Failure&)> refused) {
+    const KernelMaker& maker = *here.tissue_kernels;
+    return {*here.plans, maker.steps(TieredBackend::When::when_used, kernels, std::move(refused)),
+            maker.often()};
+}
+
+TissueSpecies species_of(const TissueStage& stage) {
+    TissueSpecies species;
+    species.place = stage.species_of(stage.rules().place).index();
+    species.radius = stage.species_of(stage.rules().radius).index();
+    species.restless = {stage.species_of(stage.rules().age).index()};
+    return species;
+}
+
+Progress progress_of(const Environment& here, std::uint32_t k) {
+    Progress progress;
+    progress.stage = here.stage(k).name;
+    progress.note = here.progress_note;
+    progress.stage_number = static_cast<int>(k) + 1;
+    progress.stage_count = static_cast<int>(here.script->stage_count());
+    progress.steps = here.stage(k).iterations;
+    progress.when_met = here.stage(k).time.steady ? "settled" : "'until' came true";
+    return progress;
+}
+
+/// The number of cells for which there is memory: planes of all registers, and lists.
+std::size_t most_cells(const System& system, Precision precision) {
+    constexpr std::uint64_t registers = 12, bytes_of_lists = 600;
+    const std::uint64_t each =
+        registers * system.species_count() * bytes_of(precision) + bytes_of_lists;
+    constexpr std::uint64_t most = 100'000'000;
+    const std::uint64_t free = available_memory();
+    return free > 0 ? std::min(most, free / each) : most;
+}
+
+/// The mean of births and deaths in words: a remark on a tissue whose cells only replace each
+/// other.
+std::string describe(const Turnover& turnover, const Stage& stage) {
+    return fmt::format(
+        "stage '{}' divides and dies for ever: {} births and {} deaths from t = {:.4g} to {:.4g}, "
+        "while the number of cells stays near {}",
+        stage.name, turnover.births, turnover.deaths, turnover.from, turnover.to, turnover.cells);
+}
+
+}  // namespace
+
+TissueRun::TissueRun(const Environment& environment, std::span<StageState> states,
+                     std::uint32_t stage, const Keeping& keeping)
+    : environment_(environment),
+      states_(states),
+      stage_(stage),
+      state_(states[stage]),
+      kernels_(environment.stage(stage).name),
+      rules_(tissue_stage(environment, states, stage),
+             makers(environment, kernels_,
+                    [this](const Failure& refusal) {
+                        if (control_ != nullptr) kernels_.warn(refusal, *control_);
+                    }),
+             near_) {
+    CHECK(state_.started && state_.tissue, "a stage is started before it advances");
+    near_->before = near_->now = state_.tissue->triangles;
+    const TissueStage here = tissue_stage(environment, states, stage);
+    loop_.emplace(rules_, *environment.ground->surroundings(), *state_.tissue, near_,
+                  species_of(here), schedule(keeping), progress_of(environment, stage));
+}
+
+TissueSchedule TissueRun::schedule(const Keeping& keeping) {
+    const StageView view(environment_, states_, stage_);
+    const StageTime& time = view.stage().time;
+    TissueSchedule schedule;
+    schedule.solver = time.solver;
+    schedule.tolerance = time.step_tolerance();
+    if (time.largest_step) schedule.largest_step = *time.largest_step;
+    if (time.duration) schedule.end_time = *time.duration;
+    schedule.steady = time.steady.value_or(0);
+    schedule.seed = environment_.program->domain.seed;
+    schedule.stage = stage_;
+    const TissueStage stage = tissue_stage(environment_, states_, stage_);
+    schedule.neighbours = neighbours_of(stage, widest_near(view));
+    schedule.threads = environment_.threads;
+    schedule.most_cells = most_cells(view.system(), environment_.precision());
+    schedule.most_list_bytes = static_cast<double>(available_memory()) / 4;
+    if (time.until) {
+        schedule.check = time.steps_between_looks();
+        schedule.ends = [this](const Tissue& tissue) {
+            follow(tissue);
+            return condition_holds();
+        };
+    }
+    schedule.keep_is_due = keeping.is_due;
+    schedule.keep = [this, &keeping](const Tissue& tissue) {
+        follow(tissue);
+        keeping.keep();
+    };
+    return schedule;
+}
+
+/// The condition is the same for all cells: the first one decides.
+bool TissueRun::condition_holds() {
+    const StageView view(environment_, states_, stage_);
+    return view.evaluate(*view.stage().time.until)[0].number_at(0, 0) != 0;
+}
+
+/// Brings the state up to the last complete step.
+void TissueRun::follow(const Tissue& tissue) {
+    state_.steps = tissue.time.steps;
+    state_.t = tissue.time.t;
+}
+
+Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
+                                    const std::function<void()>& observe, std::int64_t every) {
+    const Stage& stage = environment_.stage(stage_);
+    control_ = &control;
+    can_go_on_ = false;
+    // Without an interval, frames are drawn at tenths of the duration.
+    const std::int64_t interval = every > 0 ? every : stage.interval;
+    double tenths = tenths_reached(state_.t, stage.time.duration.value_or(0));
+    const TissueOutcome outcome = loop_->advance(
+        last_step, std::max<std::int64_t>(1, interval), control, [&](const Tissue& tissue) {
+            follow(tissue);
+            const double reached = tenths_reached(state_.t, stage.time.duration.value_or(0));
+            const bool is_due = interval > 0 || reached > tenths;
+            tenths = reached;
+            if (is_due && observe) observe();
+            return true;
+        });
+    control_ = nullptr;
+    state_.steps = outcome.steps;
+    state_.t = outcome.t;
+    kernels_.warn_of_refused(control);
+    if (outcome.failure)
+        return tl::unexpected(explain(*outcome.failure, *environment_.program, stage_));
+    if (outcome.cancelled) {
+        environment_.tissue_kernels->stepper()->abandon();
+        return StageEnd::cancelled;
+    }
+    if (outcome.turnover && control.warn) control.warn(describe(*outcome.turnover, stage));
+    state_.done = outcome.ended || state_.steps >= stage.iterations;
+    const bool in_time = !stage.time.duration || outcome.t < *stage.time.duration;
+    state_.condition_met = outcome.ended && in_time && state_.tissue->count() > 0;
+    can_go_on_ = !state_.done;
+    if (state_.done) loop_.reset();
+    return state_.done ? StageEnd::finished : StageEnd::stopped;
+}
+
+Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t k) {
+    using Kind = TissueFailure::Kind;
+    const Stage& stage = program.stages[k];
+    const System& system = program.system_of(k);
+    const std::string where = fmt::format("stage '{}' ({})", stage.name, system.name);
+    const std::string what(system.item_name(system.species()[SpeciesId(failure.species)]));
+    switch (failure.kind) {
+        case Kind::not_finite:
+            return {fmt::format("{}: {} of cell {} is not finite after t = {:.6g}, in a step of "
+                                "{:.3g}",
+                                where, what, failure.number, failure.t, failure.step),
+                    "a term of its rate divides by 0 or grows without bound"};
+        case Kind::rate_not_finite:
+            return {fmt::format("{}: the rate of {} of cell {} is not finite at t = {:.6g}", where,
+                                what, failure.number, failure.t),
+                    "a term of it divides by 0 or grows without bound"};
+        case Kind::too_short:
+            return {fmt::format("{}: steps shrink to nothing: at t = {:.6g} one of {:.2g} is too "
+                                "long still, for {} of cell {}",
+                                where, failure.t, failure.step, what, failure.number),
+                    "something jumps or grows without bound there; a larger tolerance may pass it"};
+        case Kind::too_far:
+            return {fmt::format("{}: a step of {:.3g} from t = {:.6g} moves cell {} too far", where,
+                                failure.step, failure.t, failure.number),
+                    "a smaller largest_step keeps cells beside their neighbours"};
+        case Kind::divides_for_ever:
+            return {fmt::format("{}: cell {} wants to divide again as soon as it has divided, at "
+                                "t = {:.6g}",
+                                where, failure.number, failure.t),
+                    "a division must make the condition of 'divide' false, as 'ripe: 0 after "
+                    "divide' does"};
+        case Kind::too_many_cells:
+            return {fmt::format("{}: at t = {:.6g} there would be {} cells, more than fit into "
+                                "memory",
+                                where, failure.t, failure.cells),
+                    "larger cells, or a condition of 'divide' that ends, make fewer"};
+        case Kind::too_many_neighbours:
+            return {fmt::format("{}: {}", where, failure.refusal.message), failure.refusal.hint};
+    }
+    return {where, ""};
+}
+
+}  // namespace cascade

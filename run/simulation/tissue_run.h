@@ -1,0 +1,52 @@
+// A stage of cells that crawl while it runs.
+#pragma once
+
+#include "core/result.h"
+#include "core/run_control.h"
+#include "run/simulation/environment.h"
+#include "run/simulation/running_stage.h"
+#include "run/stage/step_kernels.h"
+#include "run/tissue/script_rules.h"
+#include "tissue/tissue_loop.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace cascade {
+
+class TissueRun : public RunningStage {
+public:
+    /// All must outlive the run. The stage has been started.
+    TissueRun(const Environment& environment, std::span<StageState> states, std::uint32_t stage,
+              const Keeping& keeping);
+
+    std::uint32_t stage() const override { return stage_; }
+    StepKernels& kernels() override { return kernels_; }
+    Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
+                             const std::function<void()>& observe, std::int64_t every) override;
+    bool can_go_on() const override { return can_go_on_; }
+
+private:
+    TissueSchedule schedule(const Keeping& keeping);
+    bool condition_holds();
+    void follow(const Tissue& tissue);
+
+    const Environment& environment_;
+    std::span<StageState> states_;
+    std::uint32_t stage_;
+    StageState& state_;
+    StepKernels kernels_;
+    RunControl* control_ = nullptr;  ///< For the present call.
+    std::shared_ptr<NearTriangles> near_ = std::make_shared<NearTriangles>();
+    ScriptRules rules_;
+    std::optional<TissueLoop> loop_;
+    bool can_go_on_ = true;
+};
+
+/// What a failure of a tissue means in the words of its script.
+Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t stage);
+
+}  // namespace cascade

@@ -1,0 +1,249 @@
+// Cells get their places first; all other values are formulas of these and of earlier stages.
+#include "run/simulation/tissue_stage.h"
+
+#include "run/simulation/stage_start.h"
+#include "run/stage/plan_runner.h"
+#include "tissue/founders.h"
+#include "tissue/random_direction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// The stage of cells before this one; nothing if there is none.
+std::optional<std::uint32_t> stage_before(const Program& program, std::uint32_t stage) {
+    while (stage-- > 0) {
+        if (program.system_of(stage).cells) return stage;
+    }
+    return std::nullopt;
+}
+
+/// A number of 0 … 1 for each cell, from a hash: the angle of a random direction in a plane.
+double uniform_of(std::uint32_t seed, std::uint32_t stage, std::uint32_t number) {
+    const Vector3d direction = random_direction({seed, stage, number, ~number}, {0, 0, 1});
+    return std::atan2(direction.y, direction.x) / (2 * std::numbers::pi) + 0.5;
+}
+
+/// Starts one stage.
+class TissueStart {
+public:
+    TissueStart(const Environment& environment, std::span<StageState> states, std::uint32_t k)
+        : here_(environment),
+          states_(states),
+          k_(k),
+          view_(environment, states, k),
+          state_(states[k]),
+          stage_(tissue_stage(environment, states, k)) {}
+
+    Result<void> run() {
+        state_ = empty_state(view_.system());
+        start_uniform_items(view_, state_);
+        const bool founds = view_.stage().founders.has_value();
+        if (auto made = founds ? found() : go_on(); !made) return made;
+        if (auto good = evaluate_items(); !good) return good;
+        return leave_out(
+            view_.stage().remove, [](double value, std::size_t) { return value != 0; },
+            "'remove' takes all cells");
+    }
+
+private:
+    Tissue& tissue() { return *state_.tissue; }
+
+    /// A record of cells without values.
+    TissueRecord blank(TissueRecord record) const {
+        record.species.assign(state_.species.size(), std::vector<double>(record.numbers.size()));
+        record.stiffest.clear();
+        record.kept.assign(view_.system().item_count(), {});
+        record.frozen.reset();
+        record.births = record.deaths = 0;
+        record.time = {};
+        return record;
+    }
+
+    Result<void> found() {
+        const Founders& founders = *view_.stage().founders;
+        std::vector<NearPlace> places;
+        if (founders.places.empty()) {
+            auto found = random_founders(*here_.ground->surroundings(),
+                                         static_cast<std::size_t>(founders.count),
+                                         here_.program->domain.seed, k_);
+            if (!found) return tl::unexpected(found.error());
+            places = std::move(*found);
+        } else {
+            std::vector<Vector3d> wanted;
+            for (std::size_t k = 0; k + 2 < founders.places.size(); k += 3) {
+                wanted.push_back(
+                    {founders.places[k], founders.places[k + 1], founders.places[k + 2]});
+            }
+            places = founders_at(*here_.ground->surroundings(), wanted);
+        }
+        place(places);
+        // Of these places, those that are not taken are left out; so place k is the same with and
+        // without a chance.
+        const auto is_left_out = [&](double chance, std::size_t cell) {
+            return !(uniform_of(here_.program->domain.seed, k_, tissue().numbers()[cell]) < chance);
+        };
+        return leave_out(founders.chance, is_left_out, "no founder takes its chance");
+    }
+
+    /// Makes a cell at each place.
+    void place(std::span<const NearPlace> places) {
+        TissueRecord record;
+        record.numbers.resize(places.size());
+        std::iota(record.numbers.begin(), record.numbers.end(), std::uint32_t{0});
+        for (const NearPlace& each : places) record.triangles.push_back(each.place.triangle);
+        record.next_number = static_cast<std::uint32_t>(places.size());
+        state_.tissue = std::make_shared<Tissue>(blank(std::move(record)), here_.precision());
+        for (std::size_t cell = 0; cell < places.size(); ++cell) {
+            const Vector3d& at = places[cell].position;
+            const std::array components{at.x, at.y, at.z};
+            for (std::size_t k = 0; k < 3; ++k) {
+                tissue().set(stage_.species_of(stage_.rules().place, k).index(), cell,
+                             components[k]);
+            }
+        }
+        tissue().pad();
+    }
+
+    /// The same cells in the same order, so that values can be read cell by cell.
+    Result<void> go_on() {
+        const auto before = stage_before(view_.program(), k_);
+        CHECK(before && states_[*before].tissue, "the checker knows which cells go on");
+        const TissueRecord record = states_[*before].tissue->record();
+        *states_[*before].tissue = Tissue(record, here_.precision());
+        state_.tissue = std::make_shared<Tissue>(blank(record), here_.precision());
+        const ItemId place = here_.program->system_of(*before).cells->place;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            tissue().species[stage_.species_of(stage_.rules().place, k).index()] =
+                states_[*before].field(ItemId(place.index() + k)).clone();
+        }
+        return {};
+    }
+
+    Result<std::vector<Field>> evaluate(const StepPlan& plan) {
+        return evaluate_in(tissue(), plan, stage_, neighbours_of(stage_, 0),
+                           here_.tissue_kernels->once(), *here_.team);
+    }
+
+    Result<void> evaluate_items() {
+        const StepPlan& plan = here_.plans->start(k_);
+        auto values = evaluate(plan);
+        if (!values) return tl::unexpected(values.error());
+        for (std::size_t r = 0; r < values->size(); ++r) {
+            const ItemId item = plan.results[r];
+            const auto species = state_.species_of_item[item];
+            if (view_.stage().uniform[item]) {
+                state_.numbers[item] = (*values)[r].number_at(0, 0);
+            } else if (!species) {
+                tissue().kept[item.index()] = std::move((*values)[r]);
+            } else {
+                tissue().species[species->index()] = std::move((*values)[r]);
+            }
+        }
+        tissue().pad();
+        const ItemId frozen = view_.system().frozen_item();
+        if (!view_.stage().uniform[frozen]) tissue().freeze_by(frozen.index());
+        return {};
+    }
+
+    /// Removes the cells for which `is_left_out` is true of the formula's value. The formula may be
+    /// missing.
+    Result<void> leave_out(const Formula& formula, const auto& is_left_out, const char* why) {
+        if (formula.nodes.empty()) return {};
+        const Formula* const formulas[] = {&formula};
+        auto values = evaluate(plan_view(view_.program(), formulas, k_));
+        if (!values) return tl::unexpected(values.error());
+        std::vector<std::uint32_t> left;
+        for (std::size_t cell = 0; cell < tissue().count(); ++cell) {
+            const double value = (*values)[0].visit([&](const auto& plane) {
+                return static_cast<double>(plane.origin()[tissue().element(cell)]);
+            });
+            if (!is_left_out(value, cell)) left.push_back(static_cast<std::uint32_t>(cell));
+        }
+        if (left.empty()) {
+            return failure(
+                fmt::format("stage '{}' starts without cells: {}", view_.stage().name, why));
+        }
+        tissue().rearrange(left, left.size());
+        return {};
+    }
+
+    const Environment& here_;
+    std::span<StageState> states_;
+    std::uint32_t k_;
+    StageView view_;
+    StageState& state_;
+    TissueStage stage_;
+};
+
+}  // namespace
+
+TissueStage tissue_stage(const Environment& environment, std::span<const StageState> states,
+                         std::uint32_t stage) {
+    const StageView view(environment, states, stage);
+    return {*environment.program, stage, *environment.ground, view.context()};
+}
+
+double widest_near(const StageView& view) {
+    double widest = 0;
+    for (const Formula& distance : view.system().cells->near) {
+        const Formula* const formulas[] = {&distance};
+        const Grid one{1, 1, Boundary::periodic};
+        const Environment& here = view.environment();
+        const StepPlan plan = plan_view(view.program(), formulas, view.number());
+        const std::vector<Field> value =
+            run_plan(plan, here.kernels->interpreted_on(one), view.context(), one, *here.team);
+        widest = std::max(widest, value[0].number_at(0, 0));
+    }
+    return widest;
+}
+
+std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan) {
+    const Environment& here = view.environment();
+    const Tissue& tissue = *view.state().tissue;
+    const TissueStage stage{view.program(), view.number(), *here.ground, view.context()};
+    auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, widest_near(view)),
+                              here.tissue_kernels->once(), *here.team);
+    if (values) return std::move(*values);
+    std::vector<Field> undefined;
+    for (std::uint32_t k = 0; k < plan.result_count; ++k) {
+        Field& field = undefined.emplace_back(tissue.layout(), tissue.precision());
+        field.visit([](auto& plane) {
+            for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+                std::fill_n(plane.row(row), plane.layout().width, NAN);
+            }
+        });
+    }
+    return undefined;
+}
+
+std::string remark_on_cells(const StageView& view) {
+    const StageState& state = view.state();
+    const StageTime& time = view.stage().time;
+    const bool has_condition = time.until || time.steady;
+    if (state.tissue->count() == 0) {
+        return fmt::format("all cells of stage '{}' have died, the last at t = {:.4g}",
+                           view.stage().name, state.tissue->time.last_event);
+    }
+    if (!has_condition || state.condition_met || time.duration) return "";
+    return fmt::format("'until' of stage '{}' never came true, in {} steps up to t = {:.4g}",
+                       view.stage().name, state.steps, state.t);
+}
+
+Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
+                          std::uint32_t stage) {
+    const TimeAccount::Scope spent(environment.account, Spent::starting, stage);
+    auto started = TissueStart(environment, states, stage).run();
+    if (started) states[stage].started = true;
+    return started;
+}
+
+}  // namespace cascade

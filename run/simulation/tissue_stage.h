@@ -1,0 +1,36 @@
+// Stages of cells that crawl: their start, and what their formulas read.
+#pragma once
+
+#include "core/result.h"
+#include "core/run_control.h"
+#include "run/simulation/environment.h"
+#include "run/simulation/stage_view.h"
+#include "run/tissue/tissue_binding.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// The stage as the rooms below see it. The states must outlive it.
+TissueStage tissue_stage(const Environment& environment, std::span<const StageState> states,
+                         std::uint32_t stage);
+
+/// The largest distance of `over near(d)` in a stage's formulas; 0 without any.
+double widest_near(const StageView& view);
+
+/// The values of a plan in the cells of a stage, at the present state. NaN if there are too many
+/// neighbours, which a run of the stage would have refused.
+std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan);
+
+/// A remark on a stage of cells that has ended, or nothing.
+std::string remark_on_cells(const StageView& view);
+
+/// Makes the cells of a stage from its founders, or from those of the stage of cells before it, and
+/// computes their values. Fails if no cell is left, or if there are too many.
+Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
+                          std::uint32_t stage);
+
+}  // namespace cascade

@@ -1,0 +1,106 @@
+// Whatever has a value in the cells of the domain can be sensed: it is interpolated at the place
+// nearest to the cell that crawls.
+#include "run/tissue/ground.h"
+
+#include "core/overloaded.h"
+
+#include <algorithm>
+
+namespace cascade {
+
+namespace {
+
+/// The mesh of a model in lengths of scripts.
+SurfaceMesh in_script_lengths(const SurfaceMesh& mesh) {
+    SurfaceMesh scaled = mesh;
+    const ModelBox box(mesh);
+    for (Vector3d& point : scaled.points) point = box.in_script(point);
+    return scaled;
+}
+
+std::unique_ptr<Surroundings> box_of(const Grid& grid) {
+    const auto longest = static_cast<double>(grid.longest_side());
+    const auto side = [&](std::int64_t cells) { return static_cast<double>(cells) / longest; };
+    const auto repeats = [](Boundary boundary) { return boundary == Boundary::periodic; };
+    const bool is_plane = grid.depth <= 1;
+    return in_box({side(grid.width), side(grid.height), is_plane ? 0 : side(grid.depth)},
+                  {repeats(grid.boundary.x), repeats(grid.boundary.y),
+                   !is_plane && repeats(grid.boundary.z)});
+}
+
+bool is_sensed(const PlaneSource& source) {
+    return std::visit(
+        Overloaded{[](ModelPlane plane) { return plane != ModelPlane::number; },
+                   [](const SensedItem&) { return true; }, [](const NamedPlane&) { return true; },
+                   [](SurfaceValueId) { return true; }, [](const auto&) { return false; }},
+        source);
+}
+
+}  // namespace
+
+TissueGround::TissueGround(const Grid& grid, const ModelCells* model, Team& team)
+    : grid_(grid), model_(model) {
+    if (model == nullptr) {
+        surroundings_ = box_of(grid);
+        return;
+    }
+    mesh_ = std::make_unique<SurfaceMesh>(in_script_lengths(model->mesh));
+    filter_ = std::make_unique<CellFilter>(model->mesh, model->cells, team);
+    surroundings_ = around_surface(*mesh_);
+}
+
+PlaceValue TissueGround::value_of(const Field& field) const {
+    if (model_ == nullptr) return of_grid(field, grid_.boundary);
+    const std::vector<double> values = cell_values(field, *model_);
+    return of_cells(*filter_, std::vector<float>(values.begin(), values.end()));
+}
+
+/// The part of a side of the domain's box at which a cell is.
+PlaceValue TissueGround::part_of_side(std::size_t axis) const {
+    const Vector3d extent = surroundings_->extent();
+    const double side = axis == 0 ? extent.x : axis == 1 ? extent.y : extent.z;
+    return [axis, side](const NearPlace& near) {
+        const Vector3d& p = near.position;
+        const double at = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+        return side > 0 ? at / side : 0.5;
+    };
+}
+
+Sense TissueGround::sense_of(const PlaneSource& source, const BindingContext& fields) const {
+    using Kind = Sense::Kind;
+    const PlaceValue none = [](const NearPlace&) { return 0.0; };
+    const auto value = [](PlaceValue of) { return Sense{Kind::value, std::move(of)}; };
+    if (const auto* item = std::get_if<SensedItem>(&source)) {
+        return value(value_of(plane_of(item->item, fields)));
+    }
+    if (const auto* plane = std::get_if<ModelPlane>(&source)) {
+        switch (*plane) {
+            case ModelPlane::off: return {Kind::off};
+            case ModelPlane::nx: return {Kind::normal_x};
+            case ModelPlane::ny: return {Kind::normal_y};
+            case ModelPlane::nz: return {Kind::normal_z};
+            case ModelPlane::feature: return value(mesh_ ? feature_of(*mesh_) : none);
+            case ModelPlane::sx: return value(part_of_side(0));
+            case ModelPlane::sy: return value(part_of_side(1));
+            case ModelPlane::sz: return value(part_of_side(2));
+            default: break;
+        }
+        if (model_ == nullptr) return value(none);  // A plane has no curvature.
+    }
+    return value(value_of(plane_of(source, fields)));
+}
+
+std::vector<PlaneSource> sensed_by(std::span<const StepPlan* const> plans) {
+    std::vector<PlaneSource> sensed;
+    for (const StepPlan* plan : plans) {
+        for (const Pass& pass : plan->passes) {
+            for (const PlaneSource& source : pass.bound.fields) {
+                const bool is_new = std::ranges::find(sensed, source) == sensed.end();
+                if (is_new && is_sensed(source)) sensed.push_back(source);
+            }
+        }
+    }
+    return sensed;
+}
+
+}  // namespace cascade

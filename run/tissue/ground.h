@@ -1,0 +1,39 @@
+// Where the cells of a script crawl: on its model, on its plane, or in its box.
+#pragma once
+
+#include "run/stage/bound_kernel.h"
+#include "tissue/sense_kernel.h"
+#include "tissue/surroundings.h"
+
+#include <memory>
+#include <vector>
+
+namespace cascade {
+
+/// The surroundings of all tissues of a run, in lengths of scripts.
+class TissueGround {
+public:
+    /// `model` is null on grids, else it must outlive the ground. Throws std::bad_alloc.
+    TissueGround(const Grid& grid, const ModelCells* model, Team& team);
+
+    const std::shared_ptr<const Surroundings>& surroundings() const { return surroundings_; }
+
+    /// What a cell senses by the name of a plane. Values in the cells of the domain are those of
+    /// the moment, taken through `fields`, which reads the domain's own planes.
+    Sense sense_of(const PlaneSource& source, const BindingContext& fields) const;
+
+private:
+    PlaceValue value_of(const Field& field) const;
+    PlaceValue part_of_side(std::size_t axis) const;
+
+    Grid grid_;
+    const ModelCells* model_;
+    std::unique_ptr<SurfaceMesh> mesh_;  ///< Null without a model.
+    std::unique_ptr<CellFilter> filter_;
+    std::shared_ptr<const Surroundings> surroundings_;
+};
+
+/// The planes that plans read and cells sense, each once.
+std::vector<PlaneSource> sensed_by(std::span<const StepPlan* const> plans);
+
+}  // namespace cascade

@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# Cells that crawl, from a script to pictures and files: the same bits by every way, what theory
+# says of a covered sphere, and a message for each thing that cannot be.
+set -u
+rm -rf ./*
+
+fail() { echo "tissue_run: $*"; exit 1; }
+
+cat >cover.cascade <<'END'
+cells small: scales {
+  tone: random(0.5, 0.3)
+  mood: random(0.5, 0.5) after divide
+}
+domain { surface: sphere; cells: 400 }
+stage cover: small { founders: 4; r: 0.06; duration: 25 }
+picture { shape: plate; color: rgb(tone, mood, 0.4) }
+END
+"$CASCADE" run -q cover.cascade --threads 1 -o one.npz -o one.png || fail "the run failed"
+"$CASCADE" run -q cover.cascade --threads 2 -o two.npz || fail "two threads"
+"$CASCADE" run -q cover.cascade --backend interp -o interp.npz || fail "the interpreter"
+cmp -s one.npz two.npz || fail "another number of threads, other cells"
+cmp -s one.npz interp.npz || fail "another backend, other cells"
+"$CASCADE" run -q one.png -o again.png || fail "the picture does not run again"
+cmp -s one.png again.png || fail "the picture is not itself again"
+for out in all.glb all.obj all.cells.vtp; do
+    "$CASCADE" run -q cover.cascade -o "$out" || fail "$out was not written"
+    [ -s "$out" ] || fail "$out is empty"
+done
+"$CASCADE" run -q cover.cascade -o merged.glb --merge || fail "--merge"
+[ "$(stat -c %s merged.glb)" -gt "$(stat -c %s all.glb)" ] || fail "--merge merges nothing"
+"$CASCADE" run -q cover.cascade --frames frames -o last.png --steps 30 || fail "--frames"
+ls frames/*.png >/dev/null 2>&1 || fail "there are no frames"
+
+# A stage goes on with the cells of the one before it, and a plane may hold cells, too.
+cat >plane.cascade <<'END'
+cells dots: solid { p' += vector(0.002, 0, 0) }
+cells marked: dots { kind: 0; kind' = more(0.5, x) - kind }
+domain { grid: 40, 20 }
+stage a: dots { founders: 60; r: 0.04; duration: 6 }
+stage b: marked { remove: x > 0.9; duration: 2 }
+picture { color: rgb(kind, 0.3, 0.6); skin: rgb(0.9, 0.9, 0.85) }
+END
+"$CASCADE" run -q plane.cascade -o plane.npz -o plane.png || fail "cells on a plane"
+
+# A coat that grew before decides what the cells become.
+cat >coat.cascade <<'END'
+system bands { u: y > 0.5; u' = 0 }
+cells marked: scales { dark: 0; dark' = coat.u - dark }
+domain { surface: torus(1, 0.4); cells: 900 }
+stage coat: bands { iterations: 1 }
+stage skin: marked { founders: 60; r: 0.06; duration: 8 }
+END
+"$CASCADE" run -q coat.cascade -o coat.npz || fail "cells on a coat"
+
+refused() { # refused WORDS SCRIPT [OPTION …]
+    local words=$1 text=$2
+    shift 2
+    printf '%s\n' "$text" >wrong.cascade
+    timeout 60 "$CASCADE" run -q wrong.cascade -o wrong.npz "$@" 2>err && fail "not refused: $words"
+    grep -q -- "$words" err || fail "expected '$words': $(cat err)"
+    [ ! -e wrong.npz ] || fail "a file was written in spite of: $words"
+}
+sphere='domain { surface: sphere; cells: 200 }'
+refused "has no cells to start with" "$sphere
+stage a: scales { duration: 1 }"
+refused "wants to divide again" "cells c: on_surface { divide: 1 }
+$sphere
+stage a: c { founders: 2; duration: 1 }"
+refused "not finite" "cells c: on_surface { u: 1; u' = u / (u - 1) }
+$sphere
+stage a: c { founders: 2; duration: 1 }"
+refused "takes all cells" "$sphere
+stage a: scales { founders: 5; remove: 1; duration: 1 }"
+refused "have no rows and columns" "$(cat cover.cascade)" --features
+refused "cannot be saved yet" "$(cat cover.cascade)" --save kept
+"$CASCADE" bench cover.cascade 2>err && fail "bench measures cells"
+grep -q "cells that crawl" err || fail "bench: $(cat err)"
+
+command -v python3 >/dev/null || exit 0
+python3 -c 'import numpy' 2>/dev/null || exit 0
+python3 - <<'END' || fail "the cells are not what theory says"
+import numpy as np
+cells = np.load("one.npz")
+points, radii = cells["points"], cells["radii"]
+n = len(points)
+# Cells lie on the sphere of radius 1, and cover it nearly as densely as circles can be packed: r is
+# in sides of the box, which is 2 wide.
+assert abs(np.linalg.norm(points, axis=1) - 1).max() < 0.03
+part = n * np.pi * (2 * 0.06) ** 2 / (4 * np.pi)
+densest = np.pi / np.sqrt(12)
+assert 0.92 < part / densest < 1.12, part / densest
+# Frames stand on the surface.
+w, x, y, z = cells["frames"].T
+ey = np.stack([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)], 1)
+assert ((ey * points).sum(1) > 0.99).all()
+# What goes along with a cell stays in a family; what starts again does not.
+assert len(np.unique(cells["tone"])) <= 4 and len(np.unique(cells["mood"])) > n // 2
+
+plane = np.load("plane.npz")
+assert plane["points"][:, 0].max() <= 0.93 and abs(plane["points"][:, 2]).max() == 0
+gap = np.linalg.norm(plane["points"][:, None] - plane["points"][None], axis=2)
+assert gap[~np.eye(len(gap), dtype=bool)].min() > 0.06
+
+coat = np.load("coat.npz")
+assert coat["dark"][coat["points"][:, 1] > 0.15].min() > 0.9
+assert coat["dark"][coat["points"][:, 1] < -0.15].max() < 0.1
+END
