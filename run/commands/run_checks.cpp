@@ -232,10 +232,6 @@ void check_with_cells(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(request.features, "--features", message, "");
     options.refuse_if(request.model_files.retile, "--retile", message, "");
     options.refuse_if(request.model_files.bake > 0, "--bake", message, "");
-    const std::string unsaved = "runs with cells that crawl cannot be saved yet";
-    options.refuse_if(!request.save.empty(), "--save", unsaved,
-                      "-o NAME.npz writes the cells and their values");
-    options.refuse_if(!request.resume.empty(), "--resume", unsaved, "");
 }
 
 bool has_cells(const Script& script) {

@@ -4,15 +4,20 @@
 #include "core/version.h"
 #include "picture/npy.h"
 #include "run/commands/run.h"
+#include "run/commands/saved_cells.h"
 #include "run/commands/saved_folder.h"
 #include "run/script/embedded_script.h"
 #include "run/script/script_folder.h"
 #include "run/stage/bound_kernel.h"
 #include "run/stage/saved_time.h"
 #include "solvers/finite.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
 
 namespace cascade {
 
@@ -22,7 +27,9 @@ std::string array_name(const Stage& stage, std::string_view item) {
     return fmt::format("{}.{}.npy", stage.name, item);
 }
 
-nlohmann::json manifest(const Script& script, const Simulation& simulation) {
+/// `cells` has, by stage, what is saved of its cells besides arrays, or null.
+nlohmann::json manifest(const Script& script, const Simulation& simulation,
+                        const std::vector<nlohmann::json>& cells) {
     nlohmann::json stages = nlohmann::json::array();
     for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
         const StageState& state = simulation.state(k);
@@ -32,6 +39,7 @@ nlohmann::json manifest(const Script& script, const Simulation& simulation) {
                           {"done", state.done},
                           {"condition_met", state.condition_met},
                           {"time", to_json(state)}});
+        if (!cells[k].is_null()) stages.back()["cells"] = cells[k];
     }
     return {
         {"cascade", version()},
@@ -109,6 +117,10 @@ Result<void> check_savable(const std::filesystem::path& folder, const Script& sc
     std::vector<std::string> names;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
         const System& system = program.system_of(k);
+        if (system.cells) {
+            std::ranges::move(cell_arrays(program, k), std::back_inserter(names));
+            continue;
+        }
         for (const ItemId item : system.items()) {
             const std::string_view name = system.item_name(item);
             if (is_saved(program, k, item)) names.push_back(array_name(program.stages[k], name));
@@ -134,10 +146,17 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
             return (*change)->add(name, encode_npy(in_one_row(field, *simulation.model())));
         return (*change)->add(name, encode_npy(field));
     };
+    std::vector<nlohmann::json> cells(program.stages.size());
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         if (!simulation.state(k).started) break;
         const Stage& stage = program.stages[k];
         const System& system = program.system_of(k);
+        if (system.cells) {
+            auto saved = save_cells(**change, simulation, k);
+            if (!saved) return tl::unexpected(saved.error());
+            cells[k] = std::move(*saved);
+            continue;
+        }
         for (const ItemId item : system.items()) {
             if (!is_saved(program, k, item)) continue;
             auto done =
@@ -152,7 +171,7 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
             if (!done) return tl::unexpected(done.error());
         }
     }
-    return (*change)->commit(manifest(script, simulation));
+    return (*change)->commit(manifest(script, simulation, cells));
 }
 
 namespace {
@@ -250,6 +269,12 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
                     damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
             }
             if (auto started = simulation.start_stage(k); !started) return started;
+            if (script.program->system_of(k).cells) {
+                auto cells = read_cells(folder, *json, stages[k].at("cells"), simulation, k);
+                if (!cells) return tl::unexpected(damaged(folder, cells.error().message));
+                simulation.restore_cells(k, *cells, {{}, steps, 0, done, condition_met, {}});
+                continue;
+            }
             auto species = read_species(folder, *json, simulation, k);
             if (!species) return tl::unexpected(species.error());
             StageMoment moment{std::move(*species), steps, 0, done, condition_met, {}};

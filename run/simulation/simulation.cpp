@@ -12,6 +12,7 @@
 #include "run/simulation/tissue_run.h"
 #include "run/simulation/tissue_stage.h"
 #include "run/stage/stage_remarks.h"
+#include "tissue/tissue.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
 #endif
@@ -180,6 +181,16 @@ void Simulation::restore(std::uint32_t stage, StageMoment moment) {
     if (!moment.memory) return;
     state.time = moment.memory->time;
     state.watch = std::move(moment.memory->watch);
+}
+
+void Simulation::restore_cells(std::uint32_t stage, const TissueRecord& cells,
+                               const StageMoment& moment) {
+    self_->end_run();
+    StageState& state = self_->states[stage];
+    state.tissue = std::make_shared<Tissue>(cells, program().domain.precision);
+    state.go_to(moment.steps, cells.time.t);
+    state.done = moment.done;
+    state.condition_met = moment.condition_met;
 }
 
 void Simulation::end_stage(std::uint32_t stage) {

@@ -65,6 +65,8 @@ struct SimulationOptions {
 /// build has none.
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
+struct TissueRecord;
+
 /// Why a stage ended.
 enum class StageEnd { finished, stopped, cancelled };
 
@@ -121,6 +123,10 @@ public:
 
     /// Makes a started stage go on from another moment.
     void restore(std::uint32_t stage, StageMoment moment);
+
+    /// Makes a started stage of cells that crawl go on from other cells, which have the values of
+    /// its system. Of the moment steps and ends count.
+    void restore_cells(std::uint32_t stage, const TissueRecord& cells, const StageMoment& moment);
 
     /// Ends a started stage at its present step.
     void end_stage(std::uint32_t stage);
