@@ -61,6 +61,16 @@ stage skin: marked { founders: 60; r: 0.06; duration: 8 }
 END
 "$CASCADE" run -q coat.cascade -o coat.npz || fail "cells on a coat"
 
+# Aggregates over the domain are over the cells, each of which counts alike.
+cat >count.cascade <<'END'
+cells c { m: 0; m' = sum(1 over domain) - m }
+domain { surface: sphere; cells: 400 }
+stage a: c { founders: 5; r: 0.05; duration: 1 }
+END
+"$CASCADE" run -q count.cascade --log 'sum(1 over domain)' --log 'mean(r over domain)' -o count.npz ||
+    fail "aggregates of cells"
+tail -n 1 count.csv | grep -q ',5,0.05$' || fail "aggregates of cells: $(tail -n 1 count.csv)"
+
 refused() { # refused WORDS SCRIPT [OPTION …]
     local words=$1 text=$2
     shift 2
@@ -80,6 +90,11 @@ $sphere
 stage a: c { founders: 2; duration: 1 }"
 refused "takes all cells" "$sphere
 stage a: scales { founders: 5; remove: 1; duration: 1 }"
+refused "there is memory for" "$sphere
+stage a: scales { founders: 100000000; duration: 1 }"
+refused "neighbours each" "cells c: scales { n: 0; n' = sum(1 over near(5)) - n }
+$sphere
+stage a: c { founders: 100000; r: 0.006; duration: 1 }"
 refused "have no rows and columns" "$(cat cover.cascade)" --features
 "$CASCADE" bench cover.cascade 2>err && fail "bench measures cells"
 grep -q "cells that crawl" err || fail "bench: $(cat err)"

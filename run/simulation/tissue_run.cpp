@@ -43,18 +43,7 @@ Progress progress_of(const Environment& here, std::uint32_t k) {
     return progress;
 }
 
-/// The number of cells for which there is memory: planes of all registers, and lists.
-std::size_t most_cells(const System& system, Precision precision) {
-    constexpr std::uint64_t registers = 12, bytes_of_lists = 600;
-    const std::uint64_t each =
-        registers * system.species_count() * bytes_of(precision) + bytes_of_lists;
-    constexpr std::uint64_t most = 100'000'000;
-    const std::uint64_t free = available_memory();
-    return free > 0 ? std::min(most, free / each) : most;
-}
-
-/// The mean of births and deaths in words: a remark on a tissue whose cells only replace each
-/// other.
+/// A remark on a tissue whose cells only replace each other.
 std::string describe(const Turnover& turnover, const Stage& stage) {
     return fmt::format(
         "stage '{}' divides and dies for ever: {} births and {} deaths from t = {:.4g} to {:.4g}, "
@@ -98,7 +87,7 @@ TissueSchedule TissueRun::schedule(const Keeping& keeping) {
     const TissueStage stage = tissue_stage(environment_, states_, stage_);
     schedule.neighbours = neighbours_of(stage, widest_near(view));
     schedule.threads = environment_.threads;
-    schedule.most_cells = most_cells(view.system(), environment_.precision());
+    schedule.most_cells = most_cells_in_memory(view.system(), environment_.precision());
     schedule.most_list_bytes = static_cast<double>(available_memory()) / 4;
     if (time.until) {
         schedule.check = time.steps_between_looks();

@@ -1,6 +1,7 @@
 // Cells get their places first; all other values are formulas of these and of earlier stages.
 #include "run/simulation/tissue_stage.h"
 
+#include "run/domain/free_memory.h"
 #include "run/simulation/stage_start.h"
 #include "run/stage/plan_runner.h"
 #include "tissue/founders.h"
@@ -70,6 +71,13 @@ private:
 
     Result<void> found() {
         const Founders& founders = *view_.stage().founders;
+        const std::size_t most = most_cells_in_memory(view_.system(), here_.precision());
+        if (static_cast<std::uint64_t>(founders.count) > most) {
+            return failure(
+                fmt::format("stage '{}' would start with {} cells, and there is memory for {}",
+                            view_.stage().name, founders.count, most),
+                "fewer founders can divide until there are enough cells");
+        }
         std::vector<NearPlace> places;
         if (founders.places.empty()) {
             auto found = random_founders(*here_.ground->surroundings(),
@@ -190,6 +198,16 @@ TissueStage tissue_stage(const Environment& environment, std::span<const StageSt
                          std::uint32_t stage) {
     const StageView view(environment, states, stage);
     return {*environment.program, stage, *environment.ground, view.context()};
+}
+
+std::size_t most_cells_in_memory(const System& system, Precision precision) {
+    // Planes of all registers, and lists.
+    constexpr std::uint64_t registers = 12, bytes_of_lists = 600;
+    const std::uint64_t each =
+        registers * system.species_count() * bytes_of(precision) + bytes_of_lists;
+    constexpr std::uint64_t most = 100'000'000;
+    const std::uint64_t free = available_memory();
+    return free > 0 ? std::min(most, free / each) : most;
 }
 
 double widest_near(const StageView& view) {

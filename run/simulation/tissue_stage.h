@@ -7,6 +7,7 @@
 #include "run/simulation/stage_view.h"
 #include "run/tissue/tissue_binding.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -17,6 +18,9 @@ namespace cascade {
 /// The stage as the rooms below see it. The states must outlive it.
 TissueStage tissue_stage(const Environment& environment, std::span<const StageState> states,
                          std::uint32_t stage);
+
+/// The number of cells of a system for which there is memory.
+std::size_t most_cells_in_memory(const System& system, Precision precision);
 
 /// The largest distance of `over near(d)` in a stage's formulas; 0 without any.
 double widest_near(const StageView& view);

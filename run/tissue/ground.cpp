@@ -28,9 +28,14 @@ std::unique_ptr<Surroundings> box_of(const Grid& grid) {
                    !is_plane && repeats(grid.boundary.z)});
 }
 
+/// Is it a plane of the cells themselves?
+bool is_of_tissue(ModelPlane plane) {
+    return plane == ModelPlane::number || plane == ModelPlane::area;
+}
+
 bool is_sensed(const PlaneSource& source) {
     return std::visit(
-        Overloaded{[](ModelPlane plane) { return plane != ModelPlane::number; },
+        Overloaded{[](ModelPlane plane) { return !is_of_tissue(plane); },
                    [](const SensedItem&) { return true; }, [](const NamedPlane&) { return true; },
                    [](SurfaceValueId) { return true; }, [](const auto&) { return false; }},
         source);
