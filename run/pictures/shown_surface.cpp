@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t most_triangles = std::size_t{1} << 20;
+constexpr std::size_t most_shown_triangles = std::size_t{1} << 20;
 
 /// The longest edge in cell spacings: the filter, whose radius is two, is nearly linear along it.
 constexpr double longest_edge = 0.75;
@@ -52,9 +52,9 @@ SurfaceMesh cut_at_creases(const SurfaceMesh& mesh, const CornerNormals& corners
 
 /// A copy with fewer triangles; none if the mesh is small, or cannot be copied.
 std::optional<SurfaceMesh> reduced(const SurfaceMesh& mesh) {
-    if (mesh.triangles.size() <= most_triangles) return std::nullopt;
+    if (mesh.triangles.size() <= most_shown_triangles) return std::nullopt;
     // A collapsed mesh has triangles of this area, and some smaller ones.
-    const double area = mesh.total_area() / static_cast<double>(most_triangles / 2);
+    const double area = mesh.total_area() / static_cast<double>(most_shown_triangles / 2);
     auto copy = coarse_copy(mesh, std::sqrt(area * 4 / std::sqrt(3.0)));
     if (!copy) return std::nullopt;
     return std::move(copy->mesh);
@@ -65,7 +65,7 @@ ShownSurface shown_model(const ModelCells& model, Team& team) {
     const SurfaceMesh& mesh = copy ? *copy : model.mesh;
     const CornerNormals corners = corner_normals(mesh);
     const RefinedMesh fine = refined(cut_at_creases(mesh, corners),
-                                     longest_edge * cell_spacing(model.cells), most_triangles);
+                                     longest_edge * cell_spacing(model.cells), most_shown_triangles);
     const CellFilter filter(model.mesh, model.cells, team);
     std::optional<NearestPlace> nearest;
     if (copy) nearest.emplace(model.mesh);
@@ -98,7 +98,7 @@ Lattice lattice_of(const Grid& grid) {
         return side * std::max(2.0, 2 * std::ceil(least_facets / side / 2));
     };
     double columns = along(grid.width), rows = along(grid.height);
-    const double excess = 2 * columns * rows / static_cast<double>(most_triangles);
+    const double excess = 2 * columns * rows / static_cast<double>(most_shown_triangles);
     if (excess > 1) {
         columns = std::max(1.0, columns / std::sqrt(excess));
         rows = std::max(1.0, rows / std::sqrt(excess));
