@@ -64,8 +64,9 @@ ShownSurface shown_model(const ModelCells& model, Team& team) {
     const std::optional<SurfaceMesh> copy = reduced(model.mesh);
     const SurfaceMesh& mesh = copy ? *copy : model.mesh;
     const CornerNormals corners = corner_normals(mesh);
-    const RefinedMesh fine = refined(cut_at_creases(mesh, corners),
-                                     longest_edge * cell_spacing(model.cells), most_shown_triangles);
+    const RefinedMesh fine =
+        refined(cut_at_creases(mesh, corners), longest_edge * cell_spacing(model.cells),
+                most_shown_triangles);
     const CellFilter filter(model.mesh, model.cells, team);
     std::optional<NearestPlace> nearest;
     if (copy) nearest.emplace(model.mesh);
