@@ -19,6 +19,8 @@ draw_one() {
         on_models/torus) draw "$1" --view 30,40 ;;
         on_models/fingerprint | on_models/dart_frog) draw "$1" ;;
         on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
+        cells/fur | cells/leopard_thorns) draw "$1" --view 55,15 ;;
+        cells/*) draw "$1" ;;
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
@@ -52,6 +54,7 @@ else
     for script in examples/on_models/*.cascade; do
         draw_one "on_models/$(basename "$script" .cascade)"
     done
+    for script in examples/cells/*.cascade; do draw_one "cells/$(basename "$script" .cascade)"; done
     for script in examples/*.cascade; do draw_one "$(basename "$script" .cascade)"; done
     sweep_gray_scott
 fi
