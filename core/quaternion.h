@@ -3,6 +3,9 @@
 
 #include "core/vector3.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cascade {
 
 /// w + x i + y j + z k; q and −q are the same rotation.
@@ -10,6 +13,21 @@ struct Quaternion {
     double w = 1, x = 0, y = 0, z = 0;
     friend bool operator==(const Quaternion&, const Quaternion&) = default;
 };
+
+/// The rotation b followed by a.
+inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+            a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+            a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+/// The same direction at length 1; no rotation for 0 and for what is not finite.
+inline Quaternion of_length_1(const Quaternion& q) {
+    const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (!(size > 0) || !std::isfinite(size)) return {};
+    return {q.w / size, q.x / size, q.y / size, q.z / size};
+}
 
 /// The vector turned by a quaternion of length 1.
 inline Vector3d turned(const Quaternion& q, Vector3d v) {
@@ -29,8 +47,7 @@ inline Quaternion quaternion_of(Vector3d x, Vector3d y, Vector3d z) {
     else if (most == x.x) q = {y.z - z.y, 1 + x.x - y.y - z.z, x.y + y.x, z.x + x.z};
     else if (most == y.y) q = {z.x - x.z, x.y + y.x, 1 + y.y - x.x - z.z, y.z + z.y};
     else q = {x.y - y.x, z.x + x.z, y.z + z.y, 1 + z.z - x.x - y.y};
-    const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    return {q.w / size, q.x / size, q.y / size, q.z / size};
+    return of_length_1(q);
 }
 
 }  // namespace cascade

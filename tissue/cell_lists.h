@@ -25,7 +25,7 @@ public:
     Result<void> build(const Tissue& tissue, const std::vector<Field>& state, bool is_full);
     /// Do the lists hold for all cells in this state, and for some way around their places?
     bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
-    /// Do so many links lead far away in memory that another order is worth its while? True before
+    /// Do enough links lead far away in memory for another order to save time? True before
     /// the first lists of a large tissue.
     bool wants_order(const Tissue& tissue) const;
     /// Puts the cells in a better order, after which lists must be built. Throws std::bad_alloc.

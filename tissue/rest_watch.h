@@ -26,7 +26,7 @@ struct Turnover {
 };
 /// Called after events. A turnover if at least four times as many cells as there are were born
 /// since the last comparison and as many died, while their number changed by a tenth at most; such
-/// a tissue may go on for ever. Begins a new comparison whenever so many were born.
+/// a tissue may go on for ever. Begins a new comparison whenever that number of cells was born.
 bool compare_turnover(Tissue& tissue, Turnover& turnover);
 
 }  // namespace cascade

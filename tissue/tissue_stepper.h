@@ -39,7 +39,7 @@ public:
     /// To be called first of all and after every change of cells, with whether the planes have
     /// moved: builds the lists, and binds everything if they have.
     Result<void> cells_changed(bool has_moved);
-    /// Puts the cells in another order if that is worth its while.
+    /// Puts the cells in another order if that saves more time than it takes.
     Result<void> order_cells();
 
     /// Makes lists that hold for this state and for some way around its places, unless they do.

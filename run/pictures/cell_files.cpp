@@ -5,8 +5,6 @@
 #include "export/placed_cells.h"
 #include "tissue/tissue.h"
 
-#include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -63,34 +61,22 @@ Result<void> write_values(const std::filesystem::path& path, const GrownCells& c
     const Program& program = cells.simulation.program();
     const System& system = program.system_of(cells.stage);
     const CellRules& rules = *system.cells;
-    const Tissue& tissue = *state.tissue;
     const auto model = cells.simulation.model();
     const FilePlaces in_file(model.get());
-    const auto values = [&](ItemId first, std::size_t k) {
-        return number_order(state.field(ItemId(first.index() + k)), tissue);
-    };
-    const std::array place{values(rules.place, 0), values(rules.place, 1), values(rules.place, 2)};
-    const std::array frame{values(rules.frame, 0), values(rules.frame, 1), values(rules.frame, 2),
-                           values(rules.frame, 3)};
-    std::vector<double> radii = values(rules.radius, 0);
-    std::vector<Vector3d> places;
-    std::vector<Quaternion> frames;
-    for (std::size_t k = 0; k < tissue.count(); ++k) {
-        places.push_back(in_file.place({place[0][k], place[1][k], place[2][k]}));
-        frames.push_back(
-            in_file.turn(of_length_1({frame[0][k], frame[1][k], frame[2][k], frame[3][k]})));
-        radii[k] = in_file.length(radii[k]);
-    }
+    PlacedFrames frames = frames_of(cells.simulation, cells.stage);
+    for (Vector3d& place : frames.places) place = in_file.place(place);
+    for (Quaternion& turn : frames.turns) turn = in_file.turn(turn);
+    for (double& radius : frames.radii) radius = in_file.length(radius);
     std::vector<Channel> channels;
     for (const ItemId item : system.quantities.ids()) {
         const bool is_listed = !rules.has_component(item) && item != rules.radius;
         const bool varies = system.is_species(item) || !program.stages[cells.stage].uniform[item];
         if (!is_listed || !varies) continue;
-        const std::vector<double> of_item = values(item, 0);
+        const std::vector<double> of_item = number_order(state.field(item), *state.tissue);
         channels.push_back({std::string(system.item_name(item)),
                             std::vector<float>(of_item.begin(), of_item.end())});
     }
-    return write_cells(path, {places, frames, radii, cells.colours, channels});
+    return write_cells(path, {frames.places, frames.turns, frames.radii, cells.colours, channels});
 }
 
 }  // namespace

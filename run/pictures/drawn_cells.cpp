@@ -78,13 +78,6 @@ CellShape::Kind kind_of(const Script& script) {
     return kind.value_or(CellShape::Kind::ball);
 }
 
-Quaternion product(const Quaternion& a, const Quaternion& b) {
-    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
-            a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-            a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
-}
-
 /// About the x axis, from y towards z.
 Quaternion leaning(double degrees) {
     const double half = degrees * std::numbers::pi / 360;
@@ -99,12 +92,6 @@ double rounded(double part) {
 
 }  // namespace
 
-Quaternion of_length_1(const Quaternion& q) {
-    const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (!(size > 0) || !std::isfinite(size)) return {};
-    return {q.w / size, q.x / size, q.y / size, q.z / size};
-}
-
 std::vector<double> number_order(const Field& field, const Tissue& tissue) {
     return field.visit([&](const auto& plane) {
         std::vector<double> values;
@@ -116,19 +103,30 @@ std::vector<double> number_order(const Field& field, const Tissue& tissue) {
     });
 }
 
+PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage) {
+    const StageState& state = simulation.state(stage);
+    const Tissue& tissue = *state.tissue;
+    const CellRules& rules = *simulation.program().system_of(stage).cells;
+    const auto values = [&](ItemId first, std::size_t k) {
+        return number_order(state.field(ItemId(first.index() + k)), tissue);
+    };
+    const std::array place{values(rules.place, 0), values(rules.place, 1), values(rules.place, 2)};
+    const std::array frame{values(rules.frame, 0), values(rules.frame, 1), values(rules.frame, 2),
+                           values(rules.frame, 3)};
+    PlacedFrames frames;
+    frames.radii = values(rules.radius, 0);
+    for (std::size_t k = 0; k < tissue.count(); ++k) {
+        frames.places.push_back({place[0][k], place[1][k], place[2][k]});
+        frames.turns.push_back(of_length_1({frame[0][k], frame[1][k], frame[2][k], frame[3][k]}));
+    }
+    return frames;
+}
+
 DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage) {
     const StageState& state = simulation.state(stage);
     CHECK(state.tissue, "the stage is one of cells that crawl");
     const Tissue& tissue = *state.tissue;
-    const CellRules& rules = *simulation.program().system_of(stage).cells;
-    const auto values_of = [&](ItemId item, std::size_t k) {
-        return number_order(state.field(ItemId(item.index() + k)), tissue);
-    };
-    const std::array place{values_of(rules.place, 0), values_of(rules.place, 1),
-                           values_of(rules.place, 2)};
-    const std::array frame{values_of(rules.frame, 0), values_of(rules.frame, 1),
-                           values_of(rules.frame, 2), values_of(rules.frame, 3)};
-    const std::vector<double> radius = values_of(rules.radius, 0);
+    const PlacedFrames frames = frames_of(simulation, stage);
     const Measures measures = measures_of(script, simulation, stage, tissue);
     const auto measure = [&](Measure which, std::size_t k, double otherwise) {
         return measures[which].empty() ? otherwise : measures[which][k];
@@ -145,18 +143,18 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     std::map<std::pair<double, double>, std::uint32_t> known;  // By form and bend.
     for (std::size_t k = 0; k < tissue.count(); ++k) {
         Placement placement;
-        const double wide = measure(width, k, 2 * radius[k]);
-        const double high = measure(height, k, radius[k]);
+        const double wide = measure(width, k, 2 * frames.radii[k]);
+        const double high = measure(height, k, frames.radii[k]);
         placement.scale = {wide / 2, high, measure(length, k, wide) / 2};
-        placement.place = {place[0][k], place[1][k], place[2][k]};
+        placement.place = frames.places[k];
         const auto is_size = [](double size) { return size > 0 && std::isfinite(size); };
         if (!is_size(placement.scale.x) || !is_size(placement.scale.y) ||
             !is_size(placement.scale.z)) {
             continue;
         }
-        placement.turn = of_length_1({frame[0][k], frame[1][k], frame[2][k], frame[3][k]});
+        placement.turn = frames.turns[k];
         const double angle = measure(tilt, k, 0);
-        if (std::isfinite(angle)) placement.turn = product(placement.turn, leaning(angle));
+        if (std::isfinite(angle)) placement.turn = placement.turn * leaning(angle);
         const CellShape usual;
         const std::pair looks(rounded(measure(form, k, usual.form)),
                               rounded(measure(bend, k, usual.bend)));

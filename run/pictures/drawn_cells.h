@@ -35,8 +35,13 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
 /// The values of a plane of a tissue in ascending order of the cells' numbers.
 std::vector<double> number_order(const Field& field, const Tissue& tissue);
 
-/// The rotation of a quaternion of any length; none for 0 and for what is not finite.
-Quaternion of_length_1(const Quaternion& q);
+/// The cells of a stage in ascending order of their numbers, in lengths of scripts.
+struct PlacedFrames {
+    std::vector<Vector3d> places;
+    std::vector<Quaternion> turns;  ///< Of their axes, of length 1.
+    std::vector<double> radii;
+};
+PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage);
 
 /// Draws the cells with their colours (sRGB, in the order of numbers) on their model, or over their
 /// plane if `model` is null. Throws std::bad_alloc.

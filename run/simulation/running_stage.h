@@ -3,6 +3,7 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
+#include "run/simulation/environment.h"
 #include "run/simulation/simulation.h"
 #include "run/stage/step_kernels.h"
 
@@ -35,5 +36,8 @@ public:
     /// doubts were looked for: their checks reuse the stage's memory.
     virtual bool can_go_on() const = 0;
 };
+
+/// What is reported of a stage before it has taken a step.
+Progress progress_of(const Environment& environment, std::uint32_t stage);
 
 }  // namespace cascade

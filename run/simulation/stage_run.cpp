@@ -77,7 +77,7 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     invariants_ = find_step_invariants(view_);
     const StepProblem& problem = timer_.problem();
     if (here.tilings) tilings_.emplace(*here.tilings, problem, kernels_.identity());
-    loop_.emplace(problem, schedule(), state_.species, progress());
+    loop_.emplace(problem, schedule(), state_.species, progress_of(here, view_.number()));
     return std::nullopt;
 }
 
@@ -114,18 +114,6 @@ Schedule StageRun::schedule() {
         keeping_.keep();
     };
     return schedule;
-}
-
-Progress StageRun::progress() const {
-    const Environment& here = view_.environment();
-    Progress progress;
-    progress.stage = view_.stage().name;
-    progress.note = here.progress_note;
-    progress.stage_number = static_cast<int>(view_.number()) + 1;
-    progress.stage_count = static_cast<int>(here.script->stage_count());
-    progress.steps = view_.stage().iterations;
-    progress.when_met = view_.stage().time.steady ? "settled" : "'until' came true";
-    return progress;
 }
 
 /// Adds the present state of the stage to its course.

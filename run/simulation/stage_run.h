@@ -37,7 +37,6 @@ private:
     bool is_frozen() const;
     StageEnd end_frozen(std::int64_t last_step);
     Schedule schedule();
-    Progress progress() const;
     void look();
     Result<StageEnd> take_steps(std::int64_t last_step, const std::function<void()>& observe,
                                 std::int64_t interval);

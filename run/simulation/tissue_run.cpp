@@ -32,17 +32,6 @@ TissueSpecies species_of(const TissueStage& stage) {
     return species;
 }
 
-Progress progress_of(const Environment& here, std::uint32_t k) {
-    Progress progress;
-    progress.stage = here.stage(k).name;
-    progress.note = here.progress_note;
-    progress.stage_number = static_cast<int>(k) + 1;
-    progress.stage_count = static_cast<int>(here.script->stage_count());
-    progress.steps = here.stage(k).iterations;
-    progress.when_met = here.stage(k).time.steady ? "settled" : "'until' came true";
-    return progress;
-}
-
 /// A remark on a tissue whose cells only replace each other.
 std::string describe(const Turnover& turnover, const Stage& stage) {
     return fmt::format(

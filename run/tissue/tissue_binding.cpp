@@ -37,11 +37,9 @@ Result<Links> links_between(const Tissue& tissue, const TissueStage& stage,
     constexpr double skin = 0.01, most_links = 1e9;
     auto lists = find_neighbours({places, radii, tissue.ranks()}, rule, skin, most_links, team);
     if (!lists) return tl::unexpected(lists.error());
-    LinkList list;
-    list.ends = std::move(lists->ends);
-    list.neighbours = std::move(lists->neighbours);
-    list.weights.assign(list.neighbours.size(), 1);
-    return Links(list, tissue.layout(), tissue.precision());
+    Links links;
+    links.assign({lists->ends, lists->neighbours}, tissue.layout(), tissue.precision());
+    return links;
 }
 
 }  // namespace
