@@ -284,7 +284,12 @@ const actions: Record<string, () => void> = {
     },
     script: () => save("cascade", editor.text),
     movie: () => recording.toggle_movie(),
-    frames: () => void recording.toggle_frames(),
+    frames: () => {
+        void recording.toggle_frames();
+        // The first frame is what is seen now.
+        pattern.draw();
+        if (!pattern.is_solid) keep_what_is_seen();
+    },
 };
 for (const [id, act] of Object.entries(actions)) document.querySelector(`button#${id}`)?.addEventListener("click", act);
 

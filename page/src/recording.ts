@@ -45,9 +45,11 @@ export class Recording {
         this.movie = { canvas, recorder };
     }
 
+    /// Begins frames, to which what is seen has to be given at once, or ends them and downloads them.
     async toggle_frames() {
         const { frames } = this;
         this.frames = frames ? undefined : [];
+        this.last = 0;
         this.tell();
         if (!frames) return;
         const files = (await Promise.all(frames)).filter((file) => file !== undefined);

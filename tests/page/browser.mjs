@@ -65,9 +65,11 @@ export class Browser {
     }
 
     /// Waits until an expression in the page is true.
-    async until(expression, seconds = 60) {
+    async until(expression, seconds = 120) {
         for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
-            if (await this.evaluate(expression)) return;
+            // A page that is just being left cannot answer; the next one can.
+            const is_true = await this.evaluate(expression).catch((error) => { if (!/navigated|context was destroyed/.test(error.message)) throw error; });
+            if (is_true) return;
             await new Promise((resolve) => setTimeout(resolve, 50));
         }
         throw new Error(`never true: ${expression}`);
