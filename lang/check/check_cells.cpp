@@ -269,6 +269,7 @@ void SystemChecker::check_rules_of_cells() {
     check_rule("ey", rules.ey, Context::value, ValueType::vector, true);
     check_rule("ez", rules.ez, Context::value, ValueType::vector, true);
     rules.restarts.resize(system().quantities.size());
+    rules.restarts[rules.age] = number(0, system().span);
     for (const Declaration* restart : restarts_) {
         const Meaning* meaning = find(work_.names[index_], restart->name);
         if (meaning == nullptr || meaning->has_error || meaning->is_definition()) continue;

@@ -32,9 +32,9 @@ void SystemChecker::check_values() {
         auto checked = check_value(*values_[id], Context::value);
         if (checked) quantity.start = std::move(checked->formula);
         if (values_[id]->range == nullptr) continue;
-        // The radius of a cell is a number like a parameter as long as no rate changes it.
-        const bool is_still = is_cells() && id == system().cells->radius && rates_[id].empty();
-        if (quantity.is_species && !is_still) {
+        // Cells have a radius without a rate of its own too: what has a range is how it starts.
+        const bool is_radius = is_cells() && id == system().cells->radius;
+        if (quantity.is_species && !is_radius) {
             work_.diagnostics.error(values_[id]->range->span, "a range belongs to a parameter",
                                     fmt::format("'{}' is a species", quantity.name));
         } else {

@@ -80,8 +80,8 @@ Result<std::vector<Field>> evaluate_in(const Tissue& tissue, const StepPlan& pla
         auto made = links_between(tissue, stage, rule, team);
         if (!made) return tl::unexpected(made.error());
         links = std::move(*made);
+        binding.links = &links;
     }
-    binding.links = &links;
     BindingContext context = stage.fields;
     context.grid = tissue.grid();
     context.tissue = &binding;

@@ -101,7 +101,10 @@ TEST(CellsInTheProgram, HaveAPlaceAFrameARadiusAndAnAge) {
         return node.calls(Function::touching_sum);
     }));
     const std::string text = print_program(*script->program);
-    EXPECT_THAT(text, HasSubstr("cells scale {\n  ripe: 0 after divide\n  divide: ripe > 1\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr(
+            "cells scale {\n  age: 0 after divide\n  ripe: 0 after divide\n  divide: ripe > 1\n"));
     EXPECT_THAT(text, HasSubstr("\n  reach: 1.2\n"));
     EXPECT_THAT(text, HasSubstr("\n  solver: rkl2\n"));
 }

@@ -352,9 +352,9 @@ TEST(TissuePlans, StartAgainAfterADivision) {
     tissue.values("a") = {4, 6};
     const StepPlan plan = plan_restarts(tissue.program(), tissue.stage());
     const System& system = tissue.program().system_of(tissue.stage());
-    ASSERT_EQ(plan.results.size(), 2u);
+    ASSERT_EQ(plan.results.size(), 3u);
     const std::vector<Values> values = tissue.run(plan);
-    const std::map<std::string, Values> expected{{"a", {2, 3}}, {"b", {3, 3}}};
+    const std::map<std::string, Values> expected{{"age", {0, 0}}, {"a", {2, 3}}, {"b", {3, 3}}};
     for (std::size_t k = 0; k < values.size(); ++k) {
         EXPECT_EQ(values[k], expected.at(std::string(system.item_name(plan.results[k]))));
     }
