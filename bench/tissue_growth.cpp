@@ -86,7 +86,7 @@ public:
                 kit.b.result("divide", (kit.own(0, ripe) - 1.0).id());
                 kit.b.result("die", (kit.sensed(0).absolute() - kit.own(0, 3) * 0.5).id());
             });
-        return {{values(conditions_, margins_, 2), 2}, 0, 1};
+        return {{values(conditions_, margins_, 2), 2, true}, 0, 1};
     }
     CellValues along() override { return {}; }
     Restarts restarts() override {

@@ -1,8 +1,6 @@
 // Rearranges the tissue once for all events of a moment, then sets the new places.
 #include "tissue/division.h"
 
-#include <algorithm>
-#include <numeric>
 #include <vector>
 
 namespace cascade {
@@ -18,33 +16,34 @@ void put(Tissue& tissue, const DivisionPlaces& places, std::size_t cell, Vector3
 
 }  // namespace
 
-Divided divide(Tissue& tissue, const CellEvents& events, std::span<const Vector3d> directions,
-               const DivisionPlaces& places) {
-    const auto ranks = tissue.ranks();
-    std::vector<std::uint32_t> order(events.dividing.size());
-    std::iota(order.begin(), order.end(), std::uint32_t{0});
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return ranks[events.dividing[a]] < ranks[events.dividing[b]];
-    });
+Divided divide(Tissue& tissue, std::span<const CellEvent> events,
+               std::span<const Vector3d> directions, const DivisionPlaces& places) {
     std::vector<bool> dies(tissue.count(), false);
-    for (const std::uint32_t cell : events.dying) dies[cell] = true;
+    std::vector<std::uint32_t> dividing;
+    for (const CellEvent& event : events) {
+        if (event.dies) {
+            dies[event.cell] = true;
+        } else {
+            dividing.push_back(event.cell);
+        }
+    }
     std::vector<std::uint32_t> sources, new_place(tissue.count());
     for (std::uint32_t cell = 0; cell < tissue.count(); ++cell) {
         new_place[cell] = static_cast<std::uint32_t>(sources.size());
         if (!dies[cell]) sources.push_back(cell);
     }
     const std::size_t survivors = sources.size();
-    for (const std::uint32_t k : order) sources.push_back(events.dividing[k]);
+    sources.insert(sources.end(), dividing.begin(), dividing.end());
 
     Divided result;
     result.has_moved = tissue.rearrange(sources, survivors);
-    tissue.births += static_cast<std::int64_t>(order.size());
-    tissue.deaths += static_cast<std::int64_t>(events.dying.size());
-    for (std::size_t n = 0; n < order.size(); ++n) {
-        const std::uint32_t mother = new_place[events.dividing[order[n]]];
+    tissue.births += static_cast<std::int64_t>(dividing.size());
+    tissue.deaths += static_cast<std::int64_t>(events.size() - dividing.size());
+    for (std::size_t n = 0; n < dividing.size(); ++n) {
+        const std::uint32_t mother = new_place[dividing[n]];
         const auto child = static_cast<std::uint32_t>(survivors + n);
         const Vector3d place = place_of(tissue, places.species, mother);
-        Vector3d along = order[n] < directions.size() ? unit(directions[order[n]]) : Vector3d{};
+        Vector3d along = n < directions.size() ? unit(directions[n]) : Vector3d{};
         if (!is_finite(along) || length(along) < 0.5) {
             const Surroundings& around = places.surroundings;
             const Vector3d normal = around.has_normal()

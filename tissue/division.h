@@ -12,11 +12,14 @@
 
 namespace cascade {
 
-/// Cells to divide and to die at one moment, by place in memory; no cell is in both.
-struct CellEvents {
-    std::vector<std::uint32_t> dividing, dying;
-
-    bool empty() const { return dividing.empty() && dying.empty(); }
+/// A cell divides or dies.
+struct CellEvent {
+    std::uint32_t cell = 0;  ///< By place in memory.
+    bool dies = false;       ///< Else it divides.
+    double part = 1;         ///< Of the step, after which that happens.
+    double left = 0;         ///< The time from then to the end of the step.
+    /// If that is above 0: the cell's species then, and their mean rates up to the end.
+    std::vector<double> values = {}, mean_rates = {};
 };
 
 /// What decides where new cells are.
@@ -33,11 +36,12 @@ struct Divided {
     std::vector<std::uint32_t> mothers;   ///< which are these.
 };
 
-/// Lets the cells divide and die. A new cell has all values of its mother; the two are half her
-/// radius on either side of her place, along `directions` (one for each dividing cell, in the order
-/// of `dividing`; where it is 0 or missing, at random). New cells get their numbers in the order of
-/// their mothers' numbers. Throws std::bad_alloc.
-Divided divide(Tissue& tissue, const CellEvents& events, std::span<const Vector3d> directions,
-               const DivisionPlaces& places);
+/// Lets cells divide and die, which are given in the order of their numbers. A new cell has all
+/// values of its mother; the two are half her radius on either side of her place, along
+/// `directions` (one for each cell that divides, in their order; where it is 0 or missing, at
+/// random). New cells get their numbers in the order of their mothers' numbers. Throws
+/// std::bad_alloc.
+Divided divide(Tissue& tissue, std::span<const CellEvent> events,
+               std::span<const Vector3d> directions, const DivisionPlaces& places);
 
 }  // namespace cascade

@@ -1,12 +1,13 @@
 // Lets cells divide and die until no condition holds (internal to tissue/).
 #pragma once
 
-#include "tissue/division.h"
+#include "tissue/event_search.h"
 #include "tissue/tissue_stepper.h"
 
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -24,18 +25,21 @@ public:
           schedule_(schedule),
           stepper_(stepper) {}
 
-    /// Lets `events` and all those happen whose conditions hold now, again and again until there
-    /// are none. Returns the failure that ends the stage, if there is one.
-    std::optional<TissueFailure> happen(CellEvents events);
+    /// Lets the events of a step happen and carries their cells to its end, which is now; then all
+    /// those whose conditions hold now, again and again until there are none. Returns the failure
+    /// that ends the stage, if there is one.
+    std::optional<TissueFailure> happen(std::vector<CellEvent> events);
     /// Has any cell divided or died?
     bool has_changed() const { return has_changed_; }
 
 private:
-    CellEvents joined(const CellEvents& a, const CellEvents& b) const;
-    std::vector<Vector3d> directions(const CellEvents& events);
-    std::optional<TissueFailure> one_round(const CellEvents& events);
-    bool restart(const Divided& divided);
-    std::vector<Field>& run(const CellValues& values);
+    std::optional<TissueFailure> one_round(std::span<const CellEvent> events);
+    std::optional<TissueFailure> refuse(std::span<const CellEvent> events);
+    std::vector<Vector3d> directions(std::span<const CellEvent> events);
+    void restart(std::span<const CellEvent> dividing, const Divided& divided);
+    Result<void> carry(std::span<const CellEvent> dividing, const Divided& divided);
+    bool is_place(std::size_t species) const { return species - species_.place < 3; }
+    std::vector<Field>& run(const CellValues& values, std::span<const std::uint32_t> among = {});
 
     TissueRules& rules_;
     const Surroundings& surroundings_;

@@ -1,11 +1,10 @@
-// Looks for the first root among the margins of all cells on the cubic between the ends of a step.
+// Looks for roots of margins on the cubic through a step. Conditions of a cell alone are evaluated
+// for all cells in question at once, each at a moment of its own.
 #include "tissue/event_search.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <iterator>
 #include <utility>
 
 namespace cascade {
@@ -17,94 +16,35 @@ int power_of(Precision precision) { return precision == Precision::single ? -16 
 /// Conditions without slopes take a few probes more than bisection, smooth ones a fifth of them.
 constexpr int more_than_bisection = 4;
 
-/// The cubic through the ends of a step.
-class Cubic {
-public:
-    Cubic(const StepEnds& ends, std::vector<Field> old_rates, std::vector<Field> new_rates)
-        : ends_(ends), old_rates_(std::move(old_rates)), new_rates_(std::move(new_rates)) {
-        for (const Field& field : ends.old_state) middle_.push_back(field.clone());
-    }
+/// The values of the conditions of dying and of dividing, above 0 where they hold.
+using Margins = std::array<double, 2>;
+constexpr Margins never{-1, -1};
 
-    /// The state at a part of the step.
-    std::vector<Field>& at(double part) {
-        const double rest = 1 - part, h = ends_.moment.length;
-        const double of_old = (1 + 2 * part) * rest * rest, of_new = part * part * (3 - 2 * part);
-        const double of_old_rate = h * part * rest * rest, of_new_rate = -h * part * part * rest;
-        for (std::size_t k = 0; k < middle_.size(); ++k) {
-            middle_[k].visit([&]<typename Number>(Plane<Number>& plane) {
-                const PlaneLayout& layout = plane.layout();
-                for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-                    const Number* const y0 = ends_.old_state[k].template row<Number>(row);
-                    const Number* const y1 = ends_.new_state[k].template row<Number>(row);
-                    const Number* const f0 = old_rates_[k].template row<Number>(row);
-                    const Number* const f1 = new_rates_[k].template row<Number>(row);
-                    Number* const y = plane.row(row);
-                    for (std::int64_t i = 0; i < layout.width; ++i) {
-                        y[i] = static_cast<Number>(of_old * y0[i] + of_new * y1[i] +
-                                                   (of_old_rate * f0[i] + of_new_rate * f1[i]));
-                    }
-                }
-            });
-        }
-        return middle_;
-    }
+bool holds(const Margins& margins) { return margins[0] > 0 || margins[1] > 0; }
 
-private:
-    const StepEnds& ends_;
-    std::vector<Field> old_rates_, new_rates_, middle_;
-};
-
-std::vector<Field> copies_of(const std::vector<Field>& fields) {
-    std::vector<Field> copies;
-    for (const Field& field : fields) copies.push_back(field.clone());
-    return copies;
-}
-
-/// The cells of both lists, in ascending order.
-std::vector<std::uint32_t> united(const std::vector<std::uint32_t>& a,
-                                  const std::vector<std::uint32_t>& b) {
-    std::vector<std::uint32_t> all;
-    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-    return all;
-}
-
-/// The values of a condition by cell; empty if there is none.
-using Margins = std::vector<double>;
-
-/// The conditions at a part of the step.
+/// The conditions of some cells at a part of the step.
 struct Probe {
     double part = 0;
-    std::array<Margins, 2> margins;  ///< Of dying and of dividing.
+    std::vector<Margins> margins;
 
-    CellEvents events() const {
-        CellEvents result;
-        const auto& [dying, dividing] = margins;
-        for (std::uint32_t cell = 0; cell < std::max(dying.size(), dividing.size()); ++cell) {
-            if (!dying.empty() && dying[cell] > 0) {
-                result.dying.push_back(cell);
-            } else if (!dividing.empty() && dividing[cell] > 0) {
-                result.dividing.push_back(cell);
-            }
-        }
-        return result;
+    bool holds() const {
+        return std::any_of(margins.begin(), margins.end(),
+                           [](const Margins& each) { return cascade::holds(each); });
     }
 };
 
-Probe probe(const TissueRules::Conditions& conditions, std::vector<Field>& state,
-            const Tissue& tissue, const StepMoment& moment, ValueRunner& runner) {
-    Probe result;
-    if (conditions.values.problem == nullptr) return result;
-    const std::vector<Field>& values =
-        runner.run(conditions.values, state, static_cast<std::int64_t>(tissue.count()), moment);
+/// Reads planes of conditions at some cells.
+std::vector<Margins> margins_of(const TissueRules::Conditions& conditions,
+                                const std::vector<Field>& values, const Tissue& tissue,
+                                std::span<const std::uint32_t> cells) {
+    std::vector<Margins> result(cells.size(), never);
     const std::array planes{conditions.die, conditions.divide};
     for (std::size_t k = 0; k < planes.size(); ++k) {
         if (!planes[k]) continue;
-        Margins& margins = result.margins[k];
-        margins.resize(tissue.count());
         values[*planes[k]].visit([&](const auto& plane) {
-            tissue.each_cell([&](std::size_t cell, std::int64_t at) {
-                margins[cell] = static_cast<double>(plane.origin()[at]);
-            });
+            for (std::size_t n = 0; n < cells.size(); ++n) {
+                result[n][k] = static_cast<double>(plane.origin()[tissue.element(cells[n])]);
+            }
         });
     }
     return result;
@@ -121,23 +61,66 @@ double root_of(double first, double last, double width, double other, double els
     return b > 0 ? -2 * first / (b + size) : (size - b) / (2 * bend);
 }
 
-/// A part of the step at whose beginning no condition holds and at whose end one does.
-struct Bracket {
-    Probe first, last;
-    Probe other;  ///< One outside it, or the first one itself.
+/// A part of the step at whose beginning no condition of some cells holds and at whose end one
+/// does. It is narrowed from estimates, alternately from both sides, so that it becomes as short as
+/// asked soon after they are good; wherever it lags behind bisection, by bisection (as in the ITP
+/// method: I. Oliveira, R. Takahashi, "An Enhancement of the Bisection Method Average Performance
+/// Preserving Minmax Optimality", ACM Trans. Math. Software 47(1), 2020).
+class Bracket {
+public:
+    Bracket(std::vector<std::uint32_t> cells, std::vector<Margins> at_end, int power)
+        : last{1, std::move(at_end)},
+          cells_(std::move(cells)),
+          wanted_(std::ldexp(1, power)),
+          left_(more_than_bisection - power),
+          beyond_(wanted_ / 2) {}
 
+    std::span<const std::uint32_t> cells() const { return cells_; }
+    bool is_narrow() const { return !first.margins.empty() && width() <= wanted_; }
+
+    /// Where to look next: at the beginning first of all.
+    double next() {
+        if (first.margins.empty()) return 0;
+        --left_;
+        estimate_ = estimate();
+        is_near_begin_ = estimate_ - first.part < last.part - estimate_;
+        const double further = std::min(beyond_, width() / 2);
+        double part = is_near_begin_ ? estimate_ + further : estimate_ - further;
+        const double longest = std::ldexp(wanted_, left_);
+        part = std::clamp(part, first.part + wanted_ / 2, last.part - wanted_ / 2);
+        return std::max(last.part - longest, std::min(first.part + longest, part));
+    }
+
+    /// What was found there.
+    void narrow(Probe at) {
+        if (first.margins.empty()) {
+            first = other_ = std::move(at);
+            return;
+        }
+        const bool holds = at.holds();
+        Probe& end = holds ? last : first;
+        other_ = std::exchange(end, std::move(at));
+        // Rounding makes margins rough, so that estimates no longer become better.
+        const bool has_settled = std::abs(estimate_ - estimate_before_) < 4 * beyond_;
+        if (holds != is_near_begin_ && has_settled) beyond_ *= 4;
+        estimate_before_ = estimate_;
+    }
+
+    Probe first, last;
+
+private:
     double width() const { return last.part - first.part; }
 
     /// Where the first of the margins that are positive at the end will be 0.
     double estimate() const {
         double least = width();
-        for (std::size_t k = 0; k < first.margins.size(); ++k) {
-            for (std::size_t cell = 0; cell < last.margins[k].size(); ++cell) {
-                const double from = first.margins[k][cell], to = last.margins[k][cell];
+        for (std::size_t n = 0; n < cells_.size(); ++n) {
+            for (std::size_t k = 0; k < never.size(); ++k) {
+                const double from = first.margins[n][k], to = last.margins[n][k];
                 if (!(to > 0)) continue;
                 const double root = from > 0 ? 0
-                                             : root_of(from, to, width(), other.margins[k][cell],
-                                                       other.part - first.part);
+                                             : root_of(from, to, width(), other_.margins[n][k],
+                                                       other_.part - first.part);
                 // The negation keeps the half where a margin is not finite.
                 least = std::min(least, !(root >= 0 && root <= width()) ? width() / 2 : root);
             }
@@ -145,97 +128,131 @@ struct Bracket {
         return first.part + least;
     }
 
-    void narrow(Probe at, bool holds) {
-        Probe& end = holds ? last : first;
-        other = std::exchange(end, std::move(at));
-    }
+    std::vector<std::uint32_t> cells_;
+    Probe other_;  ///< One outside the bracket, or its first one itself.
+    double wanted_;
+    int left_;
+    double beyond_, estimate_ = 0, estimate_before_ = -1;
+    bool is_near_begin_ = false;
 };
 
-/// Narrows a bracket from estimates, alternately from both sides, so that it becomes as short as
-/// asked soon after they are good; wherever it lags behind bisection, by bisection (as in the ITP
-/// method: I. Oliveira, R. Takahashi, "An Enhancement of the Bisection Method Average Performance
-/// Preserving Minmax Optimality", ACM Trans. Math. Software 47(1), 2020). `look` gives the probe
-/// at a part.
-Result<void> narrow(Bracket& bracket, int power,
-                    const std::function<Result<Probe>(double part)>& look) {
-    const double part_to_find = std::ldexp(1, power);
-    double beyond = part_to_find / 2, estimate_before = -1;
-    for (int left = more_than_bisection - power - 1; bracket.width() > part_to_find; --left) {
-        const double begin = bracket.first.part, end = bracket.last.part;
-        const double estimate = bracket.estimate();
-        const bool is_near_begin = estimate - begin < end - estimate;
-        const double further = std::min(beyond, bracket.width() / 2);
-        double part = is_near_begin ? estimate + further : estimate - further;
-        const double longest = std::ldexp(part_to_find, left);
-        part = std::clamp(part, begin + part_to_find / 2, end - part_to_find / 2);
-        part = std::max(end - longest, std::min(begin + longest, part));
-        Result<Probe> found = look(part);
-        if (!found) return tl::unexpected(found.error());
-        const bool holds = !found->events().empty();
-        bracket.narrow(std::move(*found), holds);
-        // Rounding makes margins rough, so that estimates no longer become better.
-        const bool has_settled = std::abs(estimate - estimate_before) < 4 * beyond;
-        if (holds != is_near_begin && has_settled) beyond *= 4;
-        estimate_before = estimate;
+/// The search within one step.
+class EventSearch {
+public:
+    EventSearch(const TissueRules::Conditions& conditions, const StepCubic& cubic,
+                const Tissue& tissue, ValueRunner& runner)
+        : conditions_(conditions), cubic_(cubic), tissue_(tissue), runner_(runner) {
+        for (const Field& field : cubic.new_state) state_.push_back(field.clone());
     }
-    return {};
+
+    Result<void> narrow(std::vector<Bracket>& brackets, const Reach& reach) {
+        for (;;) {
+            std::vector<Bracket*> open;
+            for (Bracket& bracket : brackets) {
+                if (!bracket.is_narrow()) open.push_back(&bracket);
+            }
+            if (open.empty()) return {};
+            if (auto looked = look(open, reach); !looked) return looked;
+        }
+    }
+
+private:
+    Result<void> look(const std::vector<Bracket*>& brackets, const Reach& reach) {
+        const bool is_alone = conditions_.values.is_of_cell_alone;
+        std::vector<double> parts;
+        std::vector<std::uint32_t> cells;
+        for (Bracket* const bracket : brackets) {
+            parts.push_back(bracket->next());
+            if (!is_alone) cubic_.put_all(state_, parts.back());
+            for (const std::uint32_t cell : bracket->cells()) {
+                if (is_alone) cubic_.put(state_, tissue_.element(cell), parts.back());
+                cells.push_back(cell);
+            }
+        }
+        if (!is_alone) {
+            if (auto reached = reach(state_); !reached) return reached;
+        }
+        const std::vector<Field>& values =
+            runner_.run(conditions_.values, state_, tissue_, cubic_.moment_after(parts[0]), cells);
+        for (std::size_t k = 0; k < brackets.size(); ++k) {
+            brackets[k]->narrow(
+                {parts[k], margins_of(conditions_, values, tissue_, brackets[k]->cells())});
+        }
+        return {};
+    }
+
+    const TissueRules::Conditions& conditions_;
+    const StepCubic& cubic_;
+    const Tissue& tissue_;
+    ValueRunner& runner_;
+    std::vector<Field> state_;
+};
+
+std::vector<CellEvent> events_of(std::span<const Margins> margins,
+                                 std::span<const std::uint32_t> cells) {
+    std::vector<CellEvent> events;
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+        if (!holds(margins[n])) continue;
+        events.emplace_back();
+        events.back().cell = cells[n];
+        events.back().dies = margins[n][0] > 0;
+    }
+    return events;
 }
 
 }  // namespace
 
-CellEvents events_at(const TissueRules::Conditions& conditions, std::vector<Field>& state,
-                     const Tissue& tissue, const StepMoment& moment, ValueRunner& runner) {
-    return probe(conditions, state, tissue, moment, runner).events();
+std::vector<CellEvent> events_at(const TissueRules::Conditions& conditions,
+                                 std::vector<Field>& state, const Tissue& tissue,
+                                 const StepMoment& moment, ValueRunner& runner,
+                                 std::span<const std::uint32_t> among) {
+    if (conditions.values.problem == nullptr) return {};
+    const std::vector<Field>& values = runner.run(conditions.values, state, tissue, moment, among);
+    const std::span<const std::uint32_t> cells = among.empty() ? tissue.by_number() : among;
+    return events_of(margins_of(conditions, values, tissue, cells), cells);
 }
 
-Result<std::optional<FirstEvents>> first_events(TissueRules& rules, const StepEnds& ends,
-                                                double window, const Tissue& tissue,
-                                                ValueRunner& runner) {
-    const TissueRules::Conditions conditions = rules.conditions();
-    const auto moment_at = [&](double part) {
-        StepMoment moment = ends.moment;
-        moment.t += part * moment.length;
-        return moment;
-    };
-    const auto cells = static_cast<std::int64_t>(tissue.count());
-    const auto rates_at = [&](std::vector<Field>& state, double part) {
-        return copies_of(runner.run(rules.rates(), state, cells, moment_at(part)));
-    };
-    const auto probe_at = [&](std::vector<Field>& state, double part) -> Result<Probe> {
-        const auto reached = ends.reach(state);
-        if (!reached) return tl::unexpected(reached.error());
-        Probe result = probe(conditions, state, tissue, moment_at(part), runner);
-        result.part = part;
-        return result;
-    };
-    Result<Probe> at_end = probe_at(ends.new_state, 1);
-    if (!at_end) return tl::unexpected(at_end.error());
-    const CellEvents last_events = at_end->events();
-    if (last_events.empty()) return std::nullopt;
-    std::vector<Field> new_rates = rates_at(ends.new_state, 1);
-    Result<Probe> at_beginning = probe_at(ends.old_state, 0);
-    if (!at_beginning) return tl::unexpected(at_beginning.error());
-    Cubic cubic(ends, rates_at(ends.old_state, 0), std::move(new_rates));
-    const auto look = [&](double part) { return probe_at(cubic.at(part), part); };
-    Bracket bracket{*at_beginning, std::move(*at_end), *at_beginning};
-    if (const auto narrowed = narrow(bracket, power_of(tissue.precision()), look); !narrowed) {
+Result<std::vector<CellEvent>> events_within(const TissueRules::Conditions& conditions,
+                                             const StepCubic& cubic, const Tissue& tissue,
+                                             ValueRunner& runner, const Reach& reach) {
+    const bool is_alone = conditions.values.is_of_cell_alone;
+    if (!is_alone) {
+        if (auto reached = reach(cubic.new_state); !reached) return tl::unexpected(reached.error());
+    }
+    const std::vector<Field>& values =
+        runner.run(conditions.values, cubic.new_state, tissue, cubic.moment_after(1));
+    const std::vector<Margins> margins = margins_of(conditions, values, tissue, tissue.by_number());
+    std::vector<std::uint32_t> cells;
+    std::vector<Margins> at_end;
+    for (std::size_t rank = 0; rank < margins.size(); ++rank) {
+        if (!holds(margins[rank])) continue;
+        cells.push_back(tissue.by_number()[rank]);
+        at_end.push_back(margins[rank]);
+    }
+    std::vector<CellEvent> events;
+    if (cells.empty()) return events;
+    const int power = power_of(tissue.precision());
+    std::vector<Bracket> brackets;
+    if (is_alone) {
+        for (std::size_t n = 0; n < cells.size(); ++n) {
+            brackets.push_back(Bracket({cells[n]}, {at_end[n]}, power));
+        }
+    } else {
+        brackets.push_back(Bracket(cells, at_end, power));
+    }
+    EventSearch search(conditions, cubic, tissue, runner);
+    if (auto narrowed = search.narrow(brackets, reach); !narrowed) {
         return tl::unexpected(narrowed.error());
     }
-    FirstEvents first{bracket.last.part, bracket.last.events()};
-    if (window == 0 || first.part == 1) return first;
-    const double part = first.part + window;
-    CellEvents soon = last_events;
-    if (part < 1) {
-        const Result<Probe> at_part = look(part);
-        if (!at_part) return tl::unexpected(at_part.error());
-        soon = at_part->events();
+    for (const Bracket& bracket : brackets) {
+        for (CellEvent& event : events_of(bracket.last.margins, bracket.cells())) {
+            event.part = bracket.last.part;
+            events.push_back(std::move(event));
+        }
     }
-    first.events.dying = united(first.events.dying, soon.dying);
-    const std::vector<std::uint32_t> dividing = united(first.events.dividing, soon.dividing);
-    first.events.dividing.clear();
-    std::set_difference(dividing.begin(), dividing.end(), first.events.dying.begin(),
-                        first.events.dying.end(), std::back_inserter(first.events.dividing));
-    return first;
+    std::stable_sort(events.begin(), events.end(),
+                     [](const CellEvent& a, const CellEvent& b) { return a.part < b.part; });
+    return events;
 }
 
 }  // namespace cascade

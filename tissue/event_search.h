@@ -1,42 +1,37 @@
-// Finds when the first cells of a step divide or die.
+// Finds when cells divide and die within a step.
 #pragma once
 
 #include "core/result.h"
 #include "tissue/division.h"
+#include "tissue/step_cubic.h"
+#include "tissue/tissue_rules.h"
 #include "tissue/value_runner.h"
 
+#include <cstdint>
 #include <functional>
-#include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade {
 
-/// The cells for which conditions hold at a state. One that dies does not divide.
-CellEvents events_at(const TissueRules::Conditions& conditions, std::vector<Field>& state,
-                     const Tissue& tissue, const StepMoment& moment, ValueRunner& runner);
+/// The cells for which conditions hold at a state, in the order of their numbers. One that dies
+/// does not divide. `among`: only these are looked at; empty: all.
+std::vector<CellEvent> events_at(const TissueRules::Conditions& conditions,
+                                 std::vector<Field>& state, const Tissue& tissue,
+                                 const StepMoment& moment, ValueRunner& runner,
+                                 std::span<const std::uint32_t> among = {});
 
-/// The two ends of a step, with finite values.
-struct StepEnds {
-    std::vector<Field>& old_state;
-    std::vector<Field>& new_state;
-    StepMoment moment;  ///< Of the old one; `length` is that of the step.
-    /// Called with every state at which values will be evaluated, to make lists that reach there.
-    std::function<Result<void>(const std::vector<Field>& state)> reach;
-};
+/// Makes lists that hold for a state at which values of links will be evaluated.
+using Reach = std::function<Result<void>(const std::vector<Field>& state)>;
 
-struct FirstEvents {
-    double part = 1;  ///< Of the step, at the end of which it is 1.
-    CellEvents events;
-};
-
-/// The first moment of the step at which a condition holds, to 2^-20 of its length (2^-16 in single
-/// precision), and the cells for which one holds then or in the following `window`, a part of the
-/// step. Conditions whose values go smoothly through 0 take about five evaluations, others up
-/// to 24. Values between the ends are those of the cubic through both with the rates there
-/// (Hermite), which differs from the solution by a term in step⁴. Nothing if no condition holds at
-/// the end. Conditions must not hold at the beginning. Fails if `reach` does.
-Result<std::optional<FirstEvents>> first_events(TissueRules& rules, const StepEnds& ends,
-                                                double window, const Tissue& tissue,
-                                                ValueRunner& runner);
+/// What happens within a step in which cells do what they do until its end, in the order of parts,
+/// then of numbers: the cells for which a condition holds at its end, and the first moments at
+/// which it does, to 2^-20 of the step (2^-16 in single precision). Conditions whose values go
+/// smoothly through 0 take about five evaluations, others up to 24. Conditions that read other
+/// cells or the time are only followed to the first moment, and what happens then is all that is
+/// returned. Conditions must not hold at the beginning. Fails if `reach` does.
+Result<std::vector<CellEvent>> events_within(const TissueRules::Conditions& conditions,
+                                             const StepCubic& cubic, const Tissue& tissue,
+                                             ValueRunner& runner, const Reach& reach);
 
 }  // namespace cascade

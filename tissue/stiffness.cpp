@@ -115,8 +115,7 @@ private:
     }
 
     Vector rates_at(std::vector<Field>& state) {
-        Vector v =
-            read(runner_.run(rates_, state, static_cast<std::int64_t>(tissue_.count()), moment_));
+        Vector v = read(runner_.run(rates_, state, tissue_, moment_));
         for (std::size_t k = 0; k < v.size(); ++k) {
             for (double& value : v[k]) value /= scales_[k];
         }

@@ -3,7 +3,6 @@
 
 #include "solvers/pace.h"
 #include "tissue/event_rounds.h"
-#include "tissue/event_search.h"
 #include "tissue/stiffness.h"
 #include "tissue/tissue_stepper.h"
 
@@ -18,7 +17,6 @@ namespace {
 
 /// The stiffness is estimated again after this many steps.
 constexpr std::int64_t steps_of_an_estimate = 16;
-constexpr double event_window = 1.0 / 16;
 
 }  // namespace
 
@@ -191,32 +189,19 @@ private:
         }
     }
 
-    /// Ends the step at its first event, if there is one.
+    /// Finds the events of a step. If they are many, the step ends before the others.
     bool finish_step(TriedStep tried, double length) {
-        events_ = {};
+        events_.clear();
         is_quiet_ = false;
         if (rules_.conditions().values.problem != nullptr) {
-            std::vector<Field> beginning = stepper_.lend_beginning(tried);
-            const StepEnds ends{beginning, tissue_.species, stepper_.moment(length),
-                                [this](const auto& state) { return stepper_.reach(state); }};
-            const double window = schedule_.has_exact_events ? 0 : event_window;
-            const auto first = first_events(rules_, ends, window, tissue_, stepper_.values());
-            stepper_.take_beginning(tried, std::move(beginning));
-            if (!first) {
+            const auto found = stepper_.events(tried, length);
+            if (!found) {
                 stepper_.undo(tried);
-                return fail(first.error());
+                return fail(found.error());
             }
-            const std::optional<FirstEvents>& found = *first;
-            if (found) events_ = found->events;
-            is_quiet_ = !found;
-            if (found && found->part < 1) {
-                stepper_.undo(tried);
-                length *= found->part;
-                const auto shorter = stepper_.attempt(length);
-                if (!shorter) return fail(shorter.error());
-                tried = *shorter;
-                if (std::isnan(tried.error)) return fail_after(tried, false);
-            }
+            events_ = std::move(found->events);
+            is_quiet_ = events_.empty();
+            length *= found->part;
         }
         const double t = stepper_.moment(length).next_t;
         watch_rest(tried, length, t);
@@ -265,10 +250,12 @@ private:
     /// Lets cells divide and die that do so now, and looks whether the stage goes on.
     bool happen() {
         EventRounds rounds(rules_, surroundings_, tissue_, species_, schedule_, stepper_);
-        if (!is_quiet_) outcome_.failure = rounds.happen(std::exchange(events_, {}));
+        double last_event = time().t;
+        if (!events_.empty()) last_event -= events_.back().left;
+        if (!is_quiet_) outcome_.failure = rounds.happen(std::move(events_));
         if (outcome_.failure) return false;
         if (rounds.has_changed()) {
-            time().last_event = time().t;
+            time().last_event = last_event;
             time().progress = 0;
             Turnover turnover;
             if (compare_turnover(tissue_, turnover) && !outcome_.turnover) {
@@ -302,7 +289,7 @@ private:
     Progress progress_;
     Pace pace_;
     TissueOutcome outcome_;
-    CellEvents events_;  ///< Found by the last step and not yet happened.
+    std::vector<CellEvent> events_;  ///< Found by the last step and not yet happened.
     /// No condition holds at the end of the last step.
     bool is_quiet_ = false;
     double now_ = 0;  ///< The present progress towards rest.

@@ -34,7 +34,7 @@ struct TissueSchedule {
     double largest_step = std::numeric_limits<double>::infinity();
     double end_time = std::numeric_limits<double>::infinity();  ///< A step ends there.
     double steady = 0;                  ///< Above 0: ends at rest (tissue/rest_watch.h).
-    bool has_exact_events = false;      ///< Else those of a sixteenth of a step happen together.
+    bool has_exact_events = false;      ///< A step ends at each event.
     std::uint32_t seed = 0, stage = 0;  ///< For random directions of division.
     NeighbourRule neighbours;           ///< The period is that of the surroundings.
     double skin = 0.15;                 ///< No result depends on it.

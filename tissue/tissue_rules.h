@@ -40,6 +40,9 @@ inline Vector3d place_of(const Tissue& tissue, const TissueSpecies& species, std
 struct CellValues {
     const StepProblem* problem = nullptr;  ///< Null: there are no such values.
     std::size_t count = 0;                 ///< Planes in register 1.
+    /// A cell's values depend on nothing but its own species and what it senses at its place:
+    /// neither on other cells nor on the time.
+    bool is_of_cell_alone = false;
 };
 
 /// The passes of a step.

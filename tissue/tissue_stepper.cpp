@@ -16,6 +16,13 @@ namespace {
 constexpr std::array<std::uint32_t, 14> numbers_of_stages{3,  5,  7,  9,  11, 13, 17,
                                                           21, 27, 35, 45, 57, 75, 99};
 
+/// A step ends before events of more than one of this many of its cells: new cells and their
+/// neighbours see each other from its end on.
+constexpr std::size_t cells_of_an_event = 20;
+
+/// A step ends at the latest this many of the shortest times in which rates act after an event.
+constexpr double most_of_stiffness = 4;
+
 /// The number of lists after a repeated step that are made to last for any step.
 constexpr int builds_after_repeat = 16;
 
@@ -175,6 +182,71 @@ double TissueStepper::error() {
         most = std::max(most, errors[k] / (schedule_.tolerance * of_values[k]));
     }
     return most;
+}
+
+Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, double length) {
+    std::vector<Field> old_state = lend_beginning(tried);
+    StepEvents result;
+    const StepMoment now = moment(length);
+    const auto find = [&](const std::vector<Field>& old_rates,
+                          const std::vector<Field>& new_rates) -> Result<void> {
+        const StepCubic cubic{old_state, tissue_.species, old_rates, new_rates, now};
+        auto found = events_within(rules_.conditions(), cubic, tissue_, values_,
+                                   [this](const auto& state) { return reach(state); });
+        if (!found) return tl::unexpected(found.error());
+        end_at(*found, cubic, result);
+        return {};
+    };
+    Result<void> found;
+    const std::optional<RateRegisters>& rates = stepper_->problem().rate_registers;
+    if (rates) {
+        found =
+            find(stepper_->planes().scratch(rates->first), stepper_->planes().scratch(rates->last));
+    } else {
+        const auto rates_at = [&](std::vector<Field>& state, double t) {
+            StepMoment then = now;
+            then.t = t;
+            std::vector<Field> copies;
+            for (const Field& field : values_.run(rules_.rates(), state, tissue_, then)) {
+                copies.push_back(field.clone());
+            }
+            return copies;
+        };
+        const std::vector<Field> new_rates = rates_at(tissue_.species, now.next_t);
+        found = find(rates_at(old_state, now.t), new_rates);
+    }
+    take_beginning(tried, std::move(old_state));
+    if (!found) return tl::unexpected(found.error());
+    return result;
+}
+
+/// Keeps what happens until the step must end, and goes to that end.
+void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic,
+                           StepEvents& result) {
+    if (found.empty()) return;
+    const std::size_t most = schedule_.has_exact_events ? 0 : tissue_.count() / cells_of_an_event;
+    const double length = cubic.moment.length;
+    if (!rules_.conditions().values.is_of_cell_alone) {
+        result.part = found[0].part;
+    } else {
+        if (found.size() > most) result.part = found[most].part;
+        const double longest = most_of_stiffness / (length * tissue_.time.stiffness);
+        result.part = std::min(result.part, found[0].part + longest);
+    }
+    for (CellEvent& event : found) {
+        if (event.part > result.part) break;
+        event.left = (result.part - event.part) * length;
+        if (event.left > 0) {
+            const std::int64_t at = tissue_.element(event.cell);
+            event.values = cubic.values(at, event.part);
+            event.mean_rates = cubic.values(at, result.part);
+            for (std::size_t k = 0; k < event.values.size(); ++k) {
+                event.mean_rates[k] = (event.mean_rates[k] - event.values[k]) / event.left;
+            }
+        }
+        result.events.push_back(std::move(event));
+    }
+    if (result.part < 1) cubic.put_all(tissue_.species, result.part);
 }
 
 void TissueStepper::accept() {

@@ -3,6 +3,7 @@
 
 #include "solvers/stepper.h"
 #include "tissue/cell_lists.h"
+#include "tissue/event_search.h"
 #include "tissue/number_sums.h"
 #include "tissue/sense_kernel.h"
 #include "tissue/tissue_loop.h"
@@ -48,6 +49,13 @@ public:
 
     /// Tries a step of this length, with lists that reach far enough. Call accept() or undo().
     Result<TriedStep> attempt(double length);
+    /// What happens in the step that was tried, of this length. If it is too much for one step,
+    /// this ends earlier, and the values that it leads to are those at that moment.
+    struct StepEvents {
+        double part = 1;  ///< Of the step, at which it ends.
+        std::vector<CellEvent> events;
+    };
+    Result<StepEvents> events(const TriedStep& tried, double length);
     void accept();
     void undo(const TriedStep& tried);
     /// The values at the beginning of a step that was tried, which must be given back.
@@ -69,6 +77,7 @@ public:
 
 private:
     Result<void> build_lists(const std::vector<Field>& state, bool is_full);
+    void end_at(std::vector<CellEvent>& found, const StepCubic& cubic, StepEvents& result);
     StageClock clock(double length) const;
     const StepProblem& problem(std::uint32_t stages);
     std::uint32_t stages(double length) const;

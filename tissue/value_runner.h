@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -18,8 +19,10 @@ public:
     explicit ValueRunner(Team& team) : team_(team) {}
 
     /// The values at this state, in planes that the next call for the same values overwrites.
-    std::vector<Field>& run(const CellValues& values, std::vector<Field>& state, std::int64_t cells,
-                            const StepMoment& moment);
+    /// `among`: only the values of these cells are asked for; empty: those of all.
+    std::vector<Field>& run(const CellValues& values, std::vector<Field>& state,
+                            const Tissue& tissue, const StepMoment& moment,
+                            std::span<const std::uint32_t> among = {});
     /// The problems are gone.
     void clear() { known_.clear(); }
 

@@ -29,6 +29,12 @@ Formula component_of(const Formula& vector, int number) {
     return component;
 }
 
+/// Do the passes read the time, the number of steps, or sums over all cells?
+bool changes(const StepProblem& problem) {
+    return std::any_of(problem.passes.begin(), problem.passes.end(),
+                       [](const StepProblem::Pass& pass) { return !pass.changing.empty(); });
+}
+
 bool is_written(const Formula& formula) { return !formula.nodes.empty(); }
 
 }  // namespace
@@ -110,7 +116,8 @@ CellValues ScriptRules::values_of(Values& values, const Compile& compile) {
         values.problem = std::make_unique<StepProblem>(
             bind_plan(*values.plan, compile, context(), stage_.system(), stage_.stage));
     }
-    return {values.problem.get(), values.plan->result_count};
+    return {values.problem.get(), values.plan->result_count,
+            !reads_links(*values.plan) && !changes(*values.problem)};
 }
 
 TissueRules::Conditions ScriptRules::conditions() {

@@ -10,14 +10,6 @@ namespace cascade {
 
 namespace {
 
-bool reads_links(const StepPlan& plan) {
-    const auto is_link = [](const Instruction& each) { return each.op == Op::theirs; };
-    return std::ranges::any_of(plan.passes, [&](const Pass& pass) {
-        const auto& code = pass.bound.kernel.code;
-        return std::any_of(code.begin(), code.end(), is_link);
-    });
-}
-
 /// The links between cells as they lie in memory.
 Result<Links> links_between(const Tissue& tissue, const TissueStage& stage,
                             const NeighbourRule& rule, Team& team) {
@@ -43,6 +35,14 @@ Result<Links> links_between(const Tissue& tissue, const TissueStage& stage,
 }
 
 }  // namespace
+
+bool reads_links(const StepPlan& plan) {
+    const auto is_link = [](const Instruction& each) { return each.op == Op::theirs; };
+    return std::ranges::any_of(plan.passes, [&](const Pass& pass) {
+        const auto& code = pass.bound.kernel.code;
+        return std::any_of(code.begin(), code.end(), is_link);
+    });
+}
 
 TissueBinding binding_of(const TissueStage& stage, const Tissue& tissue,
                          std::span<const StepPlan* const> plans,

@@ -33,6 +33,9 @@ TissueBinding binding_of(const TissueStage& stage, const Tissue& tissue,
                          std::span<const StepPlan* const> plans,
                          std::shared_ptr<NearTriangles> near);
 
+/// Does a plan read other cells by links?
+bool reads_links(const StepPlan& plan);
+
 /// Which cells are neighbours, given the distance of the widest `over near(d)`.
 NeighbourRule neighbours_of(const TissueStage& stage, double near);
 

@@ -101,22 +101,95 @@ TEST(Events, TakeFewEvaluationsOfConditionsThatGoSmoothlyThroughZero) {
     }
 }
 
-TEST(Events, OfASixteenthOfAStepHappenTogether) {
-    TissueRecord start = cells_at({{1, 1, 1}, {1.5, 1, 1}, {1, 1.5, 1}}, 0.02, 5);
-    start.species[4] = {0.5, 0.52, 0.46};  // The moments are 0.5, 0.48 and 0.54.
-    for (const bool is_exact : {false, true}) {
-        FunctionRules rules = ripening([](const CellState&, double* rates) { rates[4] = 1; });
-        rules.solver = Solver::rk4;
-        rules.is_judged = false;
+/// Cells far from each other, the first two of which divide between 0.4 and 0.8.
+TissueRecord mostly_unripe() {
+    std::vector<Vector3d> places;
+    for (int k = 0; k < 60; ++k) places.push_back({0.1 + 0.03 * k, 1, 1});
+    TissueRecord record = cells_at(places, 0.01, 6);
+    std::fill(record.species[4].begin(), record.species[4].end(), -1.0);
+    record.species[4][0] = 0.5;
+    record.species[4][1] = 0.4;
+    return record;
+}
+
+/// ripe' = 2 − ripe; species 5 counts the time.
+FunctionRules ripening_on_curves() {
+    FunctionRules rules = ripening([](const CellState& cell, double* rates) {
+        rates[4] = 2 - cell.own(4);
+        rates[5] = 1;
+    });
+    rules.species = 6;
+    rules.condition = [](const CellState& cell, double* results) { results[0] = cell.own(4) - 1; };
+    rules.restart = [](const CellState& cell, double* results) {
+        results[0] = 0;
+        results[1] = cell.own(5) / 2;
+    };
+    rules.solver = Solver::rk4;
+    rules.is_judged = false;
+    return rules;
+}
+
+/// Every cell divides at its own moment, and what starts again then is carried to the step's end.
+TEST(Events, OfAStepHappenAtTheirMoments) {
+    double error_before = 0;
+    for (const double step : {0.4, 0.2, 0.1}) {
+        FunctionRules rules = ripening_on_curves();
         TissueSchedule schedule;
-        schedule.step = 0.4;  // The step from 0.4 to 0.8 has a window of 0.025.
-        schedule.end_time = 0.9;
-        schedule.has_exact_events = is_exact;
-        const std::vector<double> times = division_times(rules, start, schedule);
-        ASSERT_EQ(times.size(), is_exact ? 3U : 2U);
-        EXPECT_NEAR(times[0], 0.48, 1e-6);
-        EXPECT_NEAR(times[1], is_exact ? 0.5 : 0.54, 1e-6);
+        schedule.step = step;
+        schedule.end_time = 0.8;
+        Growth run(rules, mostly_unripe(), schedule);
+        const TissueOutcome outcome = run.go();
+        EXPECT_EQ(outcome.steps, std::lround(0.8 / step));
+        const TissueRecord record = run.tissue().record();
+        ASSERT_EQ(record.numbers.size(), 62U);
+        double error = 0;
+        for (const std::size_t cell : {0, 1}) {
+            const std::size_t child = 60 + cell;
+            const double moment = std::log(cell == 0 ? 1.5 : 1.6), left = 0.8 - moment;
+            EXPECT_EQ(record.species[4][child], record.species[4][cell]);
+            error = std::max(error, std::abs(record.species[4][cell] - 2 * (1 - std::exp(-left))));
+            EXPECT_NEAR(record.species[5][cell], moment / 2 + left, 1e-3 * step);
+            EXPECT_NEAR(record.species[5][child], moment / 2 + left, 1e-3 * step);
+        }
+        EXPECT_LT(error, 0.35 * std::pow(step, 3));  // Heun's is left³ / 3.
+        if (error_before > 0) {
+            EXPECT_LT(error, error_before / 3);
+        }
+        error_before = error;
     }
+}
+
+/// Where conditions read other cells, or events must be exact, steps end at each event.
+TEST(Events, EndStepsWhereTheyMust) {
+    for (const bool is_exact : {false, true}) {
+        FunctionRules rules = ripening_on_curves();
+        rules.is_of_cell_alone = is_exact;
+        TissueSchedule schedule;
+        schedule.step = 0.4;
+        schedule.end_time = 0.8;
+        schedule.has_exact_events = is_exact;
+        const std::vector<double> times = division_times(rules, mostly_unripe(), schedule);
+        ASSERT_EQ(times.size(), 2U);
+        EXPECT_NEAR(times[0], std::log(1.5), 1e-3);
+        EXPECT_NEAR(times[1], std::log(1.6), 1e-3);
+    }
+}
+
+/// Of many cells that divide in one step, no more than a twentieth do so before it ends.
+TEST(Events, OfManyCellsTakeSeveralSteps) {
+    TissueRecord start = mostly_unripe();
+    for (std::size_t cell = 0; cell < 60; ++cell) {
+        start.species[4][cell] = 0.8 - 0.01 * static_cast<double>(cell);
+    }
+    FunctionRules rules = ripening_on_curves();
+    TissueSchedule schedule;
+    schedule.step = 1;
+    schedule.end_time = 0.8;
+    Growth run(rules, start, schedule);
+    const TissueOutcome outcome = run.go();
+    EXPECT_GT(outcome.steps, 10);
+    EXPECT_LT(outcome.steps, 30);
+    EXPECT_EQ(run.tissue().births, 60);
 }
 
 TEST(Events, GiveBothCellsTheSameValuesOnBothSidesOfTheMother) {

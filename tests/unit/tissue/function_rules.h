@@ -142,7 +142,8 @@ public:
     bool is_judged = true;
     CellRates rate = [](const CellState&, double*) {};  ///< Of all species, which begin as 0.
     std::size_t condition_planes = 0;
-    CellRates condition = {};  ///< Divide, then die.
+    CellRates condition = {};      ///< Divide, then die.
+    bool is_of_cell_alone = true;  ///< The conditions.
     std::size_t restarted_from = 0;
     CellRates restart = {};  ///< New values of the species from `restarted_from` on.
     CellRates direction = {};
@@ -167,7 +168,8 @@ public:
     Conditions conditions() override {
         Conditions result;
         if (!condition) return result;
-        result.values = {values(conditions_, condition, condition_planes), condition_planes};
+        result.values = {values(conditions_, condition, condition_planes), condition_planes,
+                         is_of_cell_alone};
         result.divide = 0;
         if (condition_planes > 1) result.die = 1;
         return result;
