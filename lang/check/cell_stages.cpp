@@ -13,6 +13,10 @@ namespace cascade::checking {
 
 namespace {
 
+/// A hundredth of a radius. With a tenth of it twice as many steps are needed, and cells that
+/// divide are as many and cover as much.
+constexpr double usual_tolerance = 0.01;
+
 constexpr double most_founders = 100'000'000;
 constexpr double largest_coordinate = 1e15;
 /// A stage that ends by a condition gives up after this number of steps.
@@ -205,6 +209,7 @@ void fill_cell_time(Workspace& work, std::uint32_t index, const Settings& own,
     if (!has_solver) time.solver = Solver::rkl2;
     check_solver(work, time);
     time.automatic_speed = !is_adaptive(time.solver);
+    if (!time.tolerance) time.tolerance = usual_tolerance;
     // Iterations are the largest number of steps, whatever else ends the stage.
     time.duration_in_steps.reset();
     time.duration = own.time.duration ? own.time.duration : defaults.time.duration;
