@@ -12,6 +12,7 @@
 #include "run/pictures/measured.h"
 #include "run/pictures/painter.h"
 #include "run/session/session_picture.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
@@ -49,6 +50,14 @@ std::string in_words(const Field& field) {
     if (values.count == 0) return "no values\n";
     if (values.is_even()) return fmt::format("{:.6g} in all cells\n", values.mean);
     return fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest);
+}
+
+/// How far a stage is, and what has become of its cells if they crawl.
+std::string progress_in_words(const Stage& stage, const StageState& state) {
+    const std::string place = describe_place(stage, state);
+    if (!state.tissue) return place;
+    return fmt::format("{}: {} cells, {} births, {} deaths", place, state.tissue->count(),
+                       state.tissue->births, state.tissue->deaths);
 }
 
 }  // namespace
@@ -233,10 +242,12 @@ void PromptSession::print_value(const std::string& expression) {
 void PromptSession::print_features_shown(const std::string&) {
     auto painter = painter_of(shown_);
     if (!painter) return;
-    if (run_->simulation().model()) {
-        return fail({"the cells of a model have no rows and columns", ""});
+    const Simulation& simulation = run_->simulation();
+    if (simulation.state(simulation.shown_stage().value_or(0)).tissue) {
+        return fail({"cells that crawl have no rows and columns", ""});
     }
-    print_features(measure_shown(*painter, run_->simulation()), console_);
+    if (simulation.model()) return fail({"the cells of a model have no rows and columns", ""});
+    print_features(measure_shown(*painter, simulation), console_);
 }
 
 void PromptSession::list_stages(const std::string&) {
@@ -247,7 +258,7 @@ void PromptSession::list_stages(const std::string&) {
         const StageState& state = run_ ? run_->simulation().state(k) : not_begun;
         console_.print(fmt::format("{}: {}, {}\n", program.stages[k].name,
                                    program.system_of(k).name,
-                                   describe_place(program.stages[k], state)));
+                                   progress_in_words(program.stages[k], state)));
     }
 }
 
@@ -289,7 +300,7 @@ void PromptSession::tell_place() {
     const std::uint32_t number = std::max(shown.value_or(0), run_->place().stage);
     const Stage& stage = run_->script().program->stages[number];
     console_.print(fmt::format("stage '{}', {}\n", stage.name,
-                               describe_place(stage, run_->simulation().state(number))));
+                               progress_in_words(stage, run_->simulation().state(number))));
 }
 
 }  // namespace cascade

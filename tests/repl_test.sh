@@ -150,6 +150,19 @@ feed_wrong ':check' ':bench --nonsense' ':help nothing'
 says err 'there is no script yet'
 says err "there is no command ':nothing'"
 
+# Cells that crawl: strokes change them and take them away, and a picture grows them again.
+feed_wrong "cells spot: scales { tone: random(0.5, 0.3); tone' = 0; soft: 1; p' += push(soft) }" \
+    'domain { surface: sphere; cells: 200 }' 'stage s: spot { founders: 4; r: 0.08; duration: 8 }' \
+    ':run 60' ':set soft=2' ':paint tone=if(y > 0.5, 1, tone)' ':paint remove=y > 0.9' ':undo' ':redo' \
+    ':run 5' ':save crawl.png' ':save crawl.session' ':features' ':paint p.x=1'
+says out 'births, 0 deaths'
+says err 'cells that crawl have no rows and columns'
+says err "nothing called 'p.x'"
+"$CASCADE" run -q crawl.png -o again.png >/dev/null 2>&1 || fail "the picture of cells does not run"
+cmp -s crawl.png again.png || fail "the picture of cells is not itself again"
+feed ':load crawl.session' ':save played.session'
+cmp -s crawl.session played.session || fail "a session of cells is another one when it is played"
+
 # Words of other prompts.
 feed 'help' && says out ':load FILE'
 feed '?' && says out ':load FILE'

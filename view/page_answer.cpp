@@ -98,6 +98,7 @@ Json print_species(const LiveRun& run) {
     const auto* const shown = program.stages[stage].show.nodes.back().as<ItemId>();
     const System& system = program.system_of(stage);
     for (const ItemId item : system.species()) {
+        if (system.cells && system.cells->has_component(item)) continue;
         const auto place = shown != nullptr && item == *shown ? names.begin() : names.end();
         names.insert(place, std::string(system.item_name(item)));
     }

@@ -6,9 +6,11 @@
 #include "lang/equations/equations.h"
 #include "measure/spectrum.h"
 #include "picture/image.h"
+#include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"
 #include "run/session/kept_state.h"
 #include "run/session/session_picture.h"
+#include "tissue/tissue.h"
 #include "view/page_answer.h"
 
 #include <nlohmann/json.hpp>
@@ -45,9 +47,19 @@ Formula formula_of_item(ItemId item) {
     return formula;
 }
 
-/// The values of an item now; outside of a mask they are NaN.
+/// The values of an item now; outside of a mask they are NaN. Those of cells that crawl are one
+/// row.
 Field values_of(const LiveRun& run, StageItem at) {
-    return std::move(run.simulation().evaluate(formula_of_item(at.item), at.stage)[0]);
+    Field values = std::move(run.simulation().evaluate(formula_of_item(at.item), at.stage)[0]);
+    const Tissue* const cells = run.simulation().state(at.stage).tissue.get();
+    return cells != nullptr ? row_of_cells(values, *cells) : std::move(values);
+}
+
+/// The cells in which an item has values.
+Grid grid_of(const LiveRun& run, std::uint32_t stage) {
+    const Tissue* const cells = run.simulation().state(stage).tissue.get();
+    if (cells == nullptr) return run.simulation().grid();
+    return Grid{static_cast<std::int64_t>(std::max<std::size_t>(cells->count(), 1)), 1};
 }
 
 /// The present value of an item, or the range of its values.
@@ -97,12 +109,12 @@ double time_of_run(const LiveRun& run) {
 }
 
 Json reply_to(const AskForValues& question, LiveRun& run) {
-    const Simulation& simulation = run.simulation();
     const std::uint32_t stage = run.place().stage;
     const System& system = run.script().program->system_of(stage);
-    const Grid& grid = simulation.grid();
+    const Grid grid = grid_of(run, stage);
     Json species = Json::array();
     for (const ItemId item : system.species()) {
+        if (system.cells && system.cells->has_component(item)) continue;
         const Field field = values_of(run, {stage, item});
         const Spread spread = spread_of(field);
         species.push_back({{"name", system.item_name(item)},
@@ -153,13 +165,13 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     const Simulation& simulation = run.simulation();
     const std::uint32_t stage = run.place().stage;
     const System& system = run.script().program->system_of(stage);
+    const Grid grid = grid_of(run, stage);
     const auto x = find_item(system, question.x), y = find_item(system, question.y);
     if (!x || !y || !system.is_species(*x) || !system.is_species(*y)) return reply;
     const Field fields[] = {values_of(run, {stage, *x}), values_of(run, {stage, *y})};
     const Spread spreads[] = {spread_of(fields[0]), spread_of(fields[1])};
     if (spreads[0].count == 0 || spreads[1].count == 0) return reply;
-    const measure::Samples samples[] = {to_samples(fields[0], simulation.grid()),
-                                        to_samples(fields[1], simulation.grid())};
+    const measure::Samples samples[] = {to_samples(fields[0], grid), to_samples(fields[1], grid)};
     std::vector<int> histogram(bins_of_histogram), density(bins_of_density * bins_of_density);
     const Bins bins(spreads[0], bins_of_histogram);
     const Bins columns(spreads[0], bins_of_density), rows(spreads[1], bins_of_density);
@@ -174,9 +186,10 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     for (const std::size_t k : {0, 1}) {
         reply[k == 0 ? "x" : "y"] = {spreads[k].smallest, spreads[k].largest};
     }
-    // A model has no waves along axes, and large fields would stop the run for too long.
-    const bool is_small = simulation.grid().cell_count() <= most_cells_of_spectrum;
-    if (is_small && !simulation.model()) add_spectrum(reply, samples[0]);
+    // Neither a model nor cells that crawl have waves along axes, and large fields would stop the
+    // run for too long.
+    const bool is_small = grid.cell_count() <= most_cells_of_spectrum;
+    if (is_small && !simulation.model() && !system.cells) add_spectrum(reply, samples[0]);
     return reply;
 }
 

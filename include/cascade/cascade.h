@@ -105,8 +105,9 @@ public:
     /// The values of an expression over the present state, row by row, slice after slice: a species
     /// or parameter of the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b -
     /// stage1.b"). Cells outside of the domain's mask are NaN, unless the expression is the same in
-    /// all cells. Empty if the expression is wrong; error() says why, and the pattern stays ok.
-    /// Empty, too, if a value of the state is not finite, as step() says.
+    /// all cells. In a stage of cells that crawl, one value for each, in the order of their numbers
+    /// (spec/cells.md). Empty if the expression is wrong; error() says why, and the pattern stays
+    /// ok. Empty, too, if a value of the state is not finite, as step() says.
     std::vector<float> values(const std::string& expression);
 
     /// The present step as a PNG file in memory: what `cascade run` would draw, or `expression`. It

@@ -5,7 +5,9 @@
 #include "core/failure_line.h"
 #include "core/version.h"
 #include "run/script/embedded_script.h"
+#include "run/pictures/drawn_cells.h"
 #include "run/session/session_picture.h"
+#include "tissue/tissue.h"
 
 #include <algorithm>
 #include <map>
@@ -172,8 +174,10 @@ std::vector<std::string> Pattern::species(const std::string& stage) const {
     const Program* const program = self_->known_program();
     for (std::uint32_t k = 0; program && k < program->stages.size(); ++k) {
         if (program->stages[k].name != stage) continue;
-        for (const Quantity& quantity : program->system_of(k).quantities) {
-            if (quantity.is_species) names.push_back(quantity.name);
+        const System& system = program->system_of(k);
+        for (const ItemId item : system.species()) {
+            const bool has_name = !system.cells || !system.cells->has_component(item);
+            if (has_name) names.emplace_back(system.item_name(item));
         }
     }
     return names;
@@ -238,6 +242,10 @@ std::vector<float> Pattern::values(const std::string& text) {
     const Formula* formula = self_->formula(text);
     if (!formula) return {};
     Field field = std::move(self_->run->simulation().evaluate(*formula, self_->stage())[0]);
+    if (const Tissue* cells = self_->run->simulation().state(self_->stage()).tissue.get()) {
+        const std::vector<double> in_order = number_order(field, *cells);
+        return {in_order.begin(), in_order.end()};
+    }
     if (const auto model = self_->model()) field = in_one_row(field, *model);
     std::vector<float> values;
     field.visit([&](const auto& plane) {

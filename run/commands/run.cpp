@@ -183,7 +183,7 @@ Result<void> Runner::make_simulation() {
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
     if (played) {
-        const auto restored = go_on(*simulation_, played->values(), Continuation::same);
+        const auto restored = go_on(*simulation_, nullptr, played->values(), Continuation::same);
         if (!restored) return tl::unexpected(restored.error());
     }
     return check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),

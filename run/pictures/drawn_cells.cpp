@@ -103,6 +103,15 @@ std::vector<double> number_order(const Field& field, const Tissue& tissue) {
     });
 }
 
+Field row_of_cells(const Field& field, const Tissue& tissue) {
+    std::vector<double> values = number_order(field, tissue);
+    if (values.empty()) values.push_back(NAN);
+    Plane<float> row(PlaneLayout(Grid{static_cast<std::int64_t>(values.size()), 1}));
+    std::ranges::transform(values, row.row(0),
+                           [](double value) { return static_cast<float>(value); });
+    return Field(std::move(row));
+}
+
 PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage) {
     const StageState& state = simulation.state(stage);
     const Tissue& tissue = *state.tissue;

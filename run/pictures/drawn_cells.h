@@ -35,6 +35,9 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
 /// The values of a plane of a tissue in ascending order of the cells' numbers.
 std::vector<double> number_order(const Field& field, const Tissue& tissue);
 
+/// The same as one row of binary32; a single NaN if there are no cells.
+Field row_of_cells(const Field& field, const Tissue& tissue);
+
 /// The cells of a stage in ascending order of their numbers, in lengths of scripts.
 struct PlacedFrames {
     std::vector<Vector3d> places;

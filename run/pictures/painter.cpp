@@ -29,13 +29,6 @@ Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest&
     return shown(mask ? with_outside(field, *mask, nothing_outside) : field.clone(), request);
 }
 
-/// Cell k of rows of cells.
-template <typename PlaneOfCells>
-auto& cell_of(PlaneOfCells& plane, std::size_t k) {
-    const auto width = static_cast<std::size_t>(plane.layout().width);
-    return plane.row(static_cast<std::int64_t>(k / width))[k % width];
-}
-
 }  // namespace
 
 const Field* Canvas::number() const {
@@ -150,13 +143,7 @@ bool Painter::is_flat() const {
 Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const Tissue& tissue = *simulation.state(stage).tissue;
-    for (Field& field : values.fields) {
-        const std::vector<double> in_order = number_order(field, tissue);
-        field = Field(PlaneLayout(rows_of_cells(static_cast<std::int64_t>(in_order.size()))));
-        for (std::size_t k = 0; k < in_order.size(); ++k) {
-            cell_of(field.plane(), k) = static_cast<float>(in_order[k]);
-        }
-    }
+    for (Field& field : values.fields) field = row_of_cells(field, tissue);
     values.cells = std::make_shared<const DrawnCells>(drawn_cells(*script_, simulation, stage));
     return values;
 }
@@ -167,7 +154,7 @@ std::vector<Colour> Painter::colours_of_cells(const Canvas& canvas,
     std::vector<Colour> colours;
     for (std::size_t cell = 0; cell < canvas.cells->count; ++cell) {
         const auto value = [&](std::size_t channel) {
-            return cell_of(canvas.fields[channel].plane(), cell);
+            return canvas.fields[channel].plane().row(0)[cell];
         };
         const auto shown = [](float part) { return std::clamp(part, 0.0F, 1.0F); };
         colours.push_back(canvas.is_colour()

@@ -22,7 +22,8 @@ struct SetNumber {
 };
 
 /// Other values in the cells of the current stage: of a species, or of a parameter or `frozen` that
-/// varies. A stroke blends them into the old ones: `b: mix(b, 8, disc(20, 30, 5))`.
+/// varies. A stroke blends them into the old ones: `b: mix(b, 8, disc(20, 30, 5))`. In a stage of
+/// cells that crawl `remove` takes the cells away where the expression is not 0.
 struct Paint {
     std::string item;
     std::string expression;  ///< Over the present state, as for pictures.

@@ -1,7 +1,9 @@
 // What is kept of a stage is what starting it would not give again.
 #include "run/session/kept_state.h"
 
+#include "run/session/kept_cells.h"
 #include "run/stage/stage_time.h"
+#include "tissue/tissue.h"
 
 #include <algorithm>
 #include <numeric>
@@ -21,10 +23,20 @@ std::vector<Field> copies(std::span<const Field> fields) {
     return result;
 }
 
-/// The kept stage that stage `k` of a program goes on from; null if there is none.
+std::size_t bytes_of_record(const TissueRecord& record) {
+    std::size_t values = 0;
+    for (const auto* of : {&record.species, &record.stiffest, &record.kept}) {
+        for (const std::vector<double>& each : *of) values += each.size();
+    }
+    return sizeof(double) * values + sizeof(std::uint32_t) * 2 * record.numbers.size();
+}
+
+/// The kept stage that stage `k` of a program goes on from; null if there is none. Cells that crawl
+/// do not go on as a field, nor the other way round.
 const KeptStage* counterpart(const Program& program, std::uint32_t k, const KeptState& state) {
     if (k >= state.stages.size()) return nullptr;
     const KeptStage& kept = state.stages[k];
+    if ((kept.cells != nullptr) != program.system_of(k).cells.has_value()) return nullptr;
     const bool is_elsewhere =
         kept.name != program.stages[k].name &&
         std::any_of(program.stages.begin(), program.stages.end(),
@@ -89,6 +101,7 @@ std::size_t KeptState::bytes() const {
         for (const auto& [name, field] : stage.painted) {
             bytes += field.empty() ? 0 : bytes_of_field(field);
         }
+        if (stage.cells) bytes += bytes_of_record(*stage.cells);
         if (!stage.moment.memory) continue;
         for (const Field& field : stage.moment.memory->watch.last()) bytes += bytes_of_field(field);
     }
@@ -105,12 +118,21 @@ KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& pa
         stage.name = program.stages[k].name;
         for (const ItemId item : system.species())
             stage.species.emplace_back(system.item_name(item));
-        stage.moment = {copies(state.species),
+        stage.moment = {state.tissue ? std::vector<Field>() : copies(state.species),
                         state.steps,
                         state.t,
                         state.done,
                         state.condition_met,
                         StageMoment::Memory{state.time, state.watch}};
+        if (state.tissue) {
+            stage.cells = std::make_shared<const TissueRecord>(state.tissue->record());
+            for (const ItemId item : system.items()) {
+                stage.items.emplace_back(system.item_name(item));
+            }
+            for (const std::string& name : painted[k]) stage.painted.emplace(name, Field());
+            kept.stages.push_back(std::move(stage));
+            continue;
+        }
         for (const std::string& name : painted[k]) {
             const auto item = find_item(system, name);
             const bool is_own = item && !system.is_species(*item);
@@ -121,8 +143,9 @@ KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& pa
     return kept;
 }
 
-Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState& state,
-                                        Continuation how, std::size_t count) {
+Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
+                                        const KeptState& state, Continuation how,
+                                        std::size_t count) {
     const Program& program = simulation.program();
     std::vector<PaintedNames> painted;
     for (std::uint32_t k = 0; k < std::min(count, program.stages.size()); ++k) {
@@ -136,6 +159,22 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState&
         const bool is_same_run = how == Continuation::same;
         const bool is_anew = !is_same_run && is_current && kept->moment.steps == 0;
         StageMoment moment;
+        moment.steps = kept->moment.steps;
+        moment.t = kept->moment.t;
+        moment.done = kept->moment.done && (is_same_run || !is_current ||
+                                            is_over(program, k, simulation.state(k), kept->moment));
+        moment.condition_met = kept->moment.condition_met && moment.done;
+        PaintedNames& still_painted = painted.emplace_back();
+        if (kept->cells) {
+            for (const auto& [name, field] : kept->painted) still_painted.insert(name);
+            if (is_anew && still_painted.empty()) continue;
+            if (is_same_run) {
+                simulation.restore_cells(k, *kept->cells, moment);
+            } else if (auto gone = go_on_with_cells(simulation, before, k, *kept, moment); !gone) {
+                return tl::unexpected(gone.error());
+            }
+            continue;
+        }
         for (const ItemId item : system.species()) {
             const std::string_view name = system.item_name(item);
             const auto old = std::find(kept->species.begin(), kept->species.end(), name);
@@ -145,14 +184,8 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState&
             const auto index = static_cast<std::size_t>(old - kept->species.begin());
             moment.species.push_back(is_kept ? kept->moment.species[index].clone() : own.clone());
         }
-        moment.steps = kept->moment.steps;
-        moment.t = kept->moment.t;
-        moment.done = kept->moment.done && (is_same_run || !is_current ||
-                                            is_over(program, k, simulation.state(k), kept->moment));
-        moment.condition_met = kept->moment.condition_met && moment.done;
         if (is_same_run && kept->moment.memory) moment.memory.emplace(*kept->moment.memory);
         simulation.restore(k, std::move(moment));
-        PaintedNames& still_painted = painted.emplace_back();
         for (const auto& [name, field] : kept->painted) {
             const auto item = find_item(system, name);
             if (!item) continue;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,7 +26,9 @@ struct KeptStage {
     std::string name;
     std::vector<std::string> species;  ///< Their names, in the order of the moment's fields.
     StageMoment moment;
-    std::map<std::string, Field> painted;  ///< By name; without fields for species.
+    std::map<std::string, Field> painted;       ///< By name; without fields for species and cells.
+    std::shared_ptr<const TissueRecord> cells;  ///< Of a stage of cells that crawl, else null.
+    std::vector<std::string> items;             ///< The names of all items of such a stage.
 };
 
 struct KeptState {
@@ -48,9 +51,12 @@ enum class Continuation {
 /// are computed anew but where they were painted; species take the values of those of the same
 /// name, the others those of their start. The current stage is started anew where it has taken no
 /// step, but for what was painted. At most `count` stages are started. Returns what is painted, for
-/// each stage that was started. Fails if a stage cannot be started.
-Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const KeptState& state,
-                                        Continuation how, std::size_t count = SIZE_MAX);
+/// each stage that was started. Cells that crawl go on with their own values of parameters, too,
+/// unless their start would give them others than in `before`, whose state was kept (null: none
+/// was). Fails if a stage cannot be started, or if cells have no value to go on with.
+Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
+                                        const KeptState& state, Continuation how,
+                                        std::size_t count = SIZE_MAX);
 
 /// The item of a system with this name.
 std::optional<ItemId> find_item(const System& system, std::string_view name);

@@ -6,10 +6,12 @@
 #include "lang/syntax/parse.h"
 #include "run/domain/domain_mask.h"
 #include "solvers/finite.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -68,6 +70,14 @@ Script with_text(const Script& old, const std::string& text) {
     return load_script(old.name, text, old.folder, std::move(overrides));
 }
 
+/// Places of a tissue's planes that no cell is in do not count.
+bool has_not_finite(const Field& values, const Tissue& tissue) {
+    for (std::size_t cell = 0; cell < tissue.count(); ++cell) {
+        if (!std::isfinite(value_in(values, tissue, cell))) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 Script with_number(const Script& script, const SetNumber& number) {
@@ -99,9 +109,6 @@ Failure Refusal::in_brief() const {
 }
 
 Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunControl& control) const {
-    if (auto good = check_for_fields(script, "sessions run"); !good) {
-        return refuse(std::move(script), good.error());
-    }
     SimulationOptions options = options_;
     options.control = &control;
     const bool is_known = simulation_ && have_same_cells(*script_->program, *script.program);
@@ -122,7 +129,7 @@ Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuat
     auto script = std::make_unique<Script>(std::move(changed));
     auto simulation = simulate(*script, control);
     if (!simulation) return tl::unexpected(std::move(simulation.error()));
-    auto painted = go_on(**simulation, values, how, stages);
+    auto painted = go_on(**simulation, simulation_.get(), values, how, stages);
     if (painted && painted->empty()) {
         if (auto started = (*simulation)->start_stage(0); !started) {
             painted = tl::unexpected(started.error());
@@ -292,12 +299,16 @@ Accepted<void> LiveRun::make(const Paint& change) {
     const System& system = program.system_of(stage_);
     const std::optional<ItemId> item = find_item(system, change.item);
     const Stage& stage = program.stages[stage_];
-    if (!item || *item == system.speed_item()) {
+    const bool removes = system.cells && change.item == "remove";
+    const bool is_hidden = item && system.cells && system.cells->has_component(*item);
+    if (!removes && (!item || *item == system.speed_item() || is_hidden)) {
         return refuse(fmt::format("stage '{}' has nothing called '{}' that can be painted",
                                   stage.name, change.item),
-                      "species, parameters and 'frozen' can be");
+                      system.cells ? "species, parameters, 'r', 'age' and 'frozen' can be; "
+                                     "'remove' takes cells away"
+                                   : "species, parameters and 'frozen' can be");
     }
-    if (!system.is_species(*item) && stage.uniform[*item]) {
+    if (!removes && !system.is_species(*item) && stage.uniform[*item]) {
         return refuse(fmt::format("'{}' is one number for all cells", change.item),
                       fmt::format("'{0}: {0} + 0*x' in the stage gives each cell its own",
                                   change.item));
@@ -311,11 +322,18 @@ Accepted<void> LiveRun::make(const Paint& change) {
         return tl::unexpected(std::move(refused));
     }
     Field values = std::move(simulation_->evaluate(*formula, stage_)[0]);
-    if (const DomainMask* mask = simulation_->mask()) values = with_outside(values, *mask, 0);
-    if (first_not_finite(values)) {
+    const DomainMask* mask = simulation_->mask();
+    if (mask != nullptr && !system.cells) values = with_outside(values, *mask, 0);
+    const Tissue* const tissue = state().tissue.get();
+    if (tissue != nullptr ? has_not_finite(values, *tissue)
+                          : first_not_finite(values).has_value()) {
         return refuse(fmt::format("'{}' would not be finite in every cell", change.item));
     }
-    simulation_->set_field(stage_, *item, std::move(values));
+    if (!removes) {
+        simulation_->set_field(stage_, *item, std::move(values));
+    } else if (simulation_->remove_cells(stage_, values) == 0) {
+        return refuse("this takes all cells", "at least one must stay");
+    }
     painted_[stage_].insert(change.item);
     return {};
 }
@@ -350,13 +368,15 @@ LiveRun::Moment LiveRun::present() const {
 
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
     // Of values of one number at one step the last one counts, as a slider gives many. With strokes
-    // it does not: a number that is the same in all cells drops what was painted, for good.
+    // it does not: a number that is the same in all cells drops what was painted, for good. Nor in
+    // a stage of cells that crawl: a number that changes and changes back replaces values of their
+    // own.
     const bool has_strokes =
         std::any_of(log_.changes.begin(), log_.changes.end(), [](const auto& logged) {
             return std::holds_alternative<Paint>(logged->change);
         });
     const auto* number = std::get_if<SetNumber>(&change);
-    if (number != nullptr && !has_strokes && !log_.changes.empty()) {
+    if (number != nullptr && !has_strokes && !state().tissue && !log_.changes.empty()) {
         const LoggedChange& last = *log_.changes.back();
         const auto* before = std::get_if<SetNumber>(&last.change);
         if (last.at == at && before != nullptr && before->name == number->name) {

@@ -11,6 +11,7 @@
 #include "run/simulation/stage_tools.h"
 #include "run/simulation/tissue_run.h"
 #include "run/simulation/tissue_stage.h"
+#include "run/simulation/values_of_start.h"
 #include "run/stage/stage_remarks.h"
 #include "tissue/tissue.h"
 #if CASCADE_HAS_JIT
@@ -193,6 +194,21 @@ void Simulation::restore_cells(std::uint32_t stage, const TissueRecord& cells,
     state.condition_met = moment.condition_met;
 }
 
+std::vector<std::vector<double>> Simulation::values_of_start(std::uint32_t stage) const {
+    return cascade::values_of_start(*self_->environment, self_->states, stage);
+}
+
+std::size_t Simulation::remove_cells(std::uint32_t stage, const Field& chosen) {
+    self_->end_run();
+    Tissue& tissue = *self_->states[stage].tissue;
+    std::vector<std::uint32_t> left;
+    for (std::uint32_t cell = 0; cell < tissue.count(); ++cell) {
+        if (value_in(chosen, tissue, cell) == 0) left.push_back(cell);
+    }
+    if (!left.empty()) tissue.rearrange(left, left.size());
+    return left.size();
+}
+
 void Simulation::end_stage(std::uint32_t stage) {
     self_->end_run();
     self_->states[stage].done = true;
@@ -202,6 +218,14 @@ void Simulation::set_field(std::uint32_t stage, ItemId item, Field values) {
     self_->end_run();
     StageState& state = self_->states[stage];
     const System& system = program().system_of(stage);
+    if (Tissue* const tissue = state.tissue.get()) {
+        const auto species = state.species_of_item[item];
+        (species ? tissue->species[species->index()] : tissue->kept[item.index()]) =
+            std::move(values);
+        tissue->pad();
+        if (item == system.frozen_item()) tissue->freeze_by(item.index());
+        return;
+    }
     if (const auto species = state.species_of_item[item]) {
         state.species[species->index()] = std::move(values);
         return;

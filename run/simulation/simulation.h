@@ -127,12 +127,23 @@ public:
     /// Makes a started stage of cells that crawl go on from other cells, which have the values of
     /// its system. Of the moment steps and ends count.
     void restore_cells(std::uint32_t stage, const TissueRecord& cells, const StageMoment& moment);
+    /// The values that the start of a started stage of cells that crawl would give the present
+    /// cells where they are now: by item, then in ascending order of the cells' numbers. Empty for
+    /// items that the start does not compute, or that are the same in all cells. Empty altogether
+    /// if the start reads cells of an earlier stage, of which cells born since have no values.
+    std::vector<std::vector<double>> values_of_start(std::uint32_t stage) const;
+
+    /// Removes the cells of a started stage of cells that crawl where `chosen`, as evaluate() gives
+    /// it, is not 0. Returns the number of cells that stay; if that is 0, all were chosen, and none
+    /// is removed.
+    std::size_t remove_cells(std::uint32_t stage, const Field& chosen);
 
     /// Ends a started stage at its present step.
     void end_stage(std::uint32_t stage);
 
     /// Gives a species other values, or a parameter or `frozen` that varies, in a started stage.
-    /// Values outside of a mask must be 0. What was computed from the old values when the stage
+    /// Values outside of a mask must be 0; those of cells that crawl are where evaluate() has them.
+    /// What was computed from the old values when the stage
     /// started is kept: other parameters, and values of sides.
     void set_field(std::uint32_t stage, ItemId item, Field values);
 

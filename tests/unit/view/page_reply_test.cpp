@@ -20,13 +20,14 @@ stage one: waves { iterations: 5 }
 
 class PageReply : public testing::Test {
 protected:
-    void SetUp() override {
+    void SetUp() override { begin(waves); }
+    void begin(std::string_view text) {
         SimulationOptions options;
         options.backend = BackendKind::interpreter;
         options.threads = 1;
         RunControl control;
         auto run =
-            LiveRun::begin(load_script("waves.cascade", std::string(waves), "."), options, control);
+            LiveRun::begin(load_script("waves.cascade", std::string(text), "."), options, control);
         ASSERT_TRUE(run.has_value());
         run_ = std::move(*run);
     }
@@ -140,6 +141,28 @@ TEST_F(PageReply, SpectrumWithItsWavelength) {
     EXPECT_NEAR(reply["wavelength"].get<double>(), 8, 1e-6);
     EXPECT_NEAR(reply["ring_width"].get<double>(), 1.0 / 32, 1e-12);
     EXPECT_NEAR(reply["spectrum"][4].get<double>(), 0.5, 1e-6);
+}
+
+/// More cells than a row of memory has, whose places after the last one are no cells.
+TEST_F(PageReply, CellsThatCrawl) {
+    begin(
+        "cells dot { c: 2 + x; c' = 0; d: 1; d' = 0 }\ndomain { grid: 8, 8 }\n"
+        "stage one: dot { founders: 700; iterations: 5 }\n");
+    const Json values = reply(AskForValues{699});
+    std::vector<std::string> names;
+    for (const Json& species : values["species"]) names.push_back(species["name"]);
+    EXPECT_THAT(names, testing::UnorderedElementsAre("r", "age", "c", "d"));
+    for (const Json& species : values["species"]) {
+        if (species["name"] != "c") continue;
+        EXPECT_GE(species["smallest"], 2);
+        EXPECT_GE(species["value"], 2);
+    }
+    EXPECT_FALSE(reply(AskForValues{700})["species"][0].contains("value"));
+    const Json measures = reply(AskForMeasures{"c", "d"});
+    int count = 0;
+    for (const Json& bin : measures["histogram"]) count += bin.get<int>();
+    EXPECT_EQ(count, 700);
+    EXPECT_FALSE(measures.contains("spectrum"));
 }
 
 }  // namespace

@@ -1,0 +1,275 @@
+// Cells that crawl while their run is changed: what they keep, what starts where they are, and that
+// a log gives the same bits again.
+#include "run/session/live_run.h"
+
+#include "run/pictures/drawn_cells.h"
+#include "support/new_seed.h"
+#include "support/random_stream.h"
+#include "tissue/tissue.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cascade::testing {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Le;
+
+/// Cells that divide for a while; of their parameters `tone` is inherited and `mood` starts again.
+constexpr const char* growing =
+    "cells spot {\n"
+    "  r: 0.05\n"
+    "  ripe: random(0.5, 0.4) after divide\n"
+    "  tone: spread * random(0.5, 0.4) + side\n"
+    "  mood: random(0.5, 0.4) after divide\n"
+    "  side: 0\n"
+    "  hold: 0.5\n"
+    "  spread: 1 in 0 .. 4\n"
+    "  c: 0\n"
+    "  p' += push(hold)\n"
+    "  ripe' = more(sum(contact over touching), 2)\n"
+    "  c' = tone + lap(c) - c\n"
+    "  divide: ripe > 1\n"
+    "}\n"
+    "domain { grid: 32, 32; boundary: noflux }\n"
+    "stage one: spot { founders: 5; duration: 3 }\n"
+    "stage two: spot { c: c; tone: tone; ripe: ripe; mood: mood; duration: 2 }\n";
+
+const SimulationOptions interpreted = {BackendKind::interpreter, 0, 1};
+
+class LiveTissueTest : public ::testing::Test {
+protected:
+    std::unique_ptr<LiveRun> begun(const std::string& text) {
+        auto run = LiveRun::begin(load_script("test", text, "."), interpreted, control_);
+        EXPECT_TRUE(run) << run.error().messages(false);
+        return run ? std::move(*run) : nullptr;
+    }
+    std::unique_ptr<LiveRun> played(const SessionLog& log) {
+        auto run = LiveRun::play(log, ".", interpreted, control_);
+        EXPECT_TRUE(run) << run.error().messages(false);
+        return run ? std::move(*run) : nullptr;
+    }
+    void advance(LiveRun& run, std::int64_t count) {
+        const auto end = run.advance(count, control_);
+        EXPECT_TRUE(end) << end.error().message;
+    }
+    /// Until some cells have divided.
+    void grow(LiveRun& run) {
+        while (count(run) < 11) advance(run, 1);
+        EXPECT_EQ(run.place().stage, 0u);
+    }
+    void apply(LiveRun& run, const Change& change) {
+        const auto made = run.apply(change, control_);
+        EXPECT_TRUE(made) << made.error().messages(false);
+    }
+    std::string refused(LiveRun& run, const Change& change) {
+        const auto made = run.apply(change, control_);
+        EXPECT_FALSE(made);
+        return made ? "" : made.error().messages(false);
+    }
+    /// Of the cells of the present stage, in the order of their numbers.
+    static std::vector<double> values(const LiveRun& run, const std::string& name) {
+        const std::uint32_t stage = run.place().stage;
+        const StageState& state = run.simulation().state(stage);
+        const auto item = find_item(run.simulation().program().system_of(stage), name);
+        return number_order(state.field(*item), *state.tissue);
+    }
+    static std::size_t count(const LiveRun& run) {
+        return run.simulation().state(run.place().stage).tissue->count();
+    }
+    /// Empty if all stages have the same cells and are equally far.
+    static std::string difference(const LiveRun& first, const LiveRun& second) {
+        if (first.place() != second.place()) return "they are at other places";
+        for (std::uint32_t k = 0; k <= first.place().stage; ++k) {
+            const StageState& a = first.simulation().state(k);
+            const StageState& b = second.simulation().state(k);
+            if (a.t != b.t || a.done != b.done) return "their times differ";
+            const TissueRecord one = a.tissue->record(), other = b.tissue->record();
+            if (one.numbers != other.numbers) return "other cells";
+            if (one.species != other.species) return "other species";
+            if (one.kept != other.kept) return "other parameters";
+            const bool goes_on = k == first.place().stage;
+            if (goes_on && one.time.control.step != other.time.control.step) return "other steps";
+        }
+        return "";
+    }
+
+    RunControl control_;
+};
+
+std::string with(std::string text, const std::string& old, const std::string& changed) {
+    return text.replace(text.find(old), old.size(), changed);
+}
+
+TEST_F(LiveTissueTest, CellsGrowFromStageToStage) {
+    const auto run = begun(growing);
+    EXPECT_EQ(count(*run), 5u);
+    EXPECT_EQ(run->advance(100000, control_).value(), StageEnd::finished);
+    EXPECT_EQ(run->place().stage, 1u);
+    EXPECT_GT(count(*run), 20u);
+}
+
+TEST_F(LiveTissueTest, ANumberActsOnTheRunningCells) {
+    const auto run = begun(growing);
+    grow(*run);
+    const auto places = values(*run, "p.x"), tones = values(*run, "tone"),
+               moods = values(*run, "mood");
+    ASSERT_GT(places.size(), 5u);
+    apply(*run, SetNumber{"one.hold", "0.4"});
+    EXPECT_EQ(values(*run, "tone"), tones) << "what a change does not concern is inherited";
+    EXPECT_EQ(values(*run, "p.x"), places);
+    apply(*run, SetNumber{"one.side", "10"});
+    EXPECT_NE(values(*run, "tone"), tones) << "its start reads what was changed";
+    EXPECT_THAT(values(*run, "tone"), Each(::testing::Ge(10)));
+    EXPECT_EQ(values(*run, "mood"), moods) << "divisions give this one";
+    EXPECT_EQ(values(*run, "p.x"), places);
+}
+
+TEST_F(LiveTissueTest, AnEditKeepsWhatHasTheSameName) {
+    const auto run = begun(growing);
+    grow(*run);
+    const auto c = values(*run, "c"), tones = values(*run, "tone");
+    // A parameter and a species come before the others, and another one goes.
+    std::string text = with(growing, "  r: 0.05\n", "  wide: 2 * x\n  d: 3\n  r: 0.05\n  d' = 0\n");
+    text = with(with(text, "  mood: random(0.5, 0.4) after divide\n", ""), "mood: mood; ", "");
+    text = with(text, "tone: tone; ", "tone: tone; d: d; ");
+    apply(*run, SetText{text});
+    EXPECT_EQ(values(*run, "c"), c);
+    EXPECT_EQ(values(*run, "tone"), tones);
+    EXPECT_THAT(values(*run, "d"), Each(3));
+    const auto wide = values(*run, "wide"), x = values(*run, "p.x");
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        EXPECT_EQ(wide[k], static_cast<double>(2 * static_cast<float>(x[k])));
+    }
+    advance(*run, 20);
+    EXPECT_EQ(difference(*run, *played(run->log())), "");
+}
+
+TEST_F(LiveTissueTest, WhatStartsFromTheStageBeforeMustBeThereAtItsStart) {
+    const auto run = begun(growing);
+    const std::string text = with(with(growing, "  c: 0\n", "  c: 0\n  d: 0\n  d' = 0\n"),
+                                  "{ c: c;", "{ c: c; d: one.c;");
+    while (run->place().stage == 0) advance(*run, 50);
+    advance(*run, 10);
+    EXPECT_THAT(refused(*run, SetText{text}), HasSubstr("'d' is new"));
+    ASSERT_TRUE(run->go_to(1, control_));
+    apply(*run, SetText{text});
+    EXPECT_EQ(values(*run, "d"), values(*run, "c"));
+}
+
+TEST_F(LiveTissueTest, StrokesChangeAndRemoveCells) {
+    const auto run = begun(with(growing, "duration: 3 }", "duration: 9; frozen: x > 2 }"));
+    grow(*run);
+    const std::size_t before = count(*run);
+    apply(*run, Paint{"c", "if(x < 0.5, 7, c)"});
+    const auto c = values(*run, "c"), x = values(*run, "p.x");
+    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_EQ(c[k] == 7, x[k] < 0.5);
+    apply(*run, Paint{"tone", "2"});
+    apply(*run, SetNumber{"one.side", "10"});
+    EXPECT_THAT(values(*run, "tone"), Each(2)) << "what was painted stays";
+    apply(*run, Paint{"remove", "x > 0.5"});
+    EXPECT_LT(count(*run), before);
+    EXPECT_THAT(values(*run, "p.x"), Each(Le(0.5)));
+    const auto now = values(*run, "p.x");
+    apply(*run, Paint{"frozen", "1"});
+    advance(*run, 1);
+    EXPECT_EQ(values(*run, "p.x"), now) << "all cells are frozen";
+    EXPECT_EQ(difference(*run, *played(run->log())), "");
+    for (int k = 0; k < 5; ++k) ASSERT_TRUE(run->undo(control_));
+    EXPECT_EQ(count(*run), before);
+    EXPECT_EQ(values(*run, "p.x"), x);
+}
+
+TEST_F(LiveTissueTest, StrokesBeforeTheFirstStepAreKept) {
+    const auto run = begun(growing);
+    const auto x = values(*run, "p.x");
+    apply(*run, Paint{"c", "5"});
+    apply(*run, SetNumber{"one.side", "1"});
+    EXPECT_THAT(values(*run, "c"), Each(5));
+    apply(*run, SetText{with(growing, "founders: 5", "founders: 9")});
+    EXPECT_EQ(values(*run, "p.x"), x);
+    ASSERT_TRUE(run->go_to(0, control_));
+    EXPECT_EQ(count(*run), 9u) << "the stage begins again";
+    EXPECT_THAT(values(*run, "c"), Each(0));
+}
+
+TEST_F(LiveTissueTest, WhatCannotBePaintedIsSaid) {
+    const auto run = begun(growing);
+    EXPECT_THAT(refused(*run, Paint{"p.x", "0"}), HasSubstr("nothing called 'p.x'"));
+    EXPECT_THAT(refused(*run, Paint{"side", "0"}), HasSubstr("one number for all cells"));
+    EXPECT_THAT(refused(*run, Paint{"remove", "1"}), HasSubstr("takes all cells"));
+    EXPECT_THAT(refused(*run, Paint{"c", "log(-1 - x)"}), HasSubstr("finite"));
+    EXPECT_THAT(refused(*run, Paint{"c", "normal"}), HasSubstr("not a number"));
+}
+
+TEST_F(LiveTissueTest, FieldsAndCellsDoNotGoOnAsEachOther) {
+    const auto run = begun(growing);
+    advance(*run, 20);
+    apply(*run, SetText{"system s { c: 1; c' = -c }\ndomain { grid: 32, 32; boundary: noflux }\n"
+                        "stage one: s { iterations: 10; speed: 0.1 }\n"});
+    EXPECT_EQ(run->place(), RunPlace());
+    advance(*run, 3);
+    apply(*run, SetText{growing});
+    EXPECT_EQ(run->place(), RunPlace());
+    EXPECT_EQ(count(*run), 5u);
+}
+
+/// Whatever is done, the log gives the same bits again, from its text as well.
+TEST_F(LiveTissueTest, ALogThatIsPlayedAgainGivesTheSameBits) {
+    const std::string on_sphere =
+        with(with(growing, "grid: 32, 32; boundary: noflux", "surface: sphere; cells: 100"),
+             "  p' += push(hold)\n",
+             "  p' += push(hold) + cling(1)\n  turn' += stand(1) + comb(1)\n");
+    const std::array<Change, 9> changes = {
+        SetNumber{"one.side", "0.3"},
+        SetNumber{"one.side", "x"},
+        SetNumber{"spread", "2"},
+        Paint{"c", "c + disc(0.5, 0.5, 0.4)"},
+        Paint{"tone", "mix(tone, 0.7, x)"},
+        Paint{"remove", "age > 0.9 and x > 0.7"},
+        NextStage{},
+        SetText{"again"},  // See below.
+        SetText{"other"},
+    };
+    for (const std::string& script : {std::string(growing), on_sphere}) {
+        for (int turn = 0; turn < 2; ++turn) {
+            RandomStream random(new_seed() + static_cast<std::uint64_t>(turn));
+            const auto run = begun(script);
+            ASSERT_TRUE(run);
+            run->set_undo_memory(random.chance(50) ? std::size_t{20000} : std::size_t{1} << 24);
+            for (int k = 0; k < 6; ++k) {
+                advance(*run, random.below(15));
+                const std::uint32_t what = random.below(14);
+                if (what < 9) {
+                    Change change = changes[what];
+                    if (what == 7) change = SetText{script};
+                    if (what == 8) change = SetText{with(script, "c' = tone", "c' = 2 * tone")};
+                    (void)run->apply(change, control_, random.chance(30));
+                } else if (what < 11) {
+                    (void)run->undo(control_);
+                } else if (what == 11) {
+                    (void)run->redo(control_);
+                } else if (what == 12) {
+                    (void)run->go_to(random.below(2), control_);
+                }
+            }
+            const std::string text = print_session_log(run->log());
+            const auto log = parse_session_log(text);
+            ASSERT_TRUE(log) << log.error().message << "\n" << text;
+            const auto again = played(*log);
+            ASSERT_TRUE(again) << text;
+            EXPECT_EQ(difference(*run, *again), "") << text;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cascade::testing
