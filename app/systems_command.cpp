@@ -65,10 +65,16 @@ void print_line(std::string_view name, std::string_view about, Console& console)
 
 std::vector<std::string> library_names() {
     std::vector<std::string> names;
-    for (const auto texts : {library_texts(), library_cells()}) {
+    for (const auto texts : {library_texts(), library_cells(), library_shapes()}) {
         for (const LibraryText& text : texts) names.emplace_back(text.system_name());
     }
     return names;
+}
+
+/// The description of a system or a shape of the library.
+LibraryNote note_of_name(std::string_view name) {
+    const LibraryText* const system = find_library_text(name);
+    return note_of(system != nullptr ? *system : *find_shape_text(name));
 }
 
 Failure unknown_system(std::string_view name) {
@@ -82,7 +88,7 @@ Failure unknown_system(std::string_view name) {
 std::vector<std::string> matches(const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const std::string& name : library_names()) {
-        const LibraryNote note = note_of(*find_library_text(name));
+        const LibraryNote note = note_of_name(name);
         const bool mentions_all =
             std::all_of(words.begin(), words.end(),
                         [&](const std::string& word) { return note.mentions(word); });
@@ -122,10 +128,14 @@ int search_library(const std::vector<std::string>& words, Console& console) {
             print_library_system(*text, console);
             return exit_status::success;
         }
+        if (const LibraryText* text = find_shape_text(words.front())) {
+            console.print(text->text);
+            return exit_status::success;
+        }
     }
     const std::vector<std::string> found = matches(words);
     for (const std::string& name : found) {
-        print_line(name, note_of(*find_library_text(name)).about, console);
+        print_line(name, note_of_name(name).about, console);
     }
     if (!found.empty()) return exit_status::success;
     Failure failure = unknown_system(words.front());

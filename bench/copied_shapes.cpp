@@ -5,10 +5,12 @@
 //
 // Of each phase the time of the processor, in seconds.
 #include "export/instanced_model.h"
-#include "mesh/cell_shapes.h"
 #include "mesh/shapes.h"
 #include "picture/image.h"
+#include "lang/check/check_shape.h"
+#include "lang/library/library.h"
 #include "render/draw.h"
+#include "run/pictures/shape_meshes.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +20,7 @@
 #include <ctime>
 #include <memory>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 namespace cascade::bench {
@@ -46,8 +49,8 @@ TriangleMesh sphere() {
 }
 
 /// Copies at evenly spread places (a Fibonacci lattice), combed downwards, of a size that covers.
-std::vector<Placement> placements(int count, CellShape::Kind kind) {
-    const bool is_flat = kind == CellShape::Kind::plate || kind == CellShape::Kind::feather;
+std::vector<Placement> placements(int count, std::string_view shape) {
+    const bool is_flat = shape == "plate" || shape == "feather";
     const double radius = 2.1 / std::sqrt(count);
     const double height = radius * (is_flat ? 0.6 : 2.5);
     std::vector<Placement> result;
@@ -71,16 +74,16 @@ int run(int argc, char** argv) {
     const char* name = argc > 1 ? argv[1] : "thorn";
     const int count = argc > 2 ? std::atoi(argv[2]) : 100000;
     const std::int64_t side = argc > 3 ? std::atoi(argv[3]) : 1024;
-    const auto kind = find_cell_shape(name);
-    if (!kind || count < 1 || side < 1) {
+    if (find_shape_text(name) == nullptr || count < 1 || side < 1) {
         fmt::print(stderr, "cascade_copies_bench: [SHAPE [COPIES [SIDE [FILE.png]]]]\n");
         return 2;
     }
     Instances copies;
     copies.meshes.push_back(timed("mesh", [&] {
-        return *mesh_of(parts_of({*kind, 1, 0.5}), {1, 0.04});
+        const ShapeForm form = library_shape(name);
+        return *mesh_of(parts_of(form, form.usual), {1, 0.04});
     }));
-    copies.placements = placements(count, *kind);
+    copies.placements = placements(count, name);
     fmt::print("{} copies of {} triangles\n", count, copies.meshes[0].triangles.size());
     const TriangleMesh body = sphere();
     const auto caster =

@@ -269,15 +269,23 @@ tl::unexpected<Failure> too_fine(const char* direction) {
 }  // namespace
 
 SweptSurface surface_of(Tube tube) {
-    return [tube = std::move(tube)](double t, double s) {
-        Vector3d along = unit(derivative(tube.middle, t));
-        if (!(length(along) > 0.5)) along = {0, 1, 0};
-        Vector3d across = Vector3d{1, 0, 0} - along * along.x;
-        if (length(across) < least_part) across = Vector3d{0, 0, 1} - along * along.z;
-        across = unit(across);
+    struct Ring {
+        double t = -1;
+        Vector3d middle, across, beside;
+    };
+    // Many points follow each other with the same t.
+    return [tube = std::move(tube), ring = Ring()](double t, double s) mutable {
+        if (ring.t != t) {
+            Vector3d along = unit(derivative(tube.middle, t));
+            if (!(length(along) > 0.5)) along = {0, 1, 0};
+            Vector3d across = Vector3d{1, 0, 0} - along * along.x;
+            if (length(across) < least_part) across = Vector3d{0, 0, 1} - along * along.z;
+            across = unit(across);
+            ring = {t, tube.middle(t), across, cross(across, along)};
+        }
         const double angle = 2 * std::numbers::pi * s;
-        const Vector3d out = across * std::cos(angle) + cross(across, along) * std::sin(angle);
-        return tube.middle(t) + out * tube.radius(t, s);
+        const Vector3d out = ring.across * std::cos(angle) + ring.beside * std::sin(angle);
+        return ring.middle + out * tube.radius(t, s);
     };
 }
 

@@ -10,7 +10,7 @@
 namespace cascade {
 
 /// A point of a surface. t goes from the root 0 to the tip 1; s goes around, 0 … 1, and is
-/// periodic. Called with t and s in these ranges only.
+/// periodic. Called with t and s in these ranges only, and by one thread at a time.
 using SweptSurface = std::function<Vector3d(double t, double s)>;
 
 /// A number at a point of such a surface.

@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_shape.h"
 #include "lang/check/check_semi_implicit.h"
 #include "lang/check/check_time.h"
 #include "lang/check/user_functions.h"
@@ -102,7 +103,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         checking::functions_of(work, script);  // Functions that are never called are checked, too.
         checking::check_stages(work, script);
         checking::check_stage_sides(work, script);
-        checking::check_picture(work, script);
+        checking::check_picture(work, script, checking::check_shapes(work, script, sources));
         // With errors, what reads a parameter may be missing from the program.
         if (!own.has_errors() && !diagnostics.has_errors()) {
             checking::warn_unread(work);

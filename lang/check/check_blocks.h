@@ -4,6 +4,7 @@
 #include "lang/check/check_expression.h"
 #include "lang/check/check_names.h"
 #include "lang/check/system_inheritance.h"
+#include "lang/program/shape_form.h"
 
 #include <functional>
 #include <string_view>
@@ -101,8 +102,9 @@ bool check_model(Workspace& work, const ast::Script& script, const ast::Block& d
 void check_surface(Workspace& work, const ast::Script& script, const ast::Block& domain);
 
 /// Checks the `picture` block, if there is one, as read by the last stage that
-/// takes a step.
-void check_picture(Workspace& work, const ast::Script& script);
+/// takes a step; `shapes` are those of check_shapes().
+void check_picture(Workspace& work, const ast::Script& script,
+                   const std::vector<ShapeForm>& shapes);
 
 /// Warns of parameters and definitions that nothing reads. In a derived system, a
 /// statement that changes nothing of its base and is not read is an error.

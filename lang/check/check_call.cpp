@@ -162,6 +162,11 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
     if (context == Context::position && !is_elementary(function)) {
         return refuse("a surface is made of numbers, sx, sy and functions of numbers");
     }
+    if (context == Context::shape) {
+        const bool is_of_space = row.kind == FunctionKind::geometry || function == Function::vector;
+        return is_elementary(function) || is_of_space ||
+               refuse("a shape is made of functions of numbers and vectors");
+    }
     if (context == Context::mask && (row.is_aggregate || differentiates(function))) {
         return refuse("a mask says which cells the domain has, and reads no others");
     }

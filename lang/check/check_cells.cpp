@@ -4,7 +4,6 @@
 #include "lang/check/cell_frame.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/system_checker.h"
-#include "lang/program/order.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -161,60 +160,6 @@ bool SystemChecker::collect_rate_of_cells(const Declaration& declaration) {
     work_.diagnostics.error(declaration.span(), fmt::format("'{}' has no rate", name),
                             name.starts_with("e") ? "turn' += … turns the axes of a cell" : "");
     return true;
-}
-
-/// Definitions may be vectors, and the type of one is that of those that it reads: each comes after
-/// them. In a cycle, which is reported later, the order has no meaning.
-std::vector<DefinitionId> SystemChecker::order_of_definitions() const {
-    Dependencies reads(definitions_.size());
-    const NameTable& names = work_.names[index_];
-    for (const DefinitionId id : definitions_.ids()) {
-        if (definitions_[id] == nullptr) continue;
-        const Declaration& from = *definitions_[id];
-        const ast::Expression value = from.statement->values[0];
-        for (ast::ExprId part = value.first; part <= value.root; ++part) {
-            const auto& node = from.script->expressions[part].node;
-            const auto* const name = std::get_if<ast::Name>(&node);
-            const auto* const own = std::get_if<ast::Bracketed>(&node);
-            if (name == nullptr && own == nullptr) continue;
-            const Meaning* meaning = find(names, name != nullptr ? name->name : own->name.text);
-            if (meaning == nullptr || !meaning->is_definition()) continue;
-            reads[id.index()].push_back(std::get<DefinitionId>(meaning->id).index());
-        }
-    }
-    const Order order = topological_order(reads);
-    std::vector<DefinitionId> ids;
-    for (const std::uint32_t id : order.order) ids.emplace_back(id);
-    if (!order.cycles.empty()) {
-        ids.clear();
-        for (const DefinitionId id : definitions_.ids()) ids.push_back(id);
-    }
-    return ids;
-}
-
-void SystemChecker::check_definition_of_cells(DefinitionId id) {
-    if (definitions_[id] == nullptr) return;
-    const Declaration& declaration = *definitions_[id];
-    const ast::Statement& statement = *declaration.statement;
-    if (!has_one_value(work_, *declaration.script, statement)) return;
-    auto checked = check_expression(work_, *declaration.script, statement.values[0],
-                                    scope(Context::rate, declaration));
-    Meaning& meaning = work_.names[index_].find(declaration.name)->second;
-    if (!checked) {
-        meaning.has_error = true;
-        return;
-    }
-    const ValueType type = checked->type();
-    if (type != ValueType::number && type != ValueType::vector) {
-        const TypeWords words = words_of(type, true);
-        work_.diagnostics.error(checked->formula.nodes.back().span,
-                                fmt::format("{} is neither a number nor a vector", words.name));
-        meaning.has_error = true;
-        return;
-    }
-    mark_reads(work_, checked->formula, index_);
-    meaning.type = type;
-    system().definitions[id].formula = std::move(checked->formula);
 }
 
 void SystemChecker::check_rates_of_cells() {

@@ -29,6 +29,7 @@ bool may_differ_by_cell(const Node& node, const System& system) {
 }  // namespace
 
 bool is_of_cells(const Workspace& work, const Scope& scope) {
+    if (scope.context == Context::shape) return true;
     const auto& systems = work.program.systems;
     return scope.system < systems.next() && systems[scope.system].cells;
 }

@@ -30,7 +30,7 @@ void report(Workspace& work, Span span, std::string message, std::string hint,
 /// True where an expression cannot read the names of a system.
 bool is_constant(const Scope& scope) {
     return scope.context == Context::constant || scope.context == Context::position ||
-           scope.context == Context::mask;
+           scope.context == Context::mask || scope.context == Context::shape;
 }
 
 bool is_of_model(std::string_view name) {
@@ -49,6 +49,11 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
     if (scope.context == Context::mask) {
         report(work, span, fmt::format("a mask cannot read '{}'", name),
                "it is made of coordinates, numbers, shapes, noise and files");
+        return;
+    }
+    if (scope.context == Context::shape) {
+        report(work, span, fmt::format("a shape cannot read '{}'", name),
+               "it is made of t, s, part, numbers of its own and functions of them");
         return;
     }
     if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
@@ -178,6 +183,31 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
     return Node{meaning->item(), span, meaning->type};
 }
 
+/// Resolves t, s, part, and what a shape declares itself.
+std::optional<Node> resolve_in_shape(Workspace& work, const Scope& scope, std::string_view name,
+                                     Span span) {
+    if (name == "pi") return Node{std::numbers::pi, span};
+    const Meaning* meaning = find(work.names[scope.system], name);
+    if (meaning == nullptr) {
+        if (is_incomplete(work, scope.system)) return std::nullopt;
+        const System& system = system_at(work, scope.system);
+        std::vector<std::string> names = quantity_names(system);
+        for (const Definition& each : system.definitions) names.push_back(each.name);
+        const std::string hint = did_you_mean(work, name, names);
+        if (hint.empty()) {
+            report_constant(work, scope, name, span);
+        } else {
+            report(work, span, fmt::format("a shape cannot read '{}'", name), hint);
+        }
+        return std::nullopt;
+    }
+    if (meaning->has_error) return std::nullopt;
+    if (meaning->is_definition()) {
+        return Node{std::get<DefinitionId>(meaning->id), span, meaning->type};
+    }
+    return Node{meaning->item(), span};
+}
+
 void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     std::string hint;
     if (scope.system != unknown_system && !is_hopeless(work)) {
@@ -291,6 +321,7 @@ std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
 
 std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::string_view name,
                                  Span span) {
+    if (scope.context == Context::shape) return resolve_in_shape(work, scope, name, span);
     const auto of_cell = cell_value_named(name);
     if (of_cell && !is_constant(scope) && is_of_cells(work, scope)) {
         return resolve_cell_value(work, scope, *of_cell, span);

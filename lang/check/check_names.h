@@ -78,6 +78,7 @@ enum class Context : std::uint8_t {
     position,  ///< the position of a surface's points
     mask,      ///< which cells the domain has
     constant,  ///< a number known while checking: iterations, the size of the grid, …
+    shape,     ///< a definition of a `shape` block
 };
 
 /// An index and its value, such as `i` = 2 in the second member of `u[i]: e`.
@@ -117,7 +118,7 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span);
 
-/// True where names are those of a system of cells that crawl.
+/// True where vectors are those of space: in systems of cells that crawl, and in shapes.
 bool is_of_cells(const Workspace& work, const Scope& scope);
 /// The node of such a value in a system of cells, not in constants; reports an error if it has none
 /// here.

@@ -1,5 +1,7 @@
 // The `picture` block: a colour and, for cells that crawl, their shape and its measures.
+#include "lang/check/check.h"
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_shape.h"
 #include "lang/check/setting_words.h"
 #include "lang/vocabulary/settings.h"
 
@@ -23,7 +25,8 @@ std::uint32_t shown_stage(const Program& program) {
 
 class PictureChecker {
 public:
-    PictureChecker(Workspace& work, const ast::Script& script) : work_(work), script_(script) {
+    PictureChecker(Workspace& work, const ast::Script& script, const std::vector<ShapeForm>& shapes)
+        : work_(work), script_(script), shapes_(shapes) {
         scope_.context = Context::picture;
         if (work.program.stages.empty()) return;
         scope_.stage = shown_stage(work.program);
@@ -33,10 +36,12 @@ public:
 
     void check(const ast::Statement& statement) {
         const std::string_view name = statement.name.text;
-        const bool is_setting = statement.kind == ast::StatementKind::value &&
-                                is_setting_of(SettingBlock::picture, name);
-        if (!is_setting) return report_no_setting(statement.name);
+        const bool is_value = statement.kind == ast::StatementKind::value;
+        const bool is_setting = is_value && is_setting_of(SettingBlock::picture, name);
+        const bool is_quantity = is_value && shape() != nullptr && shape()->find(name);
+        if (!is_setting && !is_quantity) return report_no_setting(statement.name);
         if (!scope_.stage || !has_one_value(work_, script_, statement)) return;
+        if (is_quantity) return check_type(statement, ValueType::number);
         const Setting setting = *setting_named(name);
         if (setting == Setting::color) return check_type(statement, ValueType::colour);
         if (!shows_cells()) return report_no_cells(statement.name);
@@ -51,8 +56,17 @@ private:
     }
 
     void report_no_setting(const ast::Word& name) {
-        const std::string hint = hint_about(work_, name.text, WordContext::picture,
-                                            settings_of({SettingBlock::picture}));
+        // A shape with errors has been reported; it may have a quantity of this name.
+        if (!knows_shape()) return;
+        std::vector<std::string> known = settings_of({SettingBlock::picture});
+        if (shape() != nullptr) {
+            for (const ItemId item : shape()->quantities.ids()) {
+                if (item.index() >= ShapeForm::known_count) {
+                    known.push_back(shape()->quantities[item].name);
+                }
+            }
+        }
+        const std::string hint = hint_about(work_, name.text, WordContext::picture, known);
         work_.diagnostics.error(name.span,
                                 fmt::format("'{}' is not a setting of the picture", name.text),
                                 hint.empty() ? "a picture has color: …" : hint);
@@ -82,19 +96,31 @@ private:
     void check_shape(const ast::Statement& statement) {
         const ast::Expr& value = value_of(script_, statement);
         const auto* name = std::get_if<ast::Name>(&value.node);
-        const std::vector<std::string> known = words_taken_by(Setting::shape);
-        if (name != nullptr && std::ranges::find(known, name->name) != known.end()) return;
-        std::string hint;
-        if (name != nullptr) hint = did_you_mean(work_, name->name, known);
-        work_.diagnostics.error(value.span,
-                                name != nullptr ? fmt::format("there is no shape '{}'", name->name)
-                                                : std::string("a shape is a word"),
-                                hint.empty() ? fmt::format("shapes are {}", fmt::join(known, ", "))
-                                             : hint);
+        if (name == nullptr) {
+            work_.diagnostics.error(value.span, "a shape is a word", "shape: thorn");
+        } else if (!is_declared(name->name) && shape() == nullptr) {
+            report_unknown_shape(work_, script_, {value.span, name->name});
+        }
     }
+
+    /// The word after `shape:`; empty if there is none.
+    std::string_view said_shape() const {
+        const auto said = picture_expression(script_, "shape");
+        const auto* const name =
+            said ? std::get_if<ast::Name>(&script_.expressions[said->root].node) : nullptr;
+        return name != nullptr ? name->name : std::string_view();
+    }
+    const ShapeForm* shape() const { return find_shape(shapes_, said_shape()); }
+    bool is_declared(std::string_view name) const {
+        return std::ranges::any_of(script_.blocks, [&](const ast::Block& block) {
+            return block.kind == ast::BlockKind::shape && block.name.text == name;
+        });
+    }
+    bool knows_shape() const { return shape() != nullptr || !is_declared(said_shape()); }
 
     Workspace& work_;
     const ast::Script& script_;
+    const std::vector<ShapeForm>& shapes_;
     Scope scope_;
 };
 
@@ -123,11 +149,12 @@ void report_sides(Workspace& work, const ast::Block& block) {
     }
 }
 
-void check_picture(Workspace& work, const ast::Script& script) {
+void check_picture(Workspace& work, const ast::Script& script,
+                   const std::vector<ShapeForm>& shapes) {
     const ast::Block* block = find_block(work, script, ast::BlockKind::picture, "picture");
     if (block == nullptr) return;
     report_sides(work, *block);
-    PictureChecker checker(work, script);
+    PictureChecker checker(work, script, shapes);
     std::unordered_map<std::string_view, Span> seen;
     for (const ast::Statement& statement : block->statements) {
         if (statement.name.empty() || statement.values.empty()) continue;

@@ -2,6 +2,7 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_time.h"
 #include "lang/check/system_checker.h"
+#include "lang/check/typed_definitions.h"
 #include "lang/program/order.h"
 
 #include <algorithm>
@@ -44,10 +45,7 @@ void SystemChecker::check_values() {
 }
 
 void SystemChecker::check_definitions() {
-    if (is_cells()) {
-        for (const DefinitionId id : order_of_definitions()) check_definition_of_cells(id);
-        return;
-    }
+    if (is_cells()) return check_typed_definitions(work_, index_, Context::rate, definitions_);
     for (const DefinitionId id : definitions_.ids()) {
         auto checked = check_value(*definitions_[id], Context::rate);
         if (checked) system().definitions[id].formula = std::move(checked->formula);

@@ -85,6 +85,10 @@ std::vector<KnownName> names_of_language() {
     for (const LibraryText& text : library_texts()) {
         names.push_back({std::string(text.system_name()), NameKind::system, "of the library"});
     }
+    for (const LibraryText& text : library_shapes()) {
+        names.push_back(
+            {std::string(text.system_name()), NameKind::word, "a shape of the library"});
+    }
     for (const std::string_view word : keywords) {
         names.push_back({std::string(word), NameKind::keyword, ""});
     }
@@ -196,6 +200,7 @@ std::vector<KnownName> items_of(const Program& program, std::uint32_t stage) {
 }
 
 bool has_settings_of(std::string_view block, SettingBlock of) {
+    if (block == "shape") return false;
     if (block == "picture") return of == SettingBlock::picture;
     if (of == SettingBlock::side) return true;
     if (block == "domain") return of == SettingBlock::domain;
@@ -227,6 +232,11 @@ std::vector<KnownName> names_in_value(std::string_view statement, const Program&
     if (setting) {
         for (std::string& word : words_taken_by(*setting)) {
             names.push_back({std::move(word), NameKind::word, ""});
+        }
+        if (*setting == Setting::shape) {
+            for (const LibraryText& text : library_shapes()) {
+                names.push_back({std::string(text.system_name()), NameKind::word, ""});
+            }
         }
         if (*setting == Setting::solver) {
             for (std::string& word : solver_names()) {

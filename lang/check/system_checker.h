@@ -71,8 +71,6 @@ private:
     bool declare_of_cells(const Declaration& declaration);
     bool can_declare_in_cells(const Declaration& declaration);
     bool collect_rate_of_cells(const Declaration& declaration);
-    std::vector<DefinitionId> order_of_definitions() const;
-    void check_definition_of_cells(DefinitionId id);
     void check_rates_of_cells();
     void check_rules_of_cells();
     void check_rule(std::string_view name, Formula& rule, Context context, ValueType type,

@@ -4,6 +4,7 @@
 
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
+#include "lang/check/check_shape.h"
 #include "lang/check/join_statements.h"
 #include "lang/program/order.h"
 
@@ -59,7 +60,9 @@ std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index, const as
     const bool has_cells = blocks_[index].block->is_cells;
     if (found && blocks_[*found].block->is_cells == has_cells) return found;
     is_known_[index] = false;
-    if (!found) {
+    if (!found && blocks_[index].block->kind == ast::BlockKind::shape) {
+        report_unknown_shape(work_, *blocks_[index].script, base);
+    } else if (!found) {
         report_unknown_system(work_, base);
     } else if (has_cells) {
         work_.diagnostics.error(base.span, fmt::format("'{}' is a system of fields", base.text),
@@ -80,7 +83,10 @@ void Derivation::report_cycle(const std::vector<std::uint32_t>& cycle) {
     work_.diagnostics.error(blocks_[cycle[0]].block->base.span,
                             cycle.size() == 1
                                 ? fmt::format("'{}' is derived from itself", names[0])
-                                : fmt::format("systems are derived from each other in a cycle: {}",
+                                : fmt::format("{} are derived from each other in a cycle: {}",
+                                              blocks_[cycle[0]].block->kind == ast::BlockKind::shape
+                                                  ? "shapes"
+                                                  : "systems",
                                               describe_cycle(names)));
 }
 

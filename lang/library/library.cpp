@@ -1,4 +1,4 @@
-// Finds the systems that a script names and their bases, and parses only those texts.
+// Finds the systems and shapes that a script names and their bases, and parses only those texts.
 #include "lang/library/library.h"
 
 #include "core/check.h"
@@ -32,7 +32,9 @@ LibraryScript read_text(const LibraryText& text, Sources& sources, Diagnostics& 
     LibraryScript result{parse(source_of(text, sources), sources, diagnostics), 0};
     const auto& blocks = result.script.blocks;
     const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const ast::Block& block) {
-        return block.kind == ast::BlockKind::system && block.name.text == text.system_name();
+        const bool is_named =
+            block.kind == ast::BlockKind::system || block.kind == ast::BlockKind::shape;
+        return is_named && block.name.text == text.system_name();
     });
     CHECK(found != blocks.end(), "a text of the library holds the system of its name");
     result.block = static_cast<std::size_t>(found - blocks.begin());
@@ -65,15 +67,54 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
     return wanted;
 }
 
+/// A text of a list in alphabetical order.
+const LibraryText* text_of(std::span<const LibraryText> texts, std::string_view name) {
+    const auto found = std::ranges::lower_bound(texts, name, {}, &LibraryText::system_name);
+    return found != texts.end() && found->system_name() == name ? &*found : nullptr;
+}
+
+/// The texts of these names and of their bases, each after its base; `find` looks one up.
+template <typename Find>
+std::vector<LibraryScript> read_texts(const std::vector<std::string_view>& names, const Find& find,
+                                      Sources& sources, Diagnostics& diagnostics) {
+    std::vector<LibraryScript> result;
+    std::unordered_set<std::string_view> read;
+    for (const std::string_view name : names) {
+        // A text is looked at twice: first its bases are added to the list, then it comes itself.
+        std::vector<std::string_view> open{name};
+        std::unordered_map<std::string_view, LibraryScript> waiting;
+        while (!open.empty()) {
+            const std::string_view next = open.back();
+            if (const auto known = waiting.find(next); known != waiting.end()) {
+                open.pop_back();
+                result.push_back(std::move(known->second));
+                waiting.erase(known);
+                continue;
+            }
+            const LibraryText* const found = find(next);
+            if (found == nullptr || !read.insert(next).second) {
+                open.pop_back();
+                continue;
+            }
+            const LibraryScript& each =
+                waiting.emplace(next, read_text(*found, sources, diagnostics)).first->second;
+            const ast::Block& block = each.script.blocks[each.block];
+            for (const ast::Word& base : block.joined) open.push_back(base.text);
+            if (!block.base.empty()) open.push_back(block.base.text);
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
+const LibraryText* find_shape_text(std::string_view name) {
+    return text_of(library_shapes(), name);
+}
+
 const LibraryText* find_library_text(std::string_view system_name) {
-    for (const std::span<const LibraryText> texts : {library_texts(), library_cells()}) {
-        const auto found =
-            std::ranges::lower_bound(texts, system_name, {}, &LibraryText::system_name);
-        if (found != texts.end() && found->system_name() == system_name) return &*found;
-    }
-    return nullptr;
+    const LibraryText* const found = text_of(library_texts(), system_name);
+    return found != nullptr ? found : text_of(library_cells(), system_name);
 }
 
 ast::Script read_cell_functions(Sources& sources, Diagnostics& diagnostics) {
@@ -88,33 +129,12 @@ ast::Script cell_functions_of(const Sources& sources) {
 
 std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,
                                         Diagnostics& diagnostics) {
-    std::vector<LibraryScript> result;
-    std::unordered_set<std::string_view> read;
-    for (const std::string_view name : names_wanted(script)) {
-        // A system is looked at twice: first its bases are added to the list, then it comes itself.
-        std::vector<std::string_view> open{name};
-        std::unordered_map<std::string_view, LibraryScript> waiting;
-        while (!open.empty()) {
-            const std::string_view next = open.back();
-            if (const auto known = waiting.find(next); known != waiting.end()) {
-                open.pop_back();
-                result.push_back(std::move(known->second));
-                waiting.erase(known);
-                continue;
-            }
-            const LibraryText* const found = find_library_text(next);
-            if (found == nullptr || !read.insert(next).second) {
-                open.pop_back();
-                continue;
-            }
-            const LibraryScript& each =
-                waiting.emplace(next, read_text(*found, sources, diagnostics)).first->second;
-            const ast::Block& block = each.script.blocks[each.block];
-            for (const ast::Word& base : block.joined) open.push_back(base.text);
-            if (!block.base.empty()) open.push_back(block.base.text);
-        }
-    }
-    return result;
+    return read_texts(names_wanted(script), find_library_text, sources, diagnostics);
+}
+
+std::vector<LibraryScript> read_library_shapes(const std::vector<std::string_view>& names,
+                                               Sources& sources, Diagnostics& diagnostics) {
+    return read_texts(names, find_shape_text, sources, diagnostics);
 }
 
 }  // namespace cascade

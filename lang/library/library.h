@@ -1,4 +1,5 @@
-// The library of systems: Cascade texts that are embedded in the binary (lang/systems/*.cascade).
+// The library of systems and shapes: Cascade texts that are embedded in the binary
+// (lang/systems/*.cascade).
 //
 // A text NAME.cascade holds the system or the cells NAME and usually a stage, a domain and a
 // picture that show it. Scripts use only its system. Texts that a script does not need are not
@@ -18,7 +19,8 @@ namespace cascade {
 struct LibraryText {
     std::string_view file_name;  ///< `gray_scott.cascade`
     std::string_view text;
-    /// The name of the system that the file holds: the file name without its extension.
+    /// The name of the system or the shape that the file holds: the file name without its
+    /// extension.
     constexpr std::string_view system_name() const {
         return file_name.substr(0, file_name.rfind('.'));
     }
@@ -29,6 +31,11 @@ std::span<const LibraryText> library_texts();
 /// Those of cells that crawl (lang/cells/*.cascade), likewise.
 std::span<const LibraryText> library_cells();
 
+/// Those of shapes of cells (lang/shapes/*.cascade), likewise.
+std::span<const LibraryText> library_shapes();
+
+/// The text of the library's shape of this name; null if there is none.
+const LibraryText* find_shape_text(std::string_view name);
 /// The text of the library's system, or cells, of this name; null if there is none.
 const LibraryText* find_library_text(std::string_view system_name);
 
@@ -44,7 +51,7 @@ ast::Script cell_functions_of(const Sources& sources);
 /// A text of the library, parsed for a check.
 struct LibraryScript {
     ast::Script script;
-    std::size_t block = 0;  ///< Of the system, in script.blocks.
+    std::size_t block = 0;  ///< Of the system or the shape, in script.blocks.
 };
 
 /// The systems of the library that a script needs: those that its stages and derived systems name,
@@ -53,5 +60,9 @@ struct LibraryScript {
 /// earlier call added.
 std::vector<LibraryScript> read_library(const ast::Script& script, Sources& sources,
                                         Diagnostics& diagnostics);
+
+/// The shapes of the library among these names, and their bases, likewise.
+std::vector<LibraryScript> read_library_shapes(const std::vector<std::string_view>& names,
+                                               Sources& sources, Diagnostics& diagnostics);
 
 }  // namespace cascade

@@ -97,6 +97,7 @@ enum class BlockKind : std::uint8_t {
     classic_stage,  ///< system_name: SYSTEM and the statements after it
     domain,         ///< domain { … }
     picture,        ///< picture { … }
+    shape,          ///< shape NAME { … }
 };
 
 struct Block {
@@ -104,9 +105,9 @@ struct Block {
     bool is_cells = false;  ///< Of a system: one of cells that crawl.
     Word keyword;  ///< `system`, `stage`, `system_name`, …: the place of the block in messages.
     Span span;     ///< From the keyword to the `}`; empty for a classic stage.
-    Word name;     ///< Of a system or stage; empty otherwise.
-    /// Of a stage: its system, empty if it could not be parsed. Of a system: its base, empty if it
-    /// has none.
+    Word name;     ///< Of a system, a stage or a shape; empty otherwise.
+    /// Of a stage: its system, empty if it could not be parsed. Of a system or a shape: its base,
+    /// empty if it has none.
     Word base;
     std::vector<Word> joined;  ///< Of cells: the bases after the first.
     std::vector<Statement> statements;

@@ -54,7 +54,8 @@ void parse_used(SourceId source, const Sources& sources, ast::Script& script,
     if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
     script.blocks.erase(std::remove_if(script.blocks.begin() + blocks_before, script.blocks.end(),
                                        [](const ast::Block& block) {
-                                           return block.kind != ast::BlockKind::system;
+                                           return block.kind != ast::BlockKind::system &&
+                                                  block.kind != ast::BlockKind::shape;
                                        }),
                         script.blocks.end());
 }

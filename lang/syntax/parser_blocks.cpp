@@ -1,4 +1,4 @@
-// Blocks: `system`, `stage`, `domain`, `picture`, and the stages of classic programs.
+// Blocks: `system`, `stage`, `shape`, `domain`, `picture`, and the stages of classic programs.
 #include "lang/syntax/script_parser.h"
 
 #include "core/near_name.h"
@@ -15,7 +15,26 @@ namespace {
 ast::BlockKind kind_of_keyword(std::string_view keyword) {
     if (keyword == "system" || keyword == "cells") return ast::BlockKind::system;
     if (keyword == "stage") return ast::BlockKind::stage;
+    if (keyword == "shape") return ast::BlockKind::shape;
     return keyword == "domain" ? ast::BlockKind::domain : ast::BlockKind::picture;
+}
+
+/// What messages say of a block with a name of its own and a base.
+struct HeaderWords {
+    std::string_view nameless, base, named_form, derived_form;
+};
+
+HeaderWords header_words(const ast::Block& block) {
+    if (block.kind == ast::BlockKind::shape) {
+        return {"this shape has no name", "another shape", "write 'shape NAME {'",
+                "write 'shape NAME: SHAPE {'"};
+    }
+    if (block.is_cells) {
+        return {"these cells have no name", "other cells", "write 'cells NAME {'",
+                "write 'cells NAME: CELLS {'"};
+    }
+    return {"this system has no name", "a system", "write 'system NAME {'",
+            "write 'system NAME: SYSTEM {'"};
 }
 
 }  // namespace
@@ -36,9 +55,9 @@ void ScriptParser::parse_item() {
         return;
     }
     // Here the name of a block tells `cells` from a quantity, whatever follows it.
-    const bool begins_cells =
-        !in_classic_stage_ && cursor_.at_name("cells") && cursor_.kind(1) == TokenKind::name;
-    if (cursor_.begins_block() || begins_cells) return parse_block(cursor_.text(cursor_.peek()));
+    const bool begins_named = !in_classic_stage_ && cursor_.kind(1) == TokenKind::name &&
+                              (cursor_.at_name("cells") || cursor_.at_name("shape"));
+    if (cursor_.begins_block() || begins_named) return parse_block(cursor_.text(cursor_.peek()));
     if (begins_classic_stage()) return parse_classic_stage();
     if (parse_function_or_use() || parse_misspelt_block()) return;
     if (!in_classic_stage_) return parse_outside_statement();
@@ -68,7 +87,7 @@ void ScriptParser::parse_block(std::string_view keyword) {
     block.keyword = cursor_.word(cursor_.take());
     block.kind = kind_of_keyword(keyword);
     block.is_cells = keyword == "cells";
-    if (block.kind == ast::BlockKind::system) {
+    if (block.kind == ast::BlockKind::system || block.kind == ast::BlockKind::shape) {
         parse_header_of_system(block);
     } else if (block.kind == ast::BlockKind::stage) {
         parse_header_of_stage(block);
@@ -80,14 +99,14 @@ void ScriptParser::parse_block(std::string_view keyword) {
     script_.blocks.push_back(std::move(block));
 }
 
-/// NAME, or NAME: BASE; for cells also NAME: BASE, BASE.
+/// Of a system, cells or a shape: NAME, or NAME: BASE; for cells also NAME: BASE, BASE.
 void ScriptParser::parse_header_of_system(ast::Block& block) {
     if (cursor_.at(TokenKind::name)) {
         block.name = cursor_.word(cursor_.take());
     } else {
-        cursor_.error(block.keyword.span,
-                      block.is_cells ? "these cells have no name" : "this system has no name",
-                      block.is_cells ? "write 'cells NAME {'" : "write 'system NAME {'");
+        const HeaderWords words = header_words(block);
+        cursor_.error(block.keyword.span, std::string(words.nameless),
+                      std::string(words.named_form));
         block.is_damaged = true;
     }
     if (cursor_.at(TokenKind::colon)) parse_bases(block);
@@ -98,15 +117,17 @@ void ScriptParser::parse_bases(ast::Block& block) {
     while (cursor_.at(TokenKind::colon) || cursor_.at(TokenKind::comma)) {
         const Token sign = cursor_.take();
         if (sign.kind == TokenKind::comma && !block.is_cells) {
-            cursor_.error(sign.span, "a system has one base", "only 'cells' join several");
+            const bool is_shape = block.kind == ast::BlockKind::shape;
+            cursor_.error(sign.span, is_shape ? "a shape has one base" : "a system has one base",
+                          "only 'cells' join several");
         }
         if (!cursor_.at(TokenKind::name)) {
             if (cursor_.at(TokenKind::garbage)) return;
-            return cursor_.error(
-                sign.span,
-                fmt::format("the name of {} is missing after {}",
-                            block.is_cells ? "other cells" : "a system", cursor_.describe(sign)),
-                block.is_cells ? "write 'cells NAME: CELLS {'" : "write 'system NAME: SYSTEM {'");
+            const HeaderWords words = header_words(block);
+            return cursor_.error(sign.span,
+                                 fmt::format("the name of {} is missing after {}", words.base,
+                                             cursor_.describe(sign)),
+                                 std::string(words.derived_form));
         }
         const ast::Word base = cursor_.word(cursor_.take());
         if (block.name.empty()) continue;  // `system: NAME {` has been reported.

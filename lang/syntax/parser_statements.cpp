@@ -114,7 +114,7 @@ bool ScriptParser::report_no_statement() {
             break;
         case TokenKind::open_curly:
             cursor_.error(token.span, "no block begins here",
-                          "blocks are system, cells, stage, domain and picture");
+                          "blocks are system, cells, stage, domain, picture and shape");
             break;
         default:
             cursor_.error(token.span, fmt::format("no statement begins with {}", word),
@@ -272,11 +272,12 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
 
 /// Reports that a word does not begin a block; returns the keyword that was probably meant, or "".
 std::string ScriptParser::report_no_block(const ast::Word& word) {
-    const std::array<std::string, 5> keywords = {"system", "cells", "stage", "domain", "picture"};
+    const std::array<std::string, 6> keywords = {"system", "cells",   "stage",
+                                                 "domain", "picture", "shape"};
     std::string near = nearest_name(word.text, keywords);
     cursor_.error(word.span,
                   cursor_.describe({TokenKind::name, word.span}) + " does not begin a block",
-                  near.empty() ? "blocks are system, cells, stage, domain and picture"
+                  near.empty() ? "blocks are system, cells, stage, domain, picture and shape"
                                : "did you mean '" + near + "'?");
     return near;
 }

@@ -115,7 +115,7 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
         return next == TokenKind::colon && kind(ahead + 2) == TokenKind::name &&
                kind(ahead + 3) == TokenKind::open_curly;
     }
-    if (word == "cells") {
+    if (word == "cells" || word == "shape") {
         // A quantity may have this name: `cells in 0 .. 1`, `sum(cells over i)`.
         const std::size_t name = next == TokenKind::name ? ahead + 2 : ahead + 1;
         const std::size_t brace = kind(name) == TokenKind::newline ? name + 1 : name;

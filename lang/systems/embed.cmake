@@ -1,15 +1,18 @@
-# The systems of the library and the functions of cells are Cascade texts; this turns them into one C++ file of
+# The systems and shapes of the library and the functions of cells are Cascade texts; this turns them into one C++ file of
 # raw strings. It runs when CMake configures, which a change of a text or a new text brings about.
 file(GLOB built_in_systems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/systems/*.cascade)
 file(GLOB built_in_cells CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/cells/*.cascade)
+file(GLOB built_in_shapes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lang/shapes/*.cascade)
 list(SORT built_in_systems)
 list(SORT built_in_cells)
+list(SORT built_in_shapes)
 set(cell_functions_path ${PROJECT_SOURCE_DIR}/lang/library/cell_functions.cascade)
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
-  PROPERTY CMAKE_CONFIGURE_DEPENDS ${built_in_systems} ${built_in_cells} ${cell_functions_path})
+  PROPERTY CMAKE_CONFIGURE_DEPENDS ${built_in_systems} ${built_in_cells} ${built_in_shapes}
+    ${cell_functions_path})
 file(READ ${cell_functions_path} cell_functions)
 
-foreach(kind systems cells)
+foreach(kind systems cells shapes)
   set(built_in_${kind}_entries "")
   foreach(path IN LISTS built_in_${kind})
     get_filename_component(name ${path} NAME)
@@ -20,7 +23,8 @@ endforeach()
 
 set(built_in_source ${PROJECT_BINARY_DIR}/lang/built_in_systems.cpp)
 file(CONFIGURE OUTPUT ${built_in_source} @ONLY CONTENT [[
-// Made by lang/systems/embed.cmake from the texts in lang/systems/, lang/cells/ and lang/library/.
+// Made by lang/systems/embed.cmake from the texts in lang/systems/, lang/cells/, lang/shapes/ and
+// lang/library/.
 #include "lang/library/library.h"
 
 #include <array>
@@ -35,6 +39,9 @@ constexpr auto texts = std::to_array<LibraryText>({
 constexpr auto cells = std::to_array<LibraryText>({
 @built_in_cells_entries@});
 
+constexpr auto shapes = std::to_array<LibraryText>({
+@built_in_shapes_entries@});
+
 constexpr LibraryText functions{"cell_functions.cascade", R"cascade(@cell_functions@)cascade"};
 
 }  // namespace
@@ -42,6 +49,8 @@ constexpr LibraryText functions{"cell_functions.cascade", R"cascade(@cell_functi
 std::span<const LibraryText> library_texts() { return texts; }
 
 std::span<const LibraryText> library_cells() { return cells; }
+
+std::span<const LibraryText> library_shapes() { return shapes; }
 
 const LibraryText& cell_functions() { return functions; }
 

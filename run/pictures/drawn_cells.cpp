@@ -2,15 +2,18 @@
 #include "run/pictures/drawn_cells.h"
 
 #include "core/check.h"
+#include "core/parallel.h"
 #include "lang/check/check.h"
+#include "lang/check/check_shape.h"
 #include "picture/srgb.h"
 #include "run/domain/creased_mesh.h"
 #include "tissue/tissue.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -19,39 +22,41 @@ namespace cascade {
 
 namespace {
 
-/// The settings of the picture block that are numbers of a cell.
-enum Measure : std::size_t { width, length, height, tilt, form, bend, measure_count };
+/// Facets follow the form; their edges may be long.
+constexpr double longest_facet = 2 * largest_of_shape;
+
+/// The settings of the picture block that are numbers of every shape.
+enum Measure : std::size_t { width, length, height, tilt, measure_count };
 constexpr std::array<std::string_view, measure_count> measure_names{"width", "length", "height",
-                                                                    "tilt",  "form",   "bend"};
-/// Shapes whose form and bend differ by less than this are one.
-constexpr double shape_step = 1.0 / 16;
+                                                                    "tilt"};
 
-/// The values of each measure, in the order of numbers; empty where the script does not say it.
-using Measures = std::array<std::vector<double>, measure_count>;
-
-Measures measures_of(Script& script, const Simulation& simulation, std::uint32_t stage,
-                     const Tissue& tissue) {
+/// The values of settings of the picture block that are numbers, in the order of the cells'
+/// numbers; empty where the script does not say one.
+std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& simulation,
+                                            std::uint32_t stage,
+                                            std::span<const std::string> names) {
     std::vector<Formula> formulas;
-    std::vector<Measure> which;
-    for (std::size_t k = 0; k < measure_count; ++k) {
-        const auto expression = picture_expression(script.tree, measure_names[k]);
+    std::vector<std::size_t> which;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const auto expression = picture_expression(script.tree, names[k]);
         if (!expression) continue;
         Diagnostics unspoken;  // Errors were reported on loading.
         auto formula = check_view(script.tree, *expression, stage, stage, *script.program,
                                   script.sources, unspoken);
         if (!formula || formula->nodes.back().type != ValueType::number) continue;
         formulas.push_back(std::move(*formula));
-        which.push_back(static_cast<Measure>(k));
+        which.push_back(k);
     }
-    Measures measures;
-    if (formulas.empty()) return measures;
+    std::vector<std::vector<double>> numbers(names.size());
+    if (formulas.empty()) return numbers;
     std::vector<const Formula*> each;
     for (const Formula& formula : formulas) each.push_back(&formula);
     const std::vector<Field> values = simulation.evaluate(each, stage);
+    const Tissue& tissue = *simulation.state(stage).tissue;
     for (std::size_t k = 0; k < which.size(); ++k) {
-        measures[which[k]] = number_order(values[k], tissue);
+        numbers[which[k]] = number_order(values[k], tissue);
     }
-    return measures;
+    return numbers;
 }
 
 /// The colour of the surface below the cells, if the script says it.
@@ -70,24 +75,42 @@ std::optional<Colour> skin_of(Script& script, const Simulation& simulation, std:
     return colour;
 }
 
-CellShape::Kind kind_of(const Script& script) {
-    const auto expression = picture_expression(script.tree, "shape");
-    if (!expression) return CellShape::Kind::ball;
-    const auto* word = std::get_if<ast::Name>(&script.tree.expressions[expression->root].node);
-    const auto kind = word == nullptr ? std::nullopt : find_cell_shape(word->name);
-    return kind.value_or(CellShape::Kind::ball);
-}
-
 /// About the x axis, from y towards z.
 Quaternion leaning(double degrees) {
     const double half = degrees * std::numbers::pi / 360;
     return {std::cos(half), std::sin(half), 0, 0};
 }
 
-/// Rounds a number of 0 … 1, so that few shapes are needed.
-double rounded(double part) {
-    return std::isfinite(part) ? std::round(std::clamp(part, 0.0, 1.0) / shape_step) * shape_step
-                               : 0;
+/// The shape of each cell, and what is wrong with some.
+struct CellShapes {
+    SharedShapes shared;
+    std::vector<std::string> faults;  ///< By shape; "" for sound ones.
+};
+
+CellShapes shapes_of(const ShapeForm& form, std::vector<QuantityValues> values, std::size_t count) {
+    CellShapes shapes{share_shapes(form, values, count), {}};
+    for (const ShapeValues& each : shapes.shared.shapes) {
+        shapes.faults.push_back(fault_of(form, each));
+    }
+    return shapes;
+}
+
+/// What is said of a cell whose shape cannot be drawn.
+std::string words_on_fault(const ShapeForm& form, const CellShapes& shapes,
+                           std::span<const QuantityValues> values, std::size_t cell,
+                           std::uint32_t number) {
+    const std::uint32_t shape = shapes.shared.of_cells[cell];
+    std::string with;
+    for (const QuantityValues& each : values) {
+        const std::string& name = form.quantities[each.quantity].name;
+        const double value = shape == SharedShapes::none
+                                 ? each.of_cells[cell]
+                                 : shapes.shared.shapes[shape][each.quantity.index()];
+        with += fmt::format("{}{} = {:.4g}", with.empty() ? "" : ", ", name, value);
+    }
+    return fmt::format("the shape '{}' of cell {}{} {}", form.name, number,
+                       with.empty() ? "" : " with " + with,
+                       shape == SharedShapes::none ? "is not finite" : shapes.faults[shape]);
 }
 
 }  // namespace
@@ -136,11 +159,26 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     CHECK(state.tissue, "the stage is one of cells that crawl");
     const Tissue& tissue = *state.tissue;
     const PlacedFrames frames = frames_of(simulation, stage);
-    const Measures measures = measures_of(script, simulation, stage, tissue);
-    const auto measure = [&](Measure which, std::size_t k, double otherwise) {
-        return measures[which].empty() ? otherwise : measures[which][k];
-    };
     DrawnCells placed;
+    placed.form = *picture_shape(script.tree, script.sources).form;
+    std::vector<std::string> names(measure_names.begin(), measure_names.end());
+    std::vector<ItemId> quantities;
+    for (const ItemId item : placed.form.quantities.ids()) {
+        if (item.index() < ShapeForm::known_count) continue;
+        quantities.push_back(item);
+        names.push_back(placed.form.quantities[item].name);
+    }
+    std::vector<std::vector<double>> numbers = numbers_of(script, simulation, stage, names);
+    const auto measure = [&](Measure which, std::size_t k, double otherwise) {
+        return numbers[which].empty() ? otherwise : numbers[which][k];
+    };
+    std::vector<QuantityValues> values;
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+        std::vector<double>& of_cells = numbers[measure_count + k];
+        if (!of_cells.empty()) values.push_back({quantities[k], std::move(of_cells)});
+    }
+    CellShapes shapes = shapes_of(placed.form, values, tissue.count());
+    std::size_t faulty = 0;
     placed.count = tissue.count();
     const Grid& grid = simulation.grid();
     const auto longest = static_cast<double>(grid.longest_side());
@@ -148,8 +186,6 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
                      static_cast<double>(grid.height) / longest,
                      grid.depth > 1 ? static_cast<double>(grid.depth) / longest : 0};
     if (const auto skin = skin_of(script, simulation, stage)) placed.skin = *skin;
-    const CellShape::Kind kind = kind_of(script);
-    std::map<std::pair<double, double>, std::uint32_t> known;  // By form and bend.
     for (std::size_t k = 0; k < tissue.count(); ++k) {
         Placement placement;
         const double wide = measure(width, k, 2 * frames.radii[k]);
@@ -164,16 +200,23 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
         placement.turn = frames.turns[k];
         const double angle = measure(tilt, k, 0);
         if (std::isfinite(angle)) placement.turn = placement.turn * leaning(angle);
-        const CellShape usual;
-        const std::pair looks(rounded(measure(form, k, usual.form)),
-                              rounded(measure(bend, k, usual.bend)));
-        const auto number = static_cast<std::uint32_t>(placed.shapes.size());
-        const auto [shape, is_new] = known.try_emplace(looks, number);
-        if (is_new) placed.shapes.push_back({kind, looks.first, looks.second});
-        placement.mesh = shape->second;
+        const std::uint32_t shape = shapes.shared.of_cells[k];
+        if (shape == SharedShapes::none || !shapes.faults[shape].empty()) {
+            if (faulty++ == 0) {
+                placed.fault = words_on_fault(placed.form, shapes, values, k,
+                                              tissue.numbers()[tissue.by_number()[k]]);
+            }
+            continue;
+        }
+        placement.mesh = shape;
         placed.placements.push_back(placement);
         placed.cells.push_back(k);
     }
+    if (faulty > 0) {
+        placed.fault =
+            fmt::format("{} of {} cells are not drawn: {}", faulty, tissue.count(), placed.fault);
+    }
+    placed.shapes = std::move(shapes.shared.shapes);
     return placed;
 }
 
@@ -184,15 +227,20 @@ Instances instances_of(const DrawnCells& cells, double pixels) {
         most = std::max({most, each.scale.x, each.scale.y, each.scale.z});
     }
     Instances instances;
-    for (std::size_t k = 0; k < cells.shapes.size(); ++k) {
-        SweptDetail detail;
-        detail.tolerance = std::clamp(0.5 / (pixels * largest[k]), 0.003, 0.2);
-        detail.longest_edge = 4;
-        const auto parts = parts_of(cells.shapes[k]);
-        auto mesh = mesh_of(parts, detail);
-        CHECK(mesh, "the shapes of the language are sound");
-        instances.meshes.push_back(std::move(*mesh));
-    }
+    instances.meshes.resize(cells.shapes.size());
+    Team team(hardware_threads());
+    team.run([&](int thread) {
+        const auto each = static_cast<std::size_t>(team.size());
+        for (auto k = static_cast<std::size_t>(thread); k < cells.shapes.size(); k += each) {
+            if (largest[k] == 0) continue;
+            SweptDetail detail;
+            detail.tolerance = std::clamp(0.5 / (pixels * largest[k]), 0.003, 0.2);
+            detail.longest_edge = longest_facet;
+            // What is not sound after all has no triangles.
+            auto mesh = mesh_of(parts_of(cells.form, cells.shapes[k]), detail);
+            if (mesh) instances.meshes[k] = std::move(*mesh);
+        }
+    });
     instances.placements = cells.placements;
     return instances;
 }

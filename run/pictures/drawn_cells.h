@@ -1,11 +1,11 @@
 // Cells that crawl as things in space: a shape, a place and measures for each.
 #pragma once
 
-#include "mesh/cell_shapes.h"
 #include "mesh/instances.h"
 #include "picture/image.h"
 #include "render/draw.h"
 #include "run/domain/model_cells.h"
+#include "run/pictures/shape_meshes.h"
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
 
@@ -20,12 +20,14 @@ class Tissue;
 /// The cells of a stage that have a size, in ascending order of their numbers. Lengths are those of
 /// scripts.
 struct DrawnCells {
-    std::vector<CellShape> shapes;      ///< Those in use.
+    ShapeForm form;
+    std::vector<ShapeValues> shapes;    ///< Of the form: those in use.
     std::vector<Placement> placements;  ///< `mesh` is the shape. Without colours.
     std::vector<std::size_t> cells;     ///< By placement: the place of its cell in number_order().
     std::size_t count = 0;              ///< Of all cells, also of those without a size.
     Colour skin{0.25F, 0.24F, 0.23F};   ///< Of the surface below them, sRGB.
     Vector3d extent;                    ///< Of the plane, or of the box of space.
+    std::string fault;  ///< What is said of cells whose shape cannot be drawn; "" without such.
 };
 
 /// Places the cells as the settings of the picture block say, of which some may be missing.

@@ -2,6 +2,7 @@
 #include "run/pictures/picture_remarks.h"
 
 #include "measure/resolution.h"
+#include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"
 
 #include <fmt/format.h>
@@ -93,6 +94,7 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation) {
     const StageCourse& course = simulation.state(*stage).course;
     if (course.empty() || course.ended_even()) return {};
     const Canvas canvas = painter.canvas(simulation);
+    if (canvas.cells && !canvas.cells->fault.empty()) return canvas.cells->fault;
     if (painter.request().range && !canvas.is_colour()) {
         std::string remark = describe_range(spread_of(canvas.fields[0]), *painter.request().range);
         if (!remark.empty()) return remark;

@@ -4,8 +4,8 @@
 #include "export/instanced_model.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
-#include "mesh/cell_shapes.h"
 #include "unit/export/example_surfaces.h"
+#include "unit/mesh/example_shapes.h"
 #include "unit/surface/even_cells.h"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ bool write_copies() {
     const SurfaceMesh square = test::flat_square(2);
     const std::vector<Colour> colours(square.points.size(), Colour{0.2F, 0.2F, 0.2F});
     Instances copies;
-    copies.meshes.push_back(*mesh_of(parts_of({CellShape::Kind::ball, 1, 0}), {1, 0.01}));
+    copies.meshes.push_back(test::ball({1, 0.01}));
     constexpr int count = 64;
     for (int k = 0; k < count; ++k) {
         const double part = (k + 0.5) / count;

@@ -2,10 +2,10 @@
 // readers.
 #include "export/instanced_model.h"
 #include "export/group_colours.h"
-#include "mesh/cell_shapes.h"
 #include "mesh/model_file.h"
 #include "picture/srgb.h"
 #include "unit/export/example_surfaces.h"
+#include "unit/mesh/example_shapes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 Instances thorns(std::size_t count) {
     Instances copies;
     for (const double form : {0.3, 1.0}) {
-        copies.meshes.push_back(*mesh_of(parts_of({CellShape::Kind::thorn, form, 0.5}), {1, 0.04}));
+        copies.meshes.push_back(test::thorn(form, 0.5, {1, 0.04}));
     }
     for (std::size_t k = 0; k < count; ++k) {
         const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(count);

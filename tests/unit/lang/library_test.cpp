@@ -34,6 +34,17 @@ TEST(Library, IsInOrderAndFoundByName) {
     EXPECT_EQ(find_library_text(""), nullptr);
 }
 
+TEST(Library, ShapesAreInOrderAndFoundByName) {
+    const auto texts = library_shapes();
+    ASSERT_GE(texts.size(), 5u);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        EXPECT_LT(i == 0 ? "" : texts[i - 1].system_name(), texts[i].system_name());
+        EXPECT_EQ(find_shape_text(texts[i].system_name()), &texts[i]);
+    }
+    EXPECT_EQ(find_shape_text("scales"), nullptr);
+    EXPECT_EQ(find_library_text("thorn"), nullptr);
+}
+
 /// Each text is a script of its own too, as `cascade run` takes it.
 TEST(Library, TextsAreSoundScripts) {
     for (const LibraryText& each : library_texts()) {

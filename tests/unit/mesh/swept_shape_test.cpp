@@ -1,5 +1,5 @@
 // Swept shapes against the spheres, cones and tori that they are.
-#include "mesh/cell_shapes.h"
+#include "mesh/swept_shape.h"
 #include "unit/mesh/closed.h"
 
 #include <gmock/gmock.h>
@@ -138,39 +138,6 @@ TEST(SweptShape, RefusesWhatHasNoVolumeOrIsTooFine) {
     EXPECT_EQ(swept_shape(flat, {4, 4}).error().message, "the shape encloses no volume");
     EXPECT_THAT(facets_for(sphere(), {1e-4, 1}).error().message,
                 testing::HasSubstr("more than 1024 facets along t"));
-}
-
-TEST(CellShapes, AreClosedAndStandOnTheirBase) {
-    for (const NamedCellShape& each : cell_shapes()) {
-        EXPECT_EQ(find_cell_shape(each.name), each.kind);
-        for (const double part : {0.0, 0.5, 1.0}) {
-            const auto mesh = mesh_of(parts_of({each.kind, part, part}), {1, 0.02});
-            ASSERT_TRUE(mesh) << each.name << ": " << mesh.error().message;
-            EXPECT_TRUE(test::is_closed(*mesh)) << each.name;
-            EXPECT_GT(test::volume_of(*mesh), 0.01) << each.name;
-            EXPECT_EQ(mesh->normals.size(), mesh->positions.size());
-            const Box box = bounds(*mesh);
-            EXPECT_LT(std::abs(box.low.x + box.high.x), 0.3F) << each.name;
-            EXPECT_GE(box.low.x, -1.2F) << each.name;
-            EXPECT_LE(box.high.y, 1.3F) << each.name;
-            // It covers what is behind it rather than what is in front.
-            EXPECT_GE(box.high.z, -box.low.z - 1e-5F) << each.name;
-        }
-    }
-    EXPECT_FALSE(find_cell_shape("horn"));
-}
-
-TEST(CellShapes, ABumpBecomesAThorn) {
-    const auto with = [](double form) {
-        return *mesh_of(parts_of({CellShape::Kind::thorn, form, 0}), {1, 0.005});
-    };
-    // Half an ellipsoid, and a pointed shape that is higher, slimmer and lighter.
-    EXPECT_NEAR(test::volume_of(with(0)), 2 * pi / 3 * 0.4, 0.02);
-    EXPECT_NEAR(bounds(with(0)).high.y, 0.4, 1e-6);
-    EXPECT_NEAR(bounds(with(1)).high.y, 1, 1e-6);
-    EXPECT_LT(test::volume_of(with(1)), test::volume_of(with(0)));
-    const auto bent = mesh_of(parts_of({CellShape::Kind::thorn, 1, 1}), {1, 0.005});
-    EXPECT_GT(bounds(*bent).high.z, 0.7F);
 }
 
 }  // namespace

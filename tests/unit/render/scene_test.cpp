@@ -1,6 +1,6 @@
 // Copies of meshes, against the same triangles as one mesh.
 #include "render/draw.h"
-#include "mesh/cell_shapes.h"
+#include "unit/mesh/example_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 Instances thorns(int side) {
     Instances scene;
     for (const double form : {0.3, 1.0}) {
-        scene.meshes.push_back(*mesh_of(parts_of({CellShape::Kind::thorn, form, 0.6}), {1, 0.03}));
+        scene.meshes.push_back(test::thorn(form, 0.6, {1, 0.03}));
     }
     for (int k = 0; k < side * side; ++k) {
         const double a = 0.7 * k;
@@ -179,7 +179,7 @@ TEST(Scene, TheCameraFramesAllCopies) {
 
 TEST(Scene, ShadesDarkenCopies) {
     Instances copies;
-    copies.meshes.push_back(*mesh_of(parts_of({CellShape::Kind::ball, 1, 0}), {1, 0.01}));
+    copies.meshes.push_back(test::ball({1, 0.01}));
     copies.placements.push_back({});
     DrawOptions options = options_of(60);
     const float plain = picture_of(Scene(nullptr, &copies), {}, options).at(30, 30)[1];

@@ -1,0 +1,20 @@
+// Shapes of several closed parts, such as tufts of hair or feathers.
+#pragma once
+
+#include "core/result.h"
+#include "mesh/swept_shape.h"
+
+#include <span>
+
+namespace cascade {
+
+/// A closed part of a shape.
+struct ShapePart {
+    SweptSurface surface;
+    SweptNumber shade;  ///< May be empty.
+};
+
+/// The parts as one mesh, each with facets_for() the detail. Fails as that and swept_shape() do.
+Result<TriangleMesh> mesh_of(std::span<const ShapePart> parts, const SweptDetail& detail);
+
+}  // namespace cascade
