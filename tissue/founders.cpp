@@ -30,7 +30,7 @@ public:
         NearPlace place;
         double threshold = 0;  ///< It is accepted if its chance is above this.
     };
-    Candidate at(std::size_t number) const {
+    Candidate at(std::uint64_t number) const {
         const auto low = static_cast<std::uint32_t>(number);
         const auto high = static_cast<std::uint32_t>(number >> 32);
         const auto words = pcg4d({low, high ^ 0x66e6, seed_, stage_});
@@ -65,7 +65,7 @@ Result<std::vector<NearPlace>> random_founders(const Surroundings& surroundings,
                                                const FounderChance& chance) {
     const FounderPlaces places(surroundings, seed, stage);
     std::vector<NearPlace> founders;
-    std::size_t tried = 0;
+    std::uint64_t tried = 0;
     while (founders.size() < count) {
         if (tried / most_tries >= count) {
             return failure(fmt::format("of {} random places only {} {} accepted as founders of {}",
