@@ -107,7 +107,7 @@ std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, st
         const auto first = sums.begin() + static_cast<std::ptrdiff_t>(p == 0 ? 0 : ends[p - 1]);
         const auto last = sums.begin() + static_cast<std::ptrdiff_t>(ends[p]);
         for (std::size_t j = 0; j < shares[p]; ++j) {
-            const std::size_t k = places.size();
+            const std::uint64_t k = places.size();
             const auto [strip, s, t, unused] = pcg4d(
                 {static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k >> 32), seed, 1});
             const double part =

@@ -38,7 +38,7 @@ bool compare_turnover(Tissue& tissue, Turnover& turnover) {
     const std::int64_t deaths = tissue.deaths - time.compared_deaths;
     if (births < generations * std::max(cells, time.compared_cells)) return false;
     const bool stayed = std::abs(cells - time.compared_cells) * 10 <= cells;
-    const bool is_turnover = stayed && deaths >= generations * cells;
+    const bool is_turnover = cells > 0 && stayed && deaths >= generations * cells;
     if (is_turnover) turnover = {births, deaths, cells, time.compared_at, time.t};
     time.compared_at = time.t;
     time.compared_births = tissue.births;

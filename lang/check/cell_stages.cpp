@@ -99,6 +99,40 @@ void check_founders(Workspace& work, const ast::Script& script, const ast::State
     founders.chance = std::move(chance->formula);
 }
 
+/// `body: e`, whose domain check_cell_stage() knows.
+void check_body(Workspace& work, const ast::Script& script, const ast::Statement& statement,
+                const Scope& scope) {
+    auto body = check_number(work, script, statement.values.front(), scope);
+    if (!body) return;
+    const auto is_of_cells = [&](const Node& node) {
+        const auto* earlier = node.as<StageItem>();
+        return node.is<ItemId>() || node.is<CellValue>() ||
+               (earlier != nullptr && work.cell_stages[earlier->stage]);
+    };
+    const auto own = std::ranges::find_if(body->formula.nodes, is_of_cells);
+    if (own != body->formula.nodes.end()) {
+        work.diagnostics.error(own->span,
+                               "a body is there before the cells, and has no values of theirs",
+                               "it may read the place and earlier stages of fields");
+        return;
+    }
+    bool reads_fields = false;
+    for (Node& node : body->formula.nodes) {
+        // It is computed in the cells of the grid, not where cells crawl.
+        if (const auto* sensed = node.as<SensedItem>()) node.kind = sensed->item;
+        reads_fields |= node.is<StageItem>();
+    }
+    if (!reads_fields) {
+        work.diagnostics.error(span_of(script, statement.values.front()),
+                               "a body reads a stage of fields",
+                               "as in body: coral.v - 0.3; a formula alone gives domain { surface: "
+                               "implicit(…) }");
+        return;
+    }
+    mark_reads(work, body->formula, scope.system);
+    work.draft->stages[*scope.stage].body = std::move(body->formula);
+}
+
 /// The first node of the formulas of a system that senses a stage which does not run before
 /// `stage`; null if there is none.
 const Node* sensed_too_early(const System& system, std::uint32_t stage) {
@@ -194,6 +228,7 @@ void check_cell_setting(Workspace& work, const ast::Script& script, const ast::S
                         const Scope& scope) {
     if (statement.name.text == "founders") return check_founders(work, script, statement, scope);
     if (!has_one_value(work, script, statement)) return;
+    if (statement.name.text == "body") return check_body(work, script, statement, scope);
     auto condition = check_number(work, script, statement.values.front(), scope);
     if (!condition) return;
     mark_reads(work, condition->formula, scope.system);
@@ -280,6 +315,12 @@ void check_cell_stage(Workspace& work, std::uint32_t index) {
         work.diagnostics.error(
             sensed->span, fmt::format("the cells of stage '{}' sense stage '{}', which runs later",
                                       stage.name, work.program.stages[other].name));
+    }
+    const DomainSettings& domain = work.program.domain;
+    if (!stage.body.nodes.empty() && (domain.model || domain.grid.depth == 1)) {
+        work.diagnostics.error(stage.body.nodes.front().span, "a body is one of a grid with slices",
+                               domain.model ? "on a model cells are on its surface"
+                                            : "as in domain { grid: 64, 64, 64 }");
     }
     for (const Formula& distance : system.cells->near) {
         const auto varies = std::ranges::find_if(distance.nodes, [&](const Node& node) {

@@ -23,7 +23,7 @@ bool knows_cells(Workspace& work, const Scope& scope, StageItem item, Span span)
 /// error if there is none. check_cell_stage() knows whether it runs before the stages of the cells.
 std::optional<std::uint32_t> find_sensed_stage(Workspace& work, const ast::Qualified& qualified);
 
-/// Checks a statement `founders: …` or `remove: e` of a stage of cells.
+/// Checks a statement `founders: …`, `remove: e` or `body: e` of a stage of cells.
 void check_cell_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         const Scope& scope);
 

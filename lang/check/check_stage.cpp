@@ -222,7 +222,7 @@ void StageChecker::report_unknown(const Declaration& declaration) {
             {std::nullopt, fmt::format("{} has {}", system().name, list_names(names))});
         for (std::string& each : settings_of({SettingBlock::stage}))
             names.push_back(std::move(each));
-        if (system().cells) names.insert(names.end(), {"founders", "remove", "ey", "ez"});
+        if (system().cells) names.insert(names.end(), {"founders", "remove", "body", "ey", "ez"});
         diagnostic.hint = hint_about(work_, declaration.name, WordContext::stage, names);
         if (is_side_word(declaration.name)) {
             diagnostic.hint =

@@ -65,6 +65,7 @@ void warn_of_unread_stages(const Program& program, std::uint32_t shown, const Fo
         for (const Formula& item : stage.items) note_reads(item, is_read);
         note_reads(stage.show, is_read);
         note_reads(stage.remove, is_read);
+        note_reads(stage.body, is_read);
         if (stage.founders) note_reads(stage.founders->chance, is_read);
         if (stage.time.until) note_reads(*stage.time.until, is_read);
         const System& system = program.systems[stage.system];

@@ -121,8 +121,12 @@ void print_start_of_cells(const Program& program, const System& system, const St
         const std::string chance = print_formula(program, system, founders.chance, index);
         fmt::format_to(out, "{}{}\n", chance.empty() ? "" : ", ", chance);
     }
-    if (stage.remove.nodes.empty()) return;
-    fmt::format_to(out, "  remove: {}\n", print_formula(program, system, stage.remove, index));
+    const auto print = [&](std::string_view name, const Formula& formula) {
+        if (formula.nodes.empty()) return;
+        fmt::format_to(out, "  {}: {}\n", name, print_formula(program, system, formula, index));
+    };
+    print("body", stage.body);
+    print("remove", stage.remove);
 }
 
 void print_sides(const Program& program, std::uint32_t index, ItemId item,

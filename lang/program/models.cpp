@@ -159,6 +159,7 @@ std::vector<const Formula*> formulas_of(const Program& program) {
             }
         }
         add(stage.remove);
+        add(stage.body);
         if (stage.founders) add(stage.founders->chance);
         for (const Formula& formula : stage.items) add(formula);
         add(stage.show);

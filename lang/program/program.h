@@ -362,6 +362,10 @@ struct Stage {
     // Of a stage of cells that crawl.
     std::optional<Founders> founders;  ///< Empty: the cells of the stage of cells before it.
     Formula remove;  ///< Cells where it is not 0 are removed at the start; empty: none.
+    /// Above 0 inside of the body on whose surface they are, in a volume; read in the cells of its
+    /// grid after the stages of fields that it reads. Empty: they are where they were in the stage
+    /// of cells before; founders are on the domain's model or plane, or in its box.
+    Formula body;
 };
 
 /// A surface in space on which the grid lies.

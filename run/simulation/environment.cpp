@@ -208,7 +208,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         here.tissue_kernels =
             std::make_unique<KernelMaker>(rows_of_cells(usual_cells), std::move(stepper),
                                           options.starts_interpreted, here.account);
-        here.ground = std::make_unique<TissueGround>(here.grid, here.model.get(), *here.team);
+        here.ground = std::make_shared<TissueGround>(here.grid, here.model.get(), *here.team);
     }
     warn_of_even_pictures(here, control);
     if (auto found = find_mask(here, script, control); !found) return tl::unexpected(found.error());

@@ -39,7 +39,7 @@ struct Environment {
     std::unique_ptr<StagePlans> plans;
     std::unique_ptr<KernelMaker> kernels;
     std::unique_ptr<KernelMaker> tissue_kernels;  ///< Of stages of cells that crawl,
-    std::unique_ptr<TissueGround> ground;         ///< and where they do; else null.
+    std::shared_ptr<TissueGround> ground;         ///< and where they do; else null.
     std::unique_ptr<Team> team;                   ///< Computes starting values and pictures.
     InputFiles files;
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.

@@ -1,9 +1,11 @@
 // Cells get their places first; all other values are formulas of these and of earlier stages.
 #include "run/simulation/tissue_stage.h"
 
+#include "run/domain/field_values.h"
 #include "run/domain/free_memory.h"
 #include "run/simulation/stage_start.h"
 #include "run/stage/plan_runner.h"
+#include "run/tissue/grown_body.h"
 #include "tissue/founders.h"
 #include "tissue/random_direction.h"
 
@@ -27,6 +29,33 @@ std::optional<std::uint32_t> stage_before(const Program& program, std::uint32_t 
     return std::nullopt;
 }
 
+/// Where the cells of a stage are.
+Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
+                                                      std::span<const StageState> states,
+                                                      std::uint32_t k) {
+    const Stage& stage = here.stage(k);
+    if (stage.body.nodes.empty()) {
+        if (stage.founders) return here.ground;
+        return states[*stage_before(*here.program, k)].ground;
+    }
+    std::uint32_t last = 0;  // Of the stages that the body reads.
+    for (const Node& node : stage.body.nodes) {
+        if (const auto* item = node.as<StageItem>()) last = std::max(last, item->stage);
+    }
+    const std::vector<Field> values = StageView(here, states, last).evaluate(stage.body);
+    if (const double most = largest_value(values[0], here.inside()); most <= 0) {
+        return failure(fmt::format("the body of stage '{}' is empty: its formula is at most {:.4g}",
+                                   stage.name, most),
+                       "cells are on its surface where it becomes larger than 0");
+    }
+    auto body = grown_body(values[0], here.grid.boundary);
+    if (!body) {
+        return failure(fmt::format("the body of stage '{}': {}", stage.name, body.error().message),
+                       body.error().hint);
+    }
+    return std::make_shared<TissueGround>(here.grid, *std::move(body));
+}
+
 /// A number of 0 … 1 for each cell, from a hash: the angle of a random direction in a plane.
 double uniform_of(std::uint32_t seed, std::uint32_t stage, std::uint32_t number) {
     const Vector3d direction = random_direction({seed, stage, number, ~number}, {0, 0, 1});
@@ -45,7 +74,9 @@ public:
           stage_(tissue_stage(environment, states, k)) {}
 
     Result<void> run() {
+        auto ground = std::move(state_.ground);
         state_ = empty_state(view_.system());
+        state_.ground = std::move(ground);
         start_uniform_items(view_, state_);
         const bool founds = view_.stage().founders.has_value();
         if (auto made = founds ? found() : go_on(); !made) return made;
@@ -80,7 +111,7 @@ private:
         }
         std::vector<NearPlace> places;
         if (founders.places.empty()) {
-            auto found = random_founders(*here_.ground->surroundings(),
+            auto found = random_founders(*state_.ground->surroundings(),
                                          static_cast<std::size_t>(founders.count),
                                          here_.program->domain.seed, k_);
             if (!found) return tl::unexpected(found.error());
@@ -91,7 +122,7 @@ private:
                 wanted.push_back(
                     {founders.places[k], founders.places[k + 1], founders.places[k + 2]});
             }
-            places = founders_at(*here_.ground->surroundings(), wanted);
+            places = founders_at(*state_.ground->surroundings(), wanted);
         }
         place(places);
         // Of these places, those that are not taken are left out; so place k is the same with and
@@ -197,7 +228,7 @@ private:
 TissueStage tissue_stage(const Environment& environment, std::span<const StageState> states,
                          std::uint32_t stage) {
     const StageView view(environment, states, stage);
-    return {*environment.program, stage, *environment.ground, view.context()};
+    return {*environment.program, stage, *states[stage].ground, view.context()};
 }
 
 std::size_t most_cells_in_memory(const System& system, Precision precision) {
@@ -227,7 +258,7 @@ double widest_near(const StageView& view) {
 std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan) {
     const Environment& here = view.environment();
     const Tissue& tissue = *view.state().tissue;
-    const TissueStage stage{view.program(), view.number(), *here.ground, view.context()};
+    const TissueStage stage{view.program(), view.number(), *view.state().ground, view.context()};
     auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, widest_near(view)),
                               here.tissue_kernels->once(), *here.team);
     if (values) return std::move(*values);
@@ -259,6 +290,9 @@ std::string remark_on_cells(const StageView& view) {
 Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
                           std::uint32_t stage) {
     const TimeAccount::Scope spent(environment.account, Spent::starting, stage);
+    auto ground = ground_of(environment, states, stage);
+    if (!ground) return tl::unexpected(ground.error());
+    states[stage].ground = std::move(*ground);
     auto started = TissueStart(environment, states, stage).run();
     if (started) states[stage].started = true;
     return started;

@@ -18,6 +18,7 @@
 namespace cascade {
 
 class Tissue;
+class TissueGround;
 
 /// Values of one stage's items. A copy owns planes of its own; it is made only where that is
 /// written.
@@ -42,6 +43,7 @@ struct StageState {
     Mask frozen;  ///< Only where `frozen` varies.
     /// Of a stage of cells that crawl: their values, in place of `fields`, `species` and `frozen`.
     std::shared_ptr<Tissue> tissue;
+    std::shared_ptr<const TissueGround> ground;  ///< Where these cells are.
     std::vector<SideRules> sides;              ///< By species; empty if the boundary holds for all.
     std::vector<ChangingSide> changing_sides;  ///< The sides whose values change with time.
 

@@ -3,6 +3,7 @@
 #include "run/tissue/ground.h"
 
 #include "core/overloaded.h"
+#include "surface/curvature.h"
 
 #include <algorithm>
 
@@ -18,14 +19,38 @@ SurfaceMesh in_script_lengths(const SurfaceMesh& mesh) {
     return scaled;
 }
 
-std::unique_ptr<Surroundings> box_of(const Grid& grid) {
+/// The sides of a grid's box; a plane has no depth.
+Vector3d extent_of(const Grid& grid) {
     const auto longest = static_cast<double>(grid.longest_side());
     const auto side = [&](std::int64_t cells) { return static_cast<double>(cells) / longest; };
+    return {side(grid.width), side(grid.height), grid.depth > 1 ? side(grid.depth) : 0};
+}
+
+std::unique_ptr<Surroundings> box_of(const Grid& grid) {
     const auto repeats = [](Boundary boundary) { return boundary == Boundary::periodic; };
-    const bool is_plane = grid.depth <= 1;
-    return in_box({side(grid.width), side(grid.height), is_plane ? 0 : side(grid.depth)},
-                  {repeats(grid.boundary.x), repeats(grid.boundary.y),
-                   !is_plane && repeats(grid.boundary.z)});
+    return in_box(extent_of(grid), {repeats(grid.boundary.x), repeats(grid.boundary.y),
+                                    grid.depth > 1 && repeats(grid.boundary.z)});
+}
+
+/// A curvature at each point of a mesh, where `unit` is a length of 1.
+std::vector<float> curvature_at_points(const SurfaceMesh& mesh, ModelPlane which, double unit) {
+    std::vector<float> values;
+    if (which == ModelPlane::curvature) {
+        for (const double radius : turk_radii(mesh)) {
+            values.push_back(static_cast<float>(unit / radius));
+        }
+        return values;
+    }
+    const PrincipalCurvatures found = principal_curvatures(mesh);
+    for (std::size_t point = 0; point < mesh.points.size(); ++point) {
+        const double value = which == ModelPlane::curvature_mean ? unit * found.mean(point)
+                             : which == ModelPlane::curvature_gauss
+                                 ? unit * unit * found.gaussian(point)
+                             : which == ModelPlane::curvature_high ? unit * found.high[point]
+                                                                   : unit * found.low[point];
+        values.push_back(static_cast<float>(value));
+    }
+    return values;
 }
 
 /// Is it a plane of the cells themselves?
@@ -54,6 +79,11 @@ TissueGround::TissueGround(const Grid& grid, const ModelCells* model, Team& team
     surroundings_ = around_surface(*mesh_);
 }
 
+TissueGround::TissueGround(const Grid& grid, SurfaceMesh body)
+    : grid_(grid), model_(nullptr), mesh_(std::make_unique<SurfaceMesh>(std::move(body))) {
+    surroundings_ = around_surface(*mesh_);
+}
+
 PlaceValue TissueGround::value_of(const Field& field) const {
     if (model_ == nullptr) return of_grid(field, grid_.boundary);
     const std::vector<double> values = cell_values(field, *model_);
@@ -62,7 +92,7 @@ PlaceValue TissueGround::value_of(const Field& field) const {
 
 /// The part of a side of the domain's box at which a cell is.
 PlaceValue TissueGround::part_of_side(std::size_t axis) const {
-    const Vector3d extent = surroundings_->extent();
+    const Vector3d extent = model_ != nullptr ? surroundings_->extent() : extent_of(grid_);
     const double side = axis == 0 ? extent.x : axis == 1 ? extent.y : extent.z;
     return [axis, side](const NearPlace& near) {
         const Vector3d& p = near.position;
@@ -90,7 +120,11 @@ Sense TissueGround::sense_of(const PlaneSource& source, const BindingContext& fi
             case ModelPlane::sz: return value(part_of_side(2));
             default: break;
         }
-        if (model_ == nullptr) return value(none);  // A plane has no curvature.
+        if (mesh_ == nullptr) return value(none);  // A plane has no curvature.
+        if (model_ == nullptr) {
+            const double cell = 1 / static_cast<double>(grid_.longest_side());
+            return value(of_points(*mesh_, curvature_at_points(*mesh_, *plane, cell)));
+        }
     }
     return value(value_of(plane_of(source, fields)));
 }

@@ -1,4 +1,4 @@
-// Where the cells of a script crawl: on its model, on its plane, or in its box.
+// Where the cells of a script crawl: on its model, on its plane, in its box, or on a grown body.
 #pragma once
 
 #include "run/stage/bound_kernel.h"
@@ -10,11 +10,13 @@
 
 namespace cascade {
 
-/// The surroundings of all tissues of a run, in lengths of scripts.
+/// The surroundings of tissues, in lengths of scripts.
 class TissueGround {
 public:
     /// `model` is null on grids, else it must outlive the ground. Throws std::bad_alloc.
     TissueGround(const Grid& grid, const ModelCells* model, Team& team);
+    /// On the surface of a body in the volume of a grid, in lengths of scripts.
+    TissueGround(const Grid& grid, SurfaceMesh body);
 
     const std::shared_ptr<const Surroundings>& surroundings() const { return surroundings_; }
 
@@ -28,8 +30,8 @@ private:
 
     Grid grid_;
     const ModelCells* model_;
-    std::unique_ptr<SurfaceMesh> mesh_;  ///< Null without a model.
-    std::unique_ptr<CellFilter> filter_;
+    std::unique_ptr<SurfaceMesh> mesh_;   ///< Of a model or a body; else null.
+    std::unique_ptr<CellFilter> filter_;  ///< Of a model.
     std::shared_ptr<const Surroundings> surroundings_;
 };
 

@@ -1,0 +1,18 @@
+// The body that a stage of fields has grown in a volume, as a surface on which cells crawl.
+#pragma once
+
+#include "core/plane.h"
+#include "core/result.h"
+#include "core/side.h"
+#include "mesh/surface_mesh.h"
+
+namespace cascade {
+
+/// The closed surface around the cells of a grid with slices whose values are above 0, in lengths
+/// of scripts: the level set of the values interpolated linearly between the centres of cells, and
+/// the sides of the box where the body reaches them. Its triangles are about as large as the cells;
+/// thinner parts may be lost (see implicit_surface()). Fails if a value is not finite, and if the
+/// grid is too large. Throws std::bad_alloc.
+Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary);
+
+}  // namespace cascade
