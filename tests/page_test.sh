@@ -86,8 +86,19 @@ domain {
   mask: not disc(0.9, 0.05, 0.06)
 }
 SCRIPT
+cat >crawling.cascade <<'SCRIPT'
+domain { surface: sphere }
+stage grow: scales { founders: 60; r: 0.07; duration: 3 }
+picture { shape: plate; width: 2.3 * r; length: 2.9 * r; color: rgb(y, 0.6, 0.3); skin: rgb(0.4, 0.2, 0.2) }
+SCRIPT
+cat >crowd.cascade <<'SCRIPT'
+cells crowd: solid { }
+domain { grid: 40, 20 }
+stage grow: crowd { founders: keys(0.2, 0.1, 0, 0.45, 0.4, 0, 0.8, 0.15, 0); r: 0.06; duration: 1 }
+picture { color: rgb(x, 0.3, 0.6); skin: rgb(0.9, 0.9, 0.85) }
+SCRIPT
 # Turned by the page: 8 degrees for a key, 0.4 for a pixel.
-for view in model:30,25 turned:70,33 dragged:-10,17 box:30,25 hole:30,25; do
+for view in model:30,25 turned:70,33 dragged:-10,17 box:30,25 hole:30,25 crawling:30,25 crowd:30,25; do
     name=${view%:*} script=$name
     [ -f $name.cascade ] || script=model
     "$CASCADE" run $script.cascade --palette zebra --view="${view#*:}" -o $name.png --quiet || fail "the picture of $name was not drawn"

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -105,6 +107,27 @@ Json print_species(const LiveRun& run) {
     return names;
 }
 
+/// What strokes change: species, and whether cells that crawl are there at all.
+Json print_brushes(const LiveRun& run) {
+    Json names = print_species(run);
+    if (run.script().program->system_of(run.place().stage).cells) names.push_back("remove");
+    return names;
+}
+
+/// What the arrays of cells hold.
+Json print_cells(const ShownCells& cells) {
+    std::size_t vertices = 0, triangles = 0;
+    for (const TriangleMesh& mesh : cells.meshes) {
+        vertices += mesh.positions.size();
+        triangles += mesh.triangles.size();
+    }
+    Json json = {
+        {"count", cells.count},   {"shapes", cells.meshes.size()},         {"vertices", vertices},
+        {"triangles", triangles}, {"placements", cells.placements.size()}, {"skin", cells.skin}};
+    if (!cells.is_on_model) json["extent"] = {cells.extent.x, cells.extent.y, cells.extent.z};
+    return json;
+}
+
 /// Infinity and NaN are null.
 Json print_header(const Snapshot& snapshot) {
     Json stages = Json::array();
@@ -116,6 +139,10 @@ Json print_header(const Snapshot& snapshot) {
                           {"duration", stage.duration},
                           {"has_begun", stage.has_begun},
                           {"has_ended", stage.has_ended}});
+        if (!stage.cells) continue;
+        stages.back()["cells"] = {{"count", stage.cells->count},
+                                  {"births", stage.cells->births},
+                                  {"deaths", stage.cells->deaths}};
     }
     const PlaneLayout& layout = snapshot.fields[0].layout();
     const ValueRange range =
@@ -139,7 +166,9 @@ Json print_header(const Snapshot& snapshot) {
                    {"fields", snapshot.fields.size()},
                    {"low", range.low},
                    {"high", range.high}};
-    if (const Grid& grid = snapshot.grid; grid.depth > 1) {
+    if (snapshot.cells) {
+        header["cells"] = print_cells(*snapshot.cells);
+    } else if (const Grid& grid = snapshot.grid; grid.depth > 1) {
         header["slice"] = {{"axis", name_of(snapshot.slice.axis)},
                            {"number", slice_number(PlaneLayout(grid), snapshot.slice)},
                            {"sides", {grid.width, grid.height, grid.depth}}};
@@ -163,6 +192,41 @@ template <typename Element>
 void append(const std::vector<Element>& elements, std::string& bytes) {
     static_assert(sizeof(Element) % 4 == 0 && std::is_trivially_copyable_v<Element>);
     bytes.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element));
+}
+
+/// The meshes one after the other, and the copies of each.
+void append_cells(const ShownCells& cells, std::string& bytes) {
+    for (const TriangleMesh& mesh : cells.meshes) append(mesh.positions, bytes);
+    for (const TriangleMesh& mesh : cells.meshes) append(mesh.normals, bytes);
+    for (const TriangleMesh& mesh : cells.meshes) {
+        std::vector<float> shades = mesh.shades;
+        shades.resize(mesh.positions.size(), 1);
+        append(shades, bytes);
+    }
+    std::uint32_t before = 0;
+    std::vector<std::uint32_t> ends;
+    for (const TriangleMesh& mesh : cells.meshes) {
+        auto triangles = mesh.triangles;
+        for (auto& corners : triangles) {
+            for (std::uint32_t& corner : corners) corner += before;
+        }
+        append(triangles, bytes);
+        before += static_cast<std::uint32_t>(mesh.positions.size());
+        ends.push_back((ends.empty() ? 0 : ends.back()) +
+                       static_cast<std::uint32_t>(triangles.size()));
+    }
+    append(ends, bytes);
+    append(cells.ends, bytes);
+    append(cells.cells, bytes);
+    std::vector<std::array<float, 10>> placements;
+    for (const Placement& each : cells.placements) {
+        const std::array<double, 10> numbers{each.place.x, each.place.y, each.place.z, each.turn.x,
+                                             each.turn.y,  each.turn.z,  each.turn.w,  each.scale.x,
+                                             each.scale.y, each.scale.z};
+        std::ranges::transform(numbers, placements.emplace_back().begin(),
+                               [](double number) { return static_cast<float>(number); });
+    }
+    append(placements, bytes);
 }
 
 }  // namespace
@@ -196,7 +260,8 @@ std::string print_script(const LiveRun& run) {
                   {"text", script.text},
                   {"messages", print_diagnostics(script.diagnostics, script.sources, script.text)},
                   {"controls", print_controls(run)},
-                  {"species", print_species(run)}});
+                  {"species", print_species(run)},
+                  {"brushes", print_brushes(run)}});
 }
 
 std::uint64_t version_of_script(const Snapshot& snapshot) {
@@ -236,6 +301,7 @@ std::string print_snapshot(const Snapshot& snapshot) {
             bytes.append(reinterpret_cast<const char*>(field.row(row)), row_bytes);
         }
     }
+    if (snapshot.cells) append_cells(*snapshot.cells, bytes);
     return bytes;
 }
 

@@ -25,7 +25,7 @@ export class Camera {
     private far = 2;
 
     /// Looks at all positions, so that they fill the picture except for a margin.
-    frame(positions: Float32Array, axis: "y" | "z", width: number, height: number) {
+    frame(places: Float32Array[], axis: "y" | "z", width: number, height: number) {
         const around = this.azimuth * Math.PI / 180, above = this.elevation * Math.PI / 180;
         const upward: Vector = axis === "y" ? [0, 1, 0] : [0, 0, 1], front: Vector = axis === "y" ? [0, 0, 1] : [0, -1, 0];
         const level = add(add([0, 0, 0], front, Math.cos(around)), cross(upward, front), Math.sin(around));
@@ -37,7 +37,7 @@ export class Camera {
         this.half_y = half_field * height / smaller;
         const half_x = this.half_x / margin, half_y = this.half_y / margin;
         let [left, to_right, below, to_top, nearest, farthest] = Array(6).fill(-Infinity);
-        for (let k = 0; k < positions.length; k += 3) {
+        for (const positions of places) for (let k = 0; k < positions.length; k += 3) {
             const p: Vector = [positions[k], positions[k + 1], positions[k + 2]];
             const x = dot(p, right), y = dot(p, up), z = dot(p, backward);
             left = Math.max(left, half_x * z - x);

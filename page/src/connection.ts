@@ -7,17 +7,29 @@ export interface KnownName { name: string; what: string; note: string }
 /// Without a name if the engine knows nothing of it.
 export interface Explanation { name?: string; what?: string; note?: string; value?: number; range?: [number, number]; smallest?: number; largest?: number; equation?: string }
 export interface Control { name: string; label: string; stage: number; doc: string; low: number; high: number; step?: number; value: number }
-export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[] }
+export interface Script { kind: "script"; name: string; text: string; messages: Message[]; controls: Control[]; species: string[]; brushes: string[] }
 export interface Palette { name: string; description: string; stops: [number, number, number][] }
 export interface LibrarySystem { name: string; about: string; words: string; script: string }
-export interface Stage { name: string; steps: number; iterations: number; t: number; duration: number; has_begun: boolean; has_ended: boolean }
+export interface Stage { name: string; steps: number; iterations: number; t: number; duration: number; has_begun: boolean; has_ended: boolean; cells?: { count: number; births: number; deaths: number } }
 export interface Snapshot {
     number: number; script: number; is_going_on: boolean; stage: number; steps: number; stages: Stage[];
     steps_per_second: number; can_undo: boolean; can_redo: boolean; failure: string; remarks: string[];
     columns: number; rows: number; low: number; high: number; planes: Float32Array[];
     surface: number;    ///< That of the surface that the cells lie on; 0 for none.
     is_model: boolean;  ///< Cells lie on a model, and have no columns and rows.
+    cells?: Cells;      ///< Those that crawl; the planes are one row, with a value for each.
     slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };  ///< Of a volume.
+}
+
+/// Cells that crawl: a few meshes, and where their copies stand.
+export interface Cells {
+    count: number; skin: [number, number, number];
+    extent?: [number, number, number];  ///< Of the plane or box that they lie in; nothing on a model.
+    positions: Float32Array; normals: Float32Array; shades: Float32Array; triangles: Uint32Array;  ///< Of all meshes.
+    /// Mesh k has the triangles from triangle_ends[k − 1] to triangle_ends[k], and the copies from ends[k − 1] to ends[k].
+    triangle_ends: Uint32Array; ends: Uint32Array;
+    cells: Uint32Array;        ///< The cell that each copy shows, in the planes.
+    placements: Float32Array;  ///< Ten numbers each: the place, a quaternion x, y, z, w, and factors along the axes of the mesh.
 }
 
 /// Triangles, and how much of the values of cells each vertex shows.
@@ -61,7 +73,14 @@ function read_frame(bytes: ArrayBuffer): Snapshot | Surface {
         return new Type(bytes, start - 4 * length, length);
     };
     if (kind === "snapshot") {
-        return { ...header, planes: Array.from({ length: header.fields }, () => take(Float32Array, header.columns * header.rows)) };
+        const planes = Array.from({ length: header.fields }, () => take(Float32Array, header.columns * header.rows));
+        if (!header.cells) return { ...header, planes };
+        const { shapes, vertices, triangles, placements, ...cells } = header.cells;
+        return { ...header, planes, cells: {
+            ...cells, positions: take(Float32Array, 3 * vertices), normals: take(Float32Array, 3 * vertices),
+            shades: take(Float32Array, vertices), triangles: take(Uint32Array, 3 * triangles), triangle_ends: take(Uint32Array, shapes),
+            ends: take(Uint32Array, shapes), cells: take(Uint32Array, placements), placements: take(Float32Array, 10 * placements),
+        } };
     }
     const { number, up, spacing, vertices, places, triangles, shares } = header;
     return {

@@ -1,4 +1,5 @@
 // The page: text, sliders, pattern and stages of one session.
+import { half_width } from "./cells_in_space";
 import { Answer, Connection, Explanation, KnownName, Message, Palette, Script, Snapshot } from "./connection";
 import { download } from "./download";
 import { Editor } from "./editor";
@@ -18,7 +19,7 @@ import { close_popups } from "./popups";
 import { Recording } from "./recording";
 import { Slices } from "./slices";
 import { show_sliders } from "./sliders";
-import { Stages } from "./stages";
+import { Stages, in_numbers } from "./stages";
 import { SolidView } from "./solid_view";
 import { Stroke } from "./stroke";
 import { in_words } from "./words";
@@ -128,9 +129,11 @@ const recording = new Recording(() => pattern.seen, () => name_of_file(), (is_mo
     element("save").toggleAttribute("data-recording", is_movie || are_frames);
 });
 let asked_surface = 0;
-function want_surface({ surface, is_model }: Snapshot) {
+function want_surface({ surface, is_model, cells }: Snapshot) {
     button("flat").hidden = surface === 0 || is_model || !solid.is_possible;
-    if (surface === 0 || surface === asked_surface) return;
+    if (cells?.extent && !solid.is_possible) notice("Cells that crawl need WebGL2, which this browser does not offer.", true, 60);
+    // A floor may have taken its place.
+    if (surface === 0 || (surface === asked_surface && solid.surface?.number !== 0)) return;
     asked_surface = surface;
     if (solid.is_possible) connection.ask_surface();
     else if (is_model) notice("Models need WebGL2, which this browser does not offer.", true, 60);
@@ -211,8 +214,8 @@ function show_script(script: Script) {
     }
     show_sliders(script.controls, change);
     measure.species = script.species;
-    if ([...brush_choice.options].map((o) => o.value).join() !== script.species.join()) {
-        brush_choice.replaceChildren(...script.species.map((name) => new Option(name)));
+    if ([...brush_choice.options].map((o) => o.value).join() !== script.brushes.join()) {
+        brush_choice.replaceChildren(...script.brushes.map((name) => new Option(name)));
         element("names").replaceChildren(...script.species.map((name) => new Option(name)));
     }
 }
@@ -227,8 +230,10 @@ function show_state(snapshot: Snapshot) {
     const { stages } = snapshot;
     strip.show(snapshot);
     const { is_going_on, steps_per_second } = pace;
+    const { cells } = stages[snapshot.stage - 1], crawling = cells ? ` · ${cells.count.toLocaleString("en")} cells` : "";
     const rate = is_going_on && steps_per_second > 0 ? ` · ${compact.format(steps_per_second)} steps/s` : "";
-    element("place").textContent = `step ${snapshot.steps.toLocaleString("en")}${rate}`;
+    element("place").textContent = `step ${snapshot.steps.toLocaleString("en")}${crawling}${rate}`;
+    element("place").title = cells ? in_numbers(cells) : "";
     button("run").toggleAttribute("data-going", is_going_on);
     button("run").ariaLabel = is_going_on ? "Pause" : "Run";
     const is_over = stages.every((stage) => stage.has_ended);
@@ -315,8 +320,10 @@ function paint(event: PointerEvent, is_first: boolean) {
     if (measure.takes(event, place, is_first) || !brush_choice.value || !place || !pattern.snapshot) return;
     const item = brush_choice.value, value = element<HTMLInputElement>("amount").value || `${event.shiftKey ? "min" : "max"}(${item} over domain)`;
     // As large on the screen at every zoom, but never so small that it misses all cells.
-    const { is_model } = pattern.snapshot, reach = 0.03 / view().zoom, spacing = is_model ? solid.surface!.spacing : 1 / pattern.longest;
-    stroke.go_on({ item, value, place, is_model, radius: Math.max(reach, (place.z === undefined || is_model ? 0.71 : 0.87) * spacing) }, is_first);
+    const { cells } = pattern.snapshot, is_model = pattern.snapshot.is_model && !cells, reach = 0.03 / view().zoom;
+    const spacing = is_model ? solid.surface!.spacing : 1 / pattern.longest;
+    const least = cells ? half_width(cells, place.cell) : (place.z === undefined || is_model ? 0.71 : 0.87) * spacing;
+    stroke.go_on({ item, value, place, is_model, radius: Math.max(reach, least) }, is_first);
 }
 const plane = new PlaneView(pattern.canvas, () => pattern.columns);
 const view = () => pattern.is_solid ? solid : plane;

@@ -145,7 +145,8 @@ export class Pattern {
     /// Is it drawn in space?
     get is_solid() {
         const { snapshot, solid } = this, { surface } = solid;
-        return !!snapshot && !!surface && solid.is_possible && surface.number === snapshot.surface && !(this.is_laid_flat && surface.places);
+        return !!snapshot && !!surface && solid.is_possible && surface.number === snapshot.surface
+            && (surface.number > 0 || !!snapshot.cells) && !(this.is_laid_flat && surface.places);
     }
 
     /// The canvas that is seen.
@@ -154,12 +155,13 @@ export class Pattern {
     draw() {
         const { canvas, snapshot, palette, look, solid } = this;
         if (!snapshot || !palette) return;
+        if (snapshot.cells?.extent) solid.lay_floor(snapshot.cells);
         solid.canvas.hidden = !this.is_solid;
-        canvas.hidden = this.is_solid || snapshot.is_model;
+        canvas.hidden = this.is_solid || snapshot.is_model || !!snapshot.cells;
         const values = is_row(snapshot) ? this.time.with(snapshot) : snapshot, { columns, rows } = values;
         this.drawn(values);
         const shown = { ...values, ...this.range_of(values) };
-        if (this.is_solid) return solid.draw(shown, palette, look);
+        if (this.is_solid || snapshot.cells) return solid.draw(shown, palette, look);
         const scale = this.pixels_of_cell(columns, rows);
         canvas.style.imageRendering = scale > 1 ? "auto" : "";
         if (canvas.width !== columns * scale || canvas.height !== rows * scale) {
@@ -198,7 +200,7 @@ export class Pattern {
     /// Where a pointer is on the pattern; nothing beside it.
     place(event: { clientX: number; clientY: number }): Place | undefined {
         const { canvas, snapshot, longest, columns: width, rows: height } = this, box = canvas.getBoundingClientRect();
-        if (!snapshot || snapshot.is_model || this.is_solid) return this.is_solid ? this.solid.place(event) : undefined;
+        if (!snapshot || snapshot.is_model || snapshot.cells || this.is_solid) return this.is_solid ? this.solid.place(event) : undefined;
         const { slice, columns } = snapshot;
         const right = (event.clientX - box.left) / box.width * width, down = (event.clientY - box.top) / box.height * height;
         if (!(right >= 0 && right < width && down >= 0 && down < height)) return undefined;
@@ -222,7 +224,7 @@ export class Pattern {
     /// Where a cell of the grid is on the page; nothing if it is not seen.
     box_of_cell(cell: number): DOMRect | undefined {
         const { canvas, snapshot, columns } = this;
-        if (!snapshot || snapshot.is_model || this.is_solid) return this.is_solid ? this.solid.box_of_cell(cell) : undefined;
+        if (!snapshot || snapshot.is_model || snapshot.cells || this.is_solid) return this.is_solid ? this.solid.box_of_cell(cell) : undefined;
         const { slice } = snapshot, [i, j, k] = this.place_of(cell);
         if (slice && [i, j, k]["xyz".indexOf(slice.axis)] !== slice.number) return undefined;
         const [column, row] = !slice || slice.axis === "z" ? [i, j] : slice.axis === "y" ? [i, k] : [k, j];
@@ -240,7 +242,7 @@ export class Pattern {
 
     /// A cell of the grid in words.
     name_of(cell: number) {
-        const { slice, rows, is_model } = this.snapshot!;
-        return is_model ? `cell ${cell}` : `cell ${this.place_of(cell).slice(0, slice ? 3 : rows === 1 ? 1 : 2).join(", ")}`;
+        const { slice, rows, is_model, cells } = this.snapshot!;
+        return is_model || cells ? `cell ${cell}` : `cell ${this.place_of(cell).slice(0, slice ? 3 : rows === 1 ? 1 : 2).join(", ")}`;
     }
 }

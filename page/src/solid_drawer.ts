@@ -3,7 +3,9 @@
 import { Camera, Vector, add, cross, dot, unit } from "./camera";
 import type { Palette, Snapshot, Surface } from "./connection";
 import type { Look } from "./look";
-import { colours } from "./colours";
+import { CellDrawer } from "./cell_drawer";
+import { hidden, shade, shadow, surface } from "./light_shaders";
+import { Program, attributes } from "./program";
 
 /// Directions from which the visible part of the sky is found, some for each picture; fewer where pictures take long.
 const sky_directions = 160, few_sky_directions = 64, many_at_once = 8;
@@ -11,40 +13,6 @@ const long = 100;  ///< Milliseconds.
 const shadow_side = 1024;
 const ground_side = 64;     ///< Quadrilaterals of the ground.
 const ground_reach = 1.2;   ///< In diagonals of the surface.
-
-/// The visible part of the sun's disc at a place: what hides it is looked for first, since its distance says how soft its
-/// shadow is. Depth maps have coordinates of −1 … 1, larger away from the light, and 1 where there is nothing.
-const shadow = `#version 300 es
-precision highp float;
-precision highp sampler2D;
-uniform sampler2D depth;
-uniform mat4 to_sun;
-uniform vec3 sun;
-uniform float size;
-/// A spiral of points that fills the unit disc.
-vec2 on_disc(int k, int count, float turn) {
-  float angle = 2.39996 * float(k) + turn;
-  return sqrt((float(k) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));
-}
-/// How far below what the light sees first, and 0 where it sees nothing or this.
-float below(vec3 here, vec2 by, float slack) {
-  float there = textureLod(depth, here.xy + by, 0.0).r;
-  return there < 1.0 && there < here.z - slack ? here.z - there : 0.0;
-}
-float sun_part(vec3 place, vec3 normal, float turn) {
-  if (dot(normal, sun) <= 0.0) return 0.0;
-  vec3 here = 0.5 + 0.5 * (to_sun * vec4(place + 0.006 * size * normal, 1)).xyz;
-  if (any(greaterThan(abs(here.xy - 0.5), vec2(0.53)))) return 1.0;
-  float blockers = 0.0, away = 0.0, lit = 0.0;
-  for (int k = 0; k < 16; ++k) {
-    float how_far = below(here, 0.03 * on_disc(k, 16, turn), 0.002);
-    if (how_far > 0.0) { blockers += 1.0; away += how_far; }
-  }
-  if (blockers == 0.0) return 1.0;
-  float radius = clamp(0.12 * away / blockers, 0.0015, 0.03);
-  for (int k = 0; k < 24; ++k) lit += below(here, radius * on_disc(k, 24, turn), 0.002 + 0.1 * radius) > 0.0 ? 0.0 : 1.0;
-  return lit / 24.0;
-}`;
 
 /// Light varies slowly along a surface, so it is found for vertices, of which there are fewer than pixels of small
 /// triangles. Of the two sides only that towards the sun needs it.
@@ -60,38 +28,6 @@ void main() {
   sky_parts = vec2(sky.y > 0.0 ? sky.x / sky.y : 1.0, sky.w > 0.0 ? sky.z / sky.w : 1.0);
   sun_light = sun_part(position, dot(normal, sun) < 0.0 ? -normal : normal, 0.0);
   gl_Position = view * vec4(position, 1);
-}`;
-
-const shade = `${shadow}
-in vec3 place, toward, seen;
-in vec2 sky_parts;  // Of the side that the normal points to, and of the other one.
-in float sun_light;
-uniform vec3 eye, middle;
-out vec4 colour;
-vec3 light_of(vec3 stored) { return mix(stored / 12.92, pow((stored + 0.055) / 1.055, vec3(2.4)), step(0.04045, stored)); }
-vec3 stored_of(vec3 light) { return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light)); }`;
-
-/// Where values change much within a pixel, it has their mean colour.
-const surface = `${shade}
-uniform float low, high;
-${colours}
-vec3 look() {
-  if (is_colour) return light_of(clamp(seen, 0.0, 1.0));
-  float change = fwidth(seen.r), covered = line_part(seen.r, change);
-  vec3 sum = vec3(0);
-  for (int k = 0; k < 4; ++k) sum += light_of(colour_of(seen.r + (float(k) - 1.5) / 4.0 * change));
-  return mix(sum / 4.0, vec3(line_level(seen.r)), covered);
-}
-void main() {
-  vec3 light = look();
-  if (isnan(seen.r)) discard;
-  vec3 to_eye = normalize(eye - place), outward = normalize(toward);
-  // At the rim a triangle may turn away though the surface does not yet.
-  bool is_outside = gl_FrontFacing || dot(outward, to_eye) > -0.08;
-  vec3 normal = is_outside ? outward : -outward;
-  float gleam = 0.06 * pow(max(0.0, dot(normal, normalize(sun + to_eye))), 40.0);
-  float bright = 0.72 * max(0.0, dot(normal, sun));
-  colour = vec4(stored_of(min(light * (bright * sun_light + 0.42 * (is_outside ? sky_parts.x : sky_parts.y)) + gleam * sun_light, 1.0)), 1);
 }`;
 
 const ground = `${shade}
@@ -129,50 +65,10 @@ uniform mat4 view;
 out vec3 seen;
 void main() { seen = value; gl_Position = view * vec4(position, 1); }`;
 
-/// Cells without a value let light through.
-const hidden = `#version 300 es
-precision highp float;
-in vec3 seen;
-out vec4 colour;
-void main() { if (isnan(seen.r)) discard; colour = vec4(0); }`;
-
 const nothing = `#version 300 es
 precision lowp float;
 out vec4 colour;
 void main() { colour = vec4(0); }`;
-
-const attributes = ["position", "normal", "value", "sky", "before"];
-
-class Program {
-    readonly handle: WebGLProgram;
-    constructor(private readonly gl: WebGL2RenderingContext, texts: [string, string], kept: string[] = []) {
-        this.handle = gl.createProgram()!;
-        [gl.VERTEX_SHADER, gl.FRAGMENT_SHADER].forEach((type, k) => {
-            const shader = gl.createShader(type)!;
-            gl.shaderSource(shader, texts[k]);
-            gl.compileShader(shader);
-            if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) throw new Error(gl.getShaderInfoLog(shader) ?? "");
-            gl.attachShader(this.handle, shader);
-        });
-        attributes.forEach((name, k) => gl.bindAttribLocation(this.handle, k, name));
-        if (kept.length > 0) gl.transformFeedbackVaryings(this.handle, kept, gl.SEPARATE_ATTRIBS);
-        gl.linkProgram(this.handle);
-        if (!gl.getProgramParameter(this.handle, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(this.handle) ?? "");
-    }
-
-    /// Numbers, vectors and matrices by their names; textures are of unit 0.
-    use(uniforms: Record<string, number | number[] | Float32Array>) {
-        const gl = this.gl;
-        gl.useProgram(this.handle);
-        for (const [name, value] of Object.entries(uniforms)) {
-            const at = gl.getUniformLocation(this.handle, name);
-            if (typeof value === "number") gl.uniform1f(at, value);
-            else if (value.length === 16) gl.uniformMatrix4fv(at, false, value);
-            else gl.uniform3fv(at, value);
-        }
-    }
-    whole(name: string, value: number) { this.gl.uniform1i(this.gl.getUniformLocation(this.handle, name), value); }
-}
 
 /// What light from a direction sees, as the matrix of a depth map.
 interface Light { to_sun: Float32Array; sun: Vector }
@@ -191,8 +87,10 @@ export class SolidDrawer {
     private is_slow = false;
     private holes = 0;     ///< Vertices without a value.
     private directions = 0;  ///< Of the sky that have been looked along.
+    private readonly cells: CellDrawer;
 
     constructor(private readonly gl: WebGL2RenderingContext) {
+        this.cells = new CellDrawer(gl);
         this.programs = {
             surface: new Program(gl, [vertex, surface]), ground: new Program(gl, [vertex, ground]),
             depth: new Program(gl, [plain, hidden]), sky: new Program(gl, [sky, nothing], ["after"]),
@@ -295,13 +193,17 @@ export class SolidDrawer {
         gl.drawElements(gl.TRIANGLES, gl.getBufferParameter(gl.ELEMENT_ARRAY_BUFFER, gl.BUFFER_SIZE) / 4, gl.UNSIGNED_INT, 0);
     }
 
-    private draw_depth(light: Light) {
+    private draw_depth(light: Light, has_cells = false) {
         const gl = this.gl;
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
         gl.viewport(0, 0, shadow_side, shadow_side);
         gl.clear(gl.DEPTH_BUFFER_BIT);
         this.programs.depth.use({ view: light.to_sun });
         this.draw_triangles("triangles");
+        if (has_cells) {
+            this.cells.depth.use({ view: light.to_sun });
+            this.cells.draw();
+        }
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     }
 
@@ -339,19 +241,26 @@ export class SolidDrawer {
         this.is_slow = this.directions >= 4 * many_at_once && (performance.now() - this.began) * many_at_once > long * this.directions;
         for (let k = 0; k < many_at_once && this.is_getting_better; ++k) this.look_along_sky();
         const light = this.light_from(unit(add(add(camera.backward, camera.up, 0.9), camera.right, -0.7)));
-        this.draw_depth(light);
+        this.cells.take(snapshot);
+        this.draw_depth(light, true);
         gl.viewport(0, 0, width, height);
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
         this.bind("sky", 4, "before");
         const scene = { ...light, view: camera.matrix(), eye: camera.eye, size: this.size, middle: this.middle };
-        const { surface, ground } = this.programs;
-        surface.use({ ...scene, low: snapshot.low, high: snapshot.high, every: look.every ?? 0, at: look.at ?? 0 });
-        surface.whole("has_line", look.at === undefined ? 0 : 1);
-        gl.uniform3fv(gl.getUniformLocation(surface.handle, "stops"), palette.stops.flat());
-        surface.whole("last", palette.stops.length - 1);
-        surface.whole("is_colour", snapshot.planes.length === 3 ? 1 : 0);
+        const { surface, ground } = this.programs, has_cells = snapshot.cells !== undefined;
+        const use = (program: Program, is_colour: boolean, has_lines: boolean) => {
+            program.use({ ...scene, low: snapshot.low, high: snapshot.high, every: has_lines ? look.every ?? 0 : 0, at: look.at ?? 0 });
+            program.whole("has_line", has_lines && look.at !== undefined ? 1 : 0);
+            gl.uniform3fv(gl.getUniformLocation(program.handle, "stops"), palette.stops.flat());
+            program.whole("last", palette.stops.length - 1);
+            program.whole("is_colour", is_colour ? 1 : 0);
+        };
+        // Below cells that crawl the surface has one colour.
+        use(surface, has_cells || snapshot.planes.length === 3, !has_cells);
         this.draw_triangles("triangles");
+        use(this.cells.lit, snapshot.planes.length === 3, false);
+        this.cells.draw();
         gl.enable(gl.BLEND);
         ground.use(scene);
         this.draw_triangles("squares");

@@ -1,6 +1,7 @@
 // A surface in space: turned and enlarged by pointers and keys, with the values of cells filtered for its vertices.
 import { Camera, Vector } from "./camera";
-import type { Palette, Snapshot, Surface } from "./connection";
+import { corners_of, floor_of, nearest_cell, place_of_cell } from "./cells_in_space";
+import type { Cells, Palette, Snapshot, Surface } from "./connection";
 import type { View } from "./gestures";
 import type { Look } from "./look";
 import type { Place } from "./pattern";
@@ -21,6 +22,7 @@ export class SolidView implements View {
     private values: Float32Array = new Float32Array();  ///< Of the vertices.
     private is_waiting = false;
     private has_moved = true;
+    private corners: Float32Array[] = [];  ///< Of cells that crawl.
     private projected?: Float32Array;  ///< The vertices as the camera shows them.
 
     constructor(readonly canvas: HTMLCanvasElement, use_shader = true) {
@@ -65,16 +67,31 @@ export class SolidView implements View {
 
     take(surface: Surface) {
         this.surface = surface;
+        this.corners = [];
         this.projected = undefined;
         this.has_moved = true;
         this.shown = undefined;
         this.drawer?.take(surface);
     }
 
+    /// Below cells that crawl without a model.
+    lay_floor({ extent }: Cells) {
+        const floor = floor_of(extent!);
+        if (this.surface?.number === 0 && this.surface.positions.every((part, k) => part === floor.positions[k])) return;
+        this.take(floor);
+    }
+
     draw(snapshot: Snapshot, palette: Palette, look: Look) {
+        const { cells } = snapshot;
+        if (cells !== this.shown?.snapshot.cells) {
+            this.corners = cells ? [corners_of(cells)] : [];
+            this.has_moved = true;
+        }
         this.shown = { snapshot, palette, look };
         if (!this.surface || !this.drawer) return;
-        this.drawer.values = this.values = values_of_vertices(this.surface, snapshot);
+        const vertices = this.surface.positions.length / 3;
+        this.drawer.values = this.values = cells ? Float32Array.from({ length: 3 * vertices }, (_, k) => cells.skin[k % 3])
+            : values_of_vertices(this.surface, snapshot);
         this.redraw();
     }
 
@@ -119,6 +136,8 @@ export class SolidView implements View {
         if (!hit || !surface) return undefined;
         const [x, y, z] = hit.place, { corners, parts } = hit, mixed = (numbers: Float32Array, size: number, k: number) =>
             corners.reduce((sum, corner, c) => sum + parts[c] * numbers[size * corner + k], 0);
+        const cells = this.shown?.snapshot.cells;
+        if (cells) return { ...(cells.extent ? { x, y: z } : { x, y, z }), cell: nearest_cell(cells, hit.place) };
         const where = surface.places ? { x: mixed(surface.places, 2, 0), y: mixed(surface.places, 2, 1) } : { x, y, z };
         // The cell that counts most there is the nearest.
         const weights = new Map<number, number>();
@@ -133,8 +152,10 @@ export class SolidView implements View {
 
     /// Where a cell is in the window; nothing if it is on the far side.
     box_of_cell(cell: number): DOMRect | undefined {
-        const { surface, camera, canvas } = this;
+        const { surface } = this;
         if (!surface) return undefined;
+        const crawling = this.shown?.snapshot.cells;
+        if (crawling) return this.box_of_place(place_of_cell(crawling, cell));
         const { ends, cells, weights, positions } = surface;
         let best = -1, most = 0;
         for (let v = 0, k = 0; v < ends.length; ++v) {
@@ -144,8 +165,14 @@ export class SolidView implements View {
                 best = v;
             }
         }
-        if (best < 0) return undefined;
-        const [x, y, away] = camera.project([positions[3 * best], positions[3 * best + 1], positions[3 * best + 2]]);
+        return this.box_of_place(best < 0 ? undefined : [positions[3 * best], positions[3 * best + 1], positions[3 * best + 2]]);
+    }
+
+    /// Nothing on the far side.
+    private box_of_place(place?: Vector): DOMRect | undefined {
+        const { camera, canvas } = this;
+        if (!place) return undefined;
+        const [x, y, away] = camera.project(place);
         const hit = this.hit(x, y), box = canvas.getBoundingClientRect();
         if (hit && camera.project(hit.place)[2] < 0.99 * away) return undefined;
         return new DOMRect(box.x + (x + 1) / 2 * box.width, box.y + (1 - y) / 2 * box.height, 0, 0);
@@ -194,7 +221,7 @@ export class SolidView implements View {
     private frame() {
         const { canvas, surface, camera } = this;
         this.projected = undefined;
-        if (surface) camera.frame(surface.positions, surface.up, canvas.clientWidth, canvas.clientHeight);
+        if (surface) camera.frame([surface.positions, ...this.corners], surface.up, canvas.clientWidth, canvas.clientHeight);
     }
 
     private look() {

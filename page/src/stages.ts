@@ -1,8 +1,13 @@
 // The strip of stages: name, progress, and what each looked like when it was last seen.
-import type { Snapshot } from "./connection";
+import type { Snapshot, Stage } from "./connection";
 
 const milliseconds_between_pictures = 400;
 const side = 40;  ///< Of a picture's longest side, in pixels of the page.
+
+/// What has become of the cells of a stage, in words.
+export function in_numbers({ count, births, deaths }: NonNullable<Stage["cells"]>) {
+    return [[count, "cells"], [births, "births"], [deaths, "deaths"]].map(([number, what]) => `${number.toLocaleString("en")} ${what}`).join(", ");
+}
 
 export class Stages {
     private readonly list = document.getElementById("stages")!;
@@ -23,6 +28,7 @@ export class Stages {
             go.querySelector("span")!.textContent = stage.name;
             go.ariaCurrent = k + 1 === current ? "step" : null;
             go.title = stage.has_ended ? "ended" : `step ${stage.steps.toLocaleString("en")} of ${stage.iterations.toLocaleString("en")}`;
+            if (stage.cells) go.title += `: ${in_numbers(stage.cells)}`;
             go.querySelector("progress")!.value = stage.has_ended ? 1
                 : stage.duration > 0 ? stage.t / stage.duration : stage.steps / Math.max(stage.iterations, 1);
         });

@@ -28,7 +28,8 @@ export class Stroke {
                 [x, y, ...(z === undefined ? [] : [z])].map((part) => part.toFixed(6)).join(", "));
             const size = radius.toFixed(6);
             const is_near = is_model ? `distance(${places.join(", ")}) < ${size}` : `${places.map((at) => `disc(${at}, ${size})`).join(" + ")} > 0`;
-            await this.ask({ item, expression: `if(${is_near}, ${value}, ${item})`, joins_last: !is_first });
+            const expression = item === "remove" ? is_near : `if(${is_near}, ${value}, ${item})`;
+            await this.ask({ item, expression, joins_last: !is_first });
         }
         this.is_painting = false;
     }

@@ -5,7 +5,7 @@ import type { Snapshot } from "./connection";
 export const rows_of_time = ({ columns }: Snapshot) => Math.min(Math.max(columns, 16), 512);
 
 /// Is it of a grid of one row?
-export const is_row = ({ rows, slice }: Snapshot) => rows === 1 && !slice;
+export const is_row = ({ rows, slice, cells }: Snapshot) => rows === 1 && !slice && !cells;
 
 export class TimeRows {
     private seen: Snapshot[] = [];

@@ -245,11 +245,6 @@ Instances instances_of(const DrawnCells& cells, double pixels) {
     return instances;
 }
 
-namespace {
-
-/// Laid flat, with the plane's normal upwards: y of scripts, which points downwards in pictures,
-/// comes towards the viewer. That swaps left and right, so shapes are mirrored, too, in which they
-/// are symmetric.
 void lay_flat(Instances& copies) {
     const auto swapped = [](Vector3d v) { return Vector3d{v.x, v.z, v.y}; };
     for (Placement& each : copies.placements) {
@@ -259,6 +254,8 @@ void lay_flat(Instances& copies) {
                                   swapped(turned(each.turn, {0, 0, 1})));
     }
 }
+
+namespace {
 
 TriangleMesh floor_of(Vector3d extent) {
     const auto point = [](double x, double z) {

@@ -57,4 +57,9 @@ Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const
 /// number of pixels. Throws std::bad_alloc.
 Instances instances_of(const DrawnCells& cells, double pixels);
 
+/// Lays copies flat that stand on a plane or in a box, with the plane's normal upwards: y of
+/// scripts, which points downwards in pictures, comes towards the viewer. That swaps left and
+/// right, so shapes are mirrored, too, in which they are symmetric.
+void lay_flat(Instances& copies);
+
 }  // namespace cascade

@@ -4,6 +4,7 @@
 #include "core/failure_line.h"
 #include "run/session/session_picture.h"
 #include "run/stage/stage_time.h"
+#include "tissue/tissue.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,6 +157,11 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
         if (state.started && stage.time.has_duration()) {
             progress.duration = duration_of(stage, program.system_of(k), state);
         }
+        if (state.tissue) {
+            const Tissue& tissue = *state.tissue;
+            progress.cells = {static_cast<std::int64_t>(tissue.count()), tissue.births,
+                              tissue.deaths};
+        }
         made->stages.push_back(std::move(progress));
     }
     made->steps_per_second = steps_per_second_;
@@ -163,13 +169,21 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     made->can_redo = run_->can_redo();
     made->failure = failure_;
     made->remarks = remarks_;
-    made->fields = std::move(canvas().fields);
-    made->grid = run_->simulation().grid();
+    const Simulation& simulation = run_->simulation();
+    Canvas seen = canvas();
+    made->fields = std::move(seen.fields);
+    made->grid = simulation.grid();
     made->slice = slice_;
-    made->model = run_->simulation().model();
+    made->model = simulation.model();
     look_at_surface();
     made->surface = surface_;
-    made->surface_number = surface_ ? surface_number_ : 0;
+    if (seen.cells) {
+        made->cells =
+            std::make_shared<const ShownCells>(shown_cells(*seen.cells, made->model != nullptr));
+        // A function's surface is one of fields: cells crawl on the plane of its parameters.
+        if (!made->model) made->surface = nullptr;
+    }
+    made->surface_number = made->surface ? surface_number_ : 0;
     has_changed_ = false;
     shown_at_ = Clock::now();
     snapshot_cost_ = seconds_since(begun);

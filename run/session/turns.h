@@ -4,6 +4,7 @@
 
 #include "core/run_control.h"
 #include "run/pictures/painter.h"
+#include "run/pictures/shown_cells.h"
 #include "run/pictures/shown_surface.h"
 #include "run/session/live_run.h"
 
@@ -44,6 +45,11 @@ struct StageProgress {
     double duration = 0;  ///< 0 if the stage ends by its iterations.
     bool has_begun = false;
     bool has_ended = false;
+    /// Of a stage of cells that crawl, when it has begun.
+    struct Cells {
+        std::int64_t count = 0, births = 0, deaths = 0;
+    };
+    std::optional<Cells> cells = {};
 };
 
 /// A moment of a session, which its reader may keep as long as it likes.
@@ -59,7 +65,9 @@ struct Snapshot {
     std::vector<std::string> remarks;  ///< On stages that have ended, and warnings, newest last.
     /// What is shown, in binary32: one field, or red, green and blue; a slice of a volume. Outside
     /// of a mask it is NaN. The cells of a model are in their rows (ModelCells::order).
+    /// Of cells that crawl one row, in ascending order of their numbers.
     std::vector<Field> fields;
+    std::shared_ptr<const ShownCells> cells;       ///< Null where fields are shown.
     Grid grid;                                     ///< Of the domain.
     Slice slice;                                   ///< The one that is shown of a volume.
     std::shared_ptr<const ModelCells> model;       ///< Null on grids.

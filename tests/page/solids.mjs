@@ -153,6 +153,25 @@ async function steer() {
     expect(flat[0] <= 0.5 && flat[1] === 0, `the plane differs by ${flat}`);
     await click("flat");
 
+    // Cells that crawl, on a model and on a plane. Of the light between them the page knows less than pictures.
+    await type_script("crawling.cascade");
+    await browser.until(`document.getElementById("place").textContent === "step 0 · 60 cells"`);
+    const count = `Number(document.getElementById("place").textContent.match(/(\\d+) cells/)[1])`;
+    await browser.evaluate(`document.getElementById("brush").value = "remove"`);
+    for (let k = 0; k < 100 && (await cell_at(430, 300)).cell === undefined; ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+    await browser.drag(270, 300, 430, 310);
+    await browser.until(`${count} < 60`);
+    expect(await browser.evaluate(count) > 50, `of 60 cells a stroke leaves ${await browser.evaluate(count)}`);
+    await click("undo");
+    await browser.until(`${count} === 60`);
+    await click("run");
+    await browser.until(`document.getElementById("step").disabled`);
+    await until_like("crawling", "the cells on a sphere", [7, 0.05]);
+    writeFileSync("crawling_page.png", await browser.screenshot());
+    await type_script("crowd.cascade");
+    await browser.until(`document.getElementById("step").disabled && document.getElementById("place").textContent.endsWith(" 3 cells")`);
+    await until_like("crowd", "the cells on a plane", [7, 0.05]);
+
     // Without WebGL2 the page says so.
     await type_script("model.cascade");
     await open("?2d");

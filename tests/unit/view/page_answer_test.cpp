@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace cascade {
@@ -187,6 +189,71 @@ TEST(PageAnswer, SnapshotsOfVolumesNameTheirSlice) {
     EXPECT_EQ(header["columns"], 6);
     EXPECT_EQ(header["rows"], 5);
     EXPECT_EQ(header["slice"], Json({{"axis", "z"}, {"number", 2}, {"sides", {6, 5, 4}}}));
+}
+
+/// The arrays that follow a header.
+class Arrays {
+public:
+    explicit Arrays(std::string_view bytes) : bytes_(bytes) {}
+    template <typename Element>
+    std::vector<Element> take(std::size_t count) {
+        std::vector<Element> elements(count);
+        std::memcpy(elements.data(), bytes_.data(), count * sizeof(Element));
+        bytes_.remove_prefix(count * sizeof(Element));
+        return elements;
+    }
+    std::size_t rest() const { return bytes_.size(); }
+
+private:
+    std::string_view bytes_;
+};
+
+TEST(PageAnswer, SnapshotsOfCellsAreMeshesAndWhereTheirCopiesStand) {
+    RunControl control;
+    const std::string crowd =
+        "cells crowd: solid { c: 0 }\ndomain { grid: 20, 10 }\n"
+        "stage s: crowd { founders: 5; r: 0.03; c: if(x < 0.5, 1, 0); duration: 1; show: x }\n"
+        "picture { shape: thorn; form: c; width: if(y < 0.05, 0, r) }\n";
+    auto session = Session::begin(load_script("crowd.cascade", crowd, "."), interpreted(), control);
+    ASSERT_TRUE(session.has_value());
+    const auto snapshot = (*session)->newest();
+    ASSERT_TRUE(snapshot->cells);
+    const std::string bytes = print_snapshot(*snapshot);
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    ASSERT_EQ(size % 4, 0U);
+    const Json header = Json::parse(bytes.substr(sizeof size, size));
+    EXPECT_EQ(header["columns"], 5);
+    EXPECT_EQ(header["stages"][0]["cells"], Json({{"count", 5}, {"births", 0}, {"deaths", 0}}));
+    const Json& cells = header["cells"];
+    EXPECT_EQ(cells["count"], 5);
+    EXPECT_EQ(cells["extent"], Json({1.0, 0.5, 0.0}));
+    const std::size_t shapes = cells["shapes"], vertices = cells["vertices"],
+                      triangles = cells["triangles"], placements = cells["placements"];
+    EXPECT_LE(shapes, 2U) << "two forms at most";
+
+    Arrays arrays(std::string_view(bytes).substr(sizeof size + size));
+    const auto values = arrays.take<float>(5);
+    arrays.take<float>(3 * vertices);
+    const auto normals = arrays.take<float>(3 * vertices);
+    EXPECT_NEAR(std::hypot(normals[0], normals[1], normals[2]), 1, 1e-5);
+    arrays.take<float>(vertices);
+    const auto corners = arrays.take<std::uint32_t>(3 * triangles);
+    EXPECT_LT(*std::ranges::max_element(corners), vertices);
+    const auto triangle_ends = arrays.take<std::uint32_t>(shapes);
+    const auto ends = arrays.take<std::uint32_t>(shapes);
+    const auto shown = arrays.take<std::uint32_t>(placements);
+    const auto numbers = arrays.take<float>(10 * placements);
+    EXPECT_EQ(arrays.rest(), 0U);
+    EXPECT_EQ(triangle_ends.back(), triangles);
+    EXPECT_EQ(ends.back(), placements);
+    for (std::size_t k = 0; k < placements; ++k) {
+        // What is shown is x, and everything lies flat.
+        EXPECT_FLOAT_EQ(numbers[10 * k], values[shown[k]]);
+        EXPECT_FLOAT_EQ(numbers[10 * k + 1], 0);
+        EXPECT_GE(numbers[10 * k + 2], 0.05F) << "cells without a width are not drawn";
+        EXPECT_FLOAT_EQ(numbers[10 * k + 7], 0.015F) << "half of the width";
+    }
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// Cells that crawl for a program that draws them itself, such as a page: a few meshes, and where
+// their copies stand.
+#pragma once
+
+#include "mesh/instances.h"
+#include "picture/image.h"
+#include "run/pictures/drawn_cells.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+/// The cells of a moment.
+struct ShownCells {
+    std::size_t count = 0;  ///< Of all cells, also of those that are not drawn.
+    std::vector<TriangleMesh> meshes;
+    /// By mesh: its copies are placements[ends[k − 1]] up to placements[ends[k]]. Lengths are those
+    /// of scripts; without a model everything lies flat, as in pictures.
+    std::vector<std::uint32_t> ends;
+    std::vector<Placement> placements;
+    /// By placement: the column of its cell in the row of values.
+    std::vector<std::uint32_t> cells;
+    Colour skin;      ///< Of the surface below them, sRGB.
+    Vector3d extent;  ///< Without a model: of the plane, whose z is 0, or of the box of space.
+    bool is_on_model = false;
+};
+
+/// Throws std::bad_alloc.
+ShownCells shown_cells(const DrawnCells& cells, bool is_on_model);
+
+}  // namespace cascade
