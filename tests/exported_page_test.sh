@@ -69,6 +69,14 @@ SCRIPT
 "$CASCADE" export volume.cascade >/dev/null || fail "the page of a volume was not written"
 "$CASCADE" run volume.cascade --palette leopard -o volume.png --quiet || fail "the slice was not drawn"
 
+cat >crawling.cascade <<'SCRIPT'
+domain { surface: sphere }
+stage grow: scales { founders: 60; r: 0.07; duration: 3 }
+picture { shape: plate; width: 2.3 * r; length: 2.9 * r; color: rgb(y, 0.6, 0.3); skin: rgb(0.4, 0.2, 0.2) }
+SCRIPT
+"$CASCADE" export crawling.cascade >/dev/null || fail "the page of cells was not written"
+"$CASCADE" run crawling.cascade -o crawling.png --quiet || fail "the cells were not drawn"
+
 # Bad input: one message, and nothing is left.
 refused() {
     local wanted=$1
