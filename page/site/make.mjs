@@ -118,11 +118,12 @@ for (const [source, page] of pages) {
     write_page(page, `${unescape(html.match(/<h1[^>]*>(.*?)<\/h1>/s)[1].replace(/<[^>]*>/g, ""))} · Cascade`, html);
 }
 
-const gallery = list("examples", ".cascade").filter((name) => existsSync(join(root, "examples", name.replace(/cascade$/, "png")))).map((name) => {
-    const script = read(`examples/${name}`), title = name.replace(".cascade", "").replaceAll("_", " ");
-    const picture = `<img loading="lazy" src="${copied(`examples/${name.replace(/cascade$/, "png")}`)}" alt="">${title}`;
+/// The pictures of examples, each of which grows if the engine can grow it.
+const gallery_of = (folder) => list(folder, ".cascade").filter((name) => existsSync(join(root, folder, name.replace(/cascade$/, "png")))).map((name) => {
+    const script = read(`${folder}/${name}`), title = name.replace(".cascade", "").replaceAll("_", " ");
+    const picture = `<img loading="lazy" src="${copied(`${folder}/${name.replace(/cascade$/, "png")}`)}" alt="">${title}`;
     return `<li>${is_live(script) ? `<a href="${address_of(script)}">${picture}</a>` : picture}</li>`;
-});
+}).join("\n");
 const animals = list("examples/on_models", ".png").map((name) => {
     const picture = `<img loading="lazy" src="${copied(`examples/on_models/${name}`)}" alt="">${name.replace(".png", "").replaceAll("_", " ")}`;
     return `<li>${name === "leopard.png" ? `<a href="animal.html">${picture}</a>` : picture}</li>`;
@@ -134,7 +135,11 @@ grows it; then type, move sliders, paint, and go back and forth between stages.<
 <p><a class="grow" href="live.html">open the page</a> <a class="grow" href="tutorial.html">15 minutes</a> <a class="grow" href="systems.html">all systems</a></p>
 <h2>Gallery</h2>
 <ul class="gallery">
-${gallery.join("\n")}
+${gallery_of("examples")}
+</ul>
+<h2 id="cells">Cells that crawl and divide</h2>
+<ul class="gallery">
+${gallery_of("examples/cells")}
 </ul>
 <h2>On surfaces</h2>
 <ul class="gallery">

@@ -70,6 +70,12 @@ try {
         await expect_growth(words);
     }
     writeFileSync("grown.png", await browser.screenshot());
+    await open("index.html");
+    await browser.until(`document.querySelectorAll("#cells + .gallery img").length > 4`);
+    await follow_link(`#cells + .gallery a[href*="script="]`);
+    await expect_growth("Fleischer et al. 1995");
+    await browser.until(`/^step [\\d,]+ · [\\d,]+ cells/.test(document.getElementById("place").textContent)`);
+    writeFileSync("cells.png", await browser.screenshot());
     await open("animal.html");
     await expect_growth("creature");
     await end();
