@@ -20,6 +20,9 @@ draw_one() {
         on_models/fingerprint | on_models/dart_frog) draw "$1" ;;
         on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
         cells/fur | cells/leopard_thorns) draw "$1" --view 55,15 ;;
+        cells/bear) draw "$1" --view 20,10 ;;
+        cells/thorny_head) draw "$1" --view 25,5 ;;
+        cells/grown_body) draw "$1" --view 30,20 ;;
         cells/*) draw "$1" ;;
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
