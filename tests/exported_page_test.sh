@@ -89,6 +89,7 @@ echo "system s { u: 1" >wrong.cascade
 refused "wrong.cascade" wrong.cascade --html refused.html
 echo 'system s { u: field("none.npy"); u'"'"' = 0 } stage a: s { iterations: 1 }' >missing.cascade
 refused "none.npy" missing.cascade --html refused.html
+refused "cannot make the body of stage 'skin'" "$SOURCE/examples/cells/grown_body.cascade" --html refused.html
 refused "no folder" spots.cascade --html none/refused.html
 mkdir -p folder.html
 refused "folder.html" spots.cascade --html folder.html

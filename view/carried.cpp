@@ -8,11 +8,19 @@
 #include "run/domain/input_files.h"
 #include "run/script/embedded_script.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace cascade {
 
 Result<Carried> carried_by(const Script& script, const Simulation& simulation) {
+    for (const Stage& stage : script.program->stages) {
+        if (stage.body.nodes.empty()) continue;
+        return failure(fmt::format("a page without the program cannot make the body of stage '{}'",
+                                   stage.name),
+                       "'cascade view' can");
+    }
     Carried carried{script.name, script.text, false, overrides_to_json(script.overrides), {}};
     const GrantedFiles files(script.folder, script.overrides.reads);
     for (const std::string& name : input_file_names(script)) {

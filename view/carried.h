@@ -23,7 +23,7 @@ struct Carried {
     std::vector<std::pair<std::string, std::string>> files;
 };
 
-/// Fails if a file cannot be read any more.
+/// Fails if a file cannot be read any more, and if a stage has a body, which pages cannot make.
 Result<Carried> carried_by(const Script& script, const Simulation& simulation);
 
 }  // namespace cascade

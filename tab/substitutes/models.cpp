@@ -7,22 +7,30 @@
 #include "mesh/model_file.h"
 #include "render/ray_caster.h"
 
+#include <fmt/format.h>
+
+#include <string_view>
+
 namespace cascade {
 namespace {
 
-tl::unexpected<Failure> needs_program() {
-    return failure("a page without the program cannot make the cells of this model",
+tl::unexpected<Failure> needs_program(std::string_view what) {
+    return failure(fmt::format("a page without the program cannot make {}", what),
                    "'cascade view' can");
 }
 
+constexpr std::string_view cells = "the cells of this model";
+
 }  // namespace
 
-Result<CoarseCopy> coarse_copy(const SurfaceMesh&, double) { return needs_program(); }
-Result<FlatTriangles> remove_flat_triangles(SurfaceMesh&) { return needs_program(); }
+Result<CoarseCopy> coarse_copy(const SurfaceMesh&, double) { return needs_program(cells); }
+Result<FlatTriangles> remove_flat_triangles(SurfaceMesh&) { return needs_program(cells); }
 Result<void> isotropic_remesh(SurfaceMesh&, double, const BringBack&, const std::atomic<bool>&) {
-    return needs_program();
+    return needs_program("this surface");
 }
-Result<PolygonSoup> read_gltf(std::string_view, const GrantedFiles&) { return needs_program(); }
+Result<PolygonSoup> read_gltf(std::string_view, const GrantedFiles&) {
+    return needs_program(cells);
+}
 
 // Nothing is drawn by tracing rays where there is no ray caster.
 struct RayCaster::Tree {};

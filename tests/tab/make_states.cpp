@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <filesystem>
@@ -77,7 +78,10 @@ void write_states(const std::filesystem::path& path, bool is_exact) {
     Json all = Json::array();
     const auto add = [&](Script script) {
         CHECK(script.program, "test: the script is right");
-        if (script.program->stages.empty()) return;
+        const std::vector<Stage>& stages = script.program->stages;
+        // A page cannot make the surface of a grown body.
+        const auto has_body = [](const Stage& stage) { return !stage.body.nodes.empty(); };
+        if (stages.empty() || std::any_of(stages.begin(), stages.end(), has_body)) return;
         auto state = state_of(std::move(script));
         if (state.is_null()) return;
         state["is_exact"] = is_exact;
