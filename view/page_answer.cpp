@@ -124,7 +124,10 @@ Json print_cells(const ShownCells& cells) {
     Json json = {
         {"count", cells.count},   {"shapes", cells.meshes.size()},         {"vertices", vertices},
         {"triangles", triangles}, {"placements", cells.placements.size()}, {"skin", cells.skin}};
-    if (!cells.is_on_model) json["extent"] = {cells.extent.x, cells.extent.y, cells.extent.z};
+    json["is_flat"] = !cells.is_on_model;
+    if (!cells.is_on_model && !cells.is_on_body) {
+        json["extent"] = {cells.extent.x, cells.extent.y, cells.extent.z};
+    }
     return json;
 }
 

@@ -24,7 +24,8 @@ export interface Snapshot {
 /// Cells that crawl: a few meshes, and where their copies stand.
 export interface Cells {
     count: number; skin: [number, number, number];
-    extent?: [number, number, number];  ///< Of the plane or box that they lie in; nothing on a model.
+    is_flat: boolean;                   ///< z of scripts points upwards, and y towards the viewer.
+    extent?: [number, number, number];  ///< Of the plane or box that they lie in; nothing on a surface.
     positions: Float32Array; normals: Float32Array; shades: Float32Array; triangles: Uint32Array;  ///< Of all meshes.
     /// Mesh k has the triangles from triangle_ends[k − 1] to triangle_ends[k], and the copies from ends[k − 1] to ends[k].
     triangle_ends: Uint32Array; ends: Uint32Array;

@@ -130,7 +130,7 @@ const recording = new Recording(() => pattern.seen, () => name_of_file(), (is_mo
 });
 let asked_surface = 0;
 function want_surface({ surface, is_model, cells }: Snapshot) {
-    button("flat").hidden = surface === 0 || is_model || !solid.is_possible;
+    button("flat").hidden = surface === 0 || is_model || cells !== undefined || !solid.is_possible;
     if (cells?.extent && !solid.is_possible) notice("Cells that crawl need WebGL2, which this browser does not offer.", true, 60);
     // A floor may have taken its place.
     if (surface === 0 || (surface === asked_surface && solid.surface?.number !== 0)) return;

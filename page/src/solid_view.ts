@@ -137,7 +137,7 @@ export class SolidView implements View {
         const [x, y, z] = hit.place, { corners, parts } = hit, mixed = (numbers: Float32Array, size: number, k: number) =>
             corners.reduce((sum, corner, c) => sum + parts[c] * numbers[size * corner + k], 0);
         const cells = this.shown?.snapshot.cells;
-        if (cells) return { ...(cells.extent ? { x, y: z } : { x, y, z }), cell: nearest_cell(cells, hit.place) };
+        if (cells) return { ...(cells.extent ? { x, y: z } : cells.is_flat ? { x, y: z, z: y } : { x, y, z }), cell: nearest_cell(cells, hit.place) };
         const where = surface.places ? { x: mixed(surface.places, 2, 0), y: mixed(surface.places, 2, 1) } : { x, y, z };
         // The cell that counts most there is the nearest.
         const weights = new Map<number, number>();

@@ -20,14 +20,15 @@ double pixels_for(std::size_t copies) {
 
 }  // namespace
 
-ShownCells shown_cells(const DrawnCells& cells, bool is_on_model) {
+ShownCells shown_cells(const DrawnCells& cells, const SurfaceSource* surface) {
     ShownCells shown;
     shown.count = cells.count;
     shown.skin = cells.skin;
     shown.extent = cells.extent;
-    shown.is_on_model = is_on_model;
+    shown.is_on_model = surface != nullptr && surface->model;
+    shown.is_on_body = surface != nullptr && surface->body;
     Instances copies = instances_of(cells, pixels_for(cells.placements.size()));
-    if (!is_on_model) lay_flat(copies);
+    if (!shown.is_on_model) lay_flat(copies);
     std::vector<std::uint32_t> order(copies.placements.size());
     std::iota(order.begin(), order.end(), std::uint32_t{0});
     const auto mesh_of = [&](std::uint32_t k) { return copies.placements[k].mesh; };

@@ -5,6 +5,7 @@
 #include "mesh/instances.h"
 #include "picture/image.h"
 #include "run/pictures/drawn_cells.h"
+#include "run/pictures/shown_surface.h"
 
 #include <cstdint>
 #include <vector>
@@ -23,10 +24,10 @@ struct ShownCells {
     std::vector<std::uint32_t> cells;
     Colour skin;      ///< Of the surface below them, sRGB.
     Vector3d extent;  ///< Without a model: of the plane, whose z is 0, or of the box of space.
-    bool is_on_model = false;
+    bool is_on_model = false, is_on_body = false;
 };
 
-/// Throws std::bad_alloc.
-ShownCells shown_cells(const DrawnCells& cells, bool is_on_model);
+/// `surface` is null on a plane and in a box. Throws std::bad_alloc.
+ShownCells shown_cells(const DrawnCells& cells, const SurfaceSource* surface);
 
 }  // namespace cascade

@@ -140,21 +140,40 @@ ShownSurface shown_function(const SurfaceSettings& settings, const Grid& grid) {
     return shown;
 }
 
+/// Laid flat, y and z are swapped, and with them left and right.
+ShownSurface shown_body(const SurfaceMesh& body) {
+    const std::optional<SurfaceMesh> copy = reduced(body);
+    const SurfaceMesh& mesh = copy ? *copy : body;
+    const CornerNormals corners = corner_normals(mesh);
+    const auto flat = [](Vector3d v) { return single({v.x, v.z, v.y}); };
+    ShownSurface shown;
+    for (std::size_t k = 0; k < corners.points.size(); ++k) {
+        shown.positions.push_back(flat(mesh.points[corners.points[k]]));
+        shown.normals.push_back(flat(corners.normals[k]));
+    }
+    for (const auto& [a, b, c] : corners.numbers) shown.triangles.push_back({a, c, b});
+    shown.ends.resize(shown.positions.size());
+    return shown;
+}
+
 }  // namespace
 
 std::optional<SurfaceSource> SurfaceSource::of(const Program& program,
-                                               std::shared_ptr<const ModelCells> model) {
+                                               std::shared_ptr<const ModelCells> model,
+                                               std::shared_ptr<const SurfaceMesh> body) {
     const DomainSettings& domain = program.domain;
-    if (!model && !domain.surface) return std::nullopt;
+    if (!model && !body && !domain.surface) return std::nullopt;
     SurfaceSource source;
-    if (!model) source.function = domain.surface;
+    if (!model && !body) source.function = domain.surface;
     source.model = std::move(model);
+    source.body = std::move(body);
     source.grid = domain.grid;
     return source;
 }
 
 bool SurfaceSource::is_same_as(const SurfaceSource& other) const {
     if (model || other.model) return model == other.model;
+    if (body || other.body) return body == other.body;
     const auto sides = [](const Grid& g) {
         return std::tuple(g.width, g.height, g.boundary.x, g.boundary.y);
     };
@@ -169,8 +188,8 @@ bool SurfaceSource::is_same_as(const SurfaceSource& other) const {
 }
 
 ShownSurface shown_surface(const SurfaceSource& source, Team& team) {
-    return source.model ? shown_model(*source.model, team)
-                        : shown_function(*source.function, source.grid);
+    if (source.model) return shown_model(*source.model, team);
+    return source.body ? shown_body(*source.body) : shown_function(*source.function, source.grid);
 }
 
 }  // namespace cascade

@@ -14,15 +14,18 @@
 
 namespace cascade {
 
-/// What the cells of a domain lie on: a model, or a surface of two parameters under a grid.
+/// What cells lie on: a model, a surface of two parameters under a grid, or a body in its volume.
 struct SurfaceSource {
     std::shared_ptr<const ModelCells> model;
-    std::optional<SurfaceSettings> function;  ///< Without a model.
+    std::shared_ptr<const SurfaceMesh>
+        body;  ///< Of cells that crawl on one, in lengths of scripts.
+    std::optional<SurfaceSettings> function;  ///< Without both.
     Grid grid;
 
-    /// Nothing if the domain is no surface.
+    /// `body` is null without one. Nothing if there is no surface.
     static std::optional<SurfaceSource> of(const Program& program,
-                                           std::shared_ptr<const ModelCells> model);
+                                           std::shared_ptr<const ModelCells> model,
+                                           std::shared_ptr<const SurfaceMesh> body);
     /// Do both give the same mesh? Functions are compared at some hundred places.
     bool is_same_as(const SurfaceSource& other) const;
 };
@@ -31,9 +34,10 @@ struct SurfaceSource {
 /// vertices values are linear.
 struct ShownSurface {
     Axis up = Axis::y;
-    double spacing = 0;              ///< Of a model's cells, in the same lengths; 0 for a function.
-    std::vector<Vector3> positions;  ///< As scripts have them; of a function, as it gives them.
-    std::vector<Vector3> normals;    ///< Of length 1; a point on a crease is several vertices.
+    double spacing = 0;  ///< Of a model's cells, in the same lengths; 0 for a function.
+    /// As scripts have them; of a function, as it gives them; of a body, laid flat as in pictures.
+    std::vector<Vector3> positions;
+    std::vector<Vector3> normals;  ///< Of length 1; a point on a crease is several vertices.
     /// Of a function: x and y of the vertices as scripts have them. Else empty.
     std::vector<std::array<float, 2>> places;
     std::vector<std::array<std::uint32_t, 3>> triangles;

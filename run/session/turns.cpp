@@ -133,9 +133,11 @@ Canvas Turns::canvas() {
 }
 
 /// A surface that stays the same keeps its number, through changes of numbers and texts.
-void Turns::look_at_surface() {
-    if (std::exchange(looked_at_, script_number_) == script_number_) return;
-    auto source = SurfaceSource::of(*run_->script().program, run_->simulation().model());
+void Turns::look_at_surface(std::shared_ptr<const SurfaceMesh> body) {
+    const bool is_same_body = (surface_ ? surface_->body : nullptr) == body;
+    if (std::exchange(looked_at_, script_number_) == script_number_ && is_same_body) return;
+    auto source =
+        SurfaceSource::of(*run_->script().program, run_->simulation().model(), std::move(body));
     if (source && surface_ && source->is_same_as(*surface_)) return;
     surface_ = source ? std::make_shared<const SurfaceSource>(std::move(*source)) : nullptr;
     ++surface_number_;
@@ -175,13 +177,13 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     made->grid = simulation.grid();
     made->slice = slice_;
     made->model = simulation.model();
-    look_at_surface();
+    look_at_surface(seen.cells ? simulation.body(simulation.shown_stage().value_or(0)) : nullptr);
     made->surface = surface_;
     if (seen.cells) {
-        made->cells =
-            std::make_shared<const ShownCells>(shown_cells(*seen.cells, made->model != nullptr));
         // A function's surface is one of fields: cells crawl on the plane of its parameters.
-        if (!made->model) made->surface = nullptr;
+        if (surface_ && surface_->function) made->surface = nullptr;
+        made->cells =
+            std::make_shared<const ShownCells>(shown_cells(*seen.cells, made->surface.get()));
     }
     made->surface_number = made->surface ? surface_number_ : 0;
     has_changed_ = false;

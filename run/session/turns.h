@@ -106,7 +106,7 @@ private:
     std::int64_t steps_of_turn() const;
     void remark(const std::string& words);
     Canvas canvas();
-    void look_at_surface();
+    void look_at_surface(std::shared_ptr<const SurfaceMesh> body);
 
     std::unique_ptr<LiveRun> run_;
     RunControl control_;

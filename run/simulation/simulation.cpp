@@ -13,6 +13,7 @@
 #include "run/simulation/tissue_stage.h"
 #include "run/simulation/values_of_start.h"
 #include "run/stage/stage_remarks.h"
+#include "run/tissue/ground.h"
 #include "tissue/tissue.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
@@ -276,6 +277,12 @@ std::optional<std::uint32_t> Simulation::shown_stage() const {
         if (self_->states[k].started && self_->states[k].steps > 0) shown = k;
     }
     return shown;
+}
+
+std::shared_ptr<const SurfaceMesh> Simulation::body(std::uint32_t stage) const {
+    const auto& ground = state(stage).ground;
+    if (!ground || ground->body() == nullptr) return nullptr;
+    return {ground, ground->body()};
 }
 
 std::vector<double> evaluate_numbers(const Simulation& simulation,

@@ -65,6 +65,7 @@ struct SimulationOptions {
 /// build has none.
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
+struct SurfaceMesh;
 struct TissueRecord;
 
 /// Why a stage ended.
@@ -168,6 +169,9 @@ public:
     const StageState& state(std::uint32_t stage) const;
     /// The last stage that took a step; if there is none, the last started one; empty before.
     std::optional<std::uint32_t> shown_stage() const;
+    /// The surface of the body that a stage's cells crawl on, in lengths of scripts; null without
+    /// one.
+    std::shared_ptr<const SurfaceMesh> body(std::uint32_t stage) const;
 
 private:
     Simulation();

@@ -19,6 +19,8 @@ public:
     TissueGround(const Grid& grid, SurfaceMesh body);
 
     const std::shared_ptr<const Surroundings>& surroundings() const { return surroundings_; }
+    /// The surface of a body; null elsewhere.
+    const SurfaceMesh* body() const { return model_ == nullptr ? mesh_.get() : nullptr; }
 
     /// What a cell senses by the name of a plane. Values in the cells of the domain are those of
     /// the moment, taken through `fields`, which reads the domain's own planes.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -103,6 +104,53 @@ TEST(ShownSurface, VerticesOfAFunctionLieInCellsAndBetweenThem) {
         EXPECT_NEAR(value_at(mesh, v, *snapshot), y, 1e-6);
     }
     EXPECT_EQ(mesh.ends[193 + 1] - mesh.ends[193], 1U) << "a vertex in the middle of a cell";
+}
+
+TEST(ShownSurface, ABodyLiesFlatAsItsCellsDo) {
+    const std::string text =
+        "domain { grid: 16, 16, 16; boundary: noflux }\n"
+        "system ball { u: 0.3 - sqrt((x - 0.5)^2 + (y - 0.4)^2 + (z - 0.6)^2); u' = 0 }\n"
+        "cells still { p' = 0 * p }\n"
+        "stage one: ball { iterations: 9 }\n"
+        "stage two: still { body: one.u; founders: 20; r: 0.01; duration: 1 }\n"
+        "picture { width: 0.02 }\n";
+    SimulationOptions options;
+    options.backend = BackendKind::interpreter;
+    options.threads = 1;
+    RunControl control;
+    auto session = Session::begin(load_script("s.cascade", text, "."), options, control);
+    ASSERT_TRUE(session.has_value()) << session.error().messages(false);
+    auto snapshot = (*session)->newest();
+    EXPECT_EQ(snapshot->surface, nullptr) << "a volume has none";
+    (*session)->post(TakeSteps{10}, [](const Accepted<void>&) {});
+    for (int k = 0; k < 300 && !snapshot->cells; ++k) {
+        if (auto newer = (*session)->newer_than(snapshot->number, std::chrono::milliseconds(100))) {
+            snapshot = newer;
+        }
+    }
+    ASSERT_TRUE(snapshot->cells);
+    ASSERT_TRUE(snapshot->surface);
+    EXPECT_GT(snapshot->surface_number, 0U);
+    const ShownSurface mesh = mesh_of(*snapshot);
+    EXPECT_EQ(mesh.up, Axis::y);
+    EXPECT_EQ(mesh.ends.size(), mesh.positions.size());
+    EXPECT_TRUE(mesh.shares.empty());
+    const Vector3 middle{0.5F, 0.6F, 0.4F};
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const Vector3 outward = mesh.positions[v] - middle;
+        EXPECT_NEAR(length(outward), 0.3, 0.01);
+        EXPECT_GT(dot(outward, mesh.normals[v]), 0.25F);
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vector3 across =
+            cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+        EXPECT_GE(dot(across, mesh.positions[a] - middle), 0) << "it is seen from outside";
+    }
+    ASSERT_EQ(snapshot->cells->placements.size(), 20U);
+    EXPECT_TRUE(snapshot->cells->is_on_body);
+    for (const Placement& each : snapshot->cells->placements) {
+        EXPECT_NEAR(length(each.place - Vector3d{0.5, 0.6, 0.4}), 0.3, 0.01);
+    }
 }
 
 TEST(ShownSurface, IsTheSameWhileThePlacesAre) {
