@@ -15,6 +15,8 @@ namespace cascade::checking {
 
 namespace {
 
+constexpr double least_detail = 0.05, most_detail = 100;
+
 /// The last stage that takes a step, or the last stage if none does.
 std::uint32_t shown_stage(const Program& program) {
     for (std::size_t i = program.stages.size(); i > 0; --i) {
@@ -46,6 +48,7 @@ public:
         if (setting == Setting::color) return check_type(statement, ValueType::colour);
         if (!shows_cells()) return report_no_cells(statement.name);
         if (setting == Setting::shape) return check_shape(statement);
+        if (setting == Setting::detail) return check_detail(statement);
         check_type(statement, setting == Setting::skin ? ValueType::colour : ValueType::number);
     }
 
@@ -96,11 +99,22 @@ private:
     void check_shape(const ast::Statement& statement) {
         const ast::Expr& value = value_of(script_, statement);
         const auto* name = std::get_if<ast::Name>(&value.node);
+        if (std::holds_alternative<ast::Text>(value.node)) return;  // The name of a file.
         if (name == nullptr) {
-            work_.diagnostics.error(value.span, "a shape is a word", "shape: thorn");
+            work_.diagnostics.error(value.span, "a shape is a word or the name of a file",
+                                    "shape: thorn, shape: \"horn.ply\"");
         } else if (!is_declared(name->name) && shape() == nullptr) {
             report_unknown_shape(work_, script_, {value.span, name->name});
         }
+    }
+
+    void check_detail(const ast::Statement& statement) {
+        const auto pixels = check_constant(work_, script_, statement.values[0], "detail");
+        if (!pixels || (*pixels >= least_detail && *pixels <= most_detail)) return;
+        work_.diagnostics.error(value_of(script_, statement).span,
+                                fmt::format("detail is a number of pixels from {} to {}",
+                                            least_detail, most_detail),
+                                "the fewer, the more facets");
     }
 
     /// The word after `shape:`; empty if there is none.

@@ -322,6 +322,13 @@ namespace cascade {
 PictureShape picture_shape(const ast::Script& script, Sources& sources) {
     PictureShape shape;
     std::string_view name = usual_shape;
+    Program program;
+    Diagnostics unspoken;  // Errors were reported on loading.
+    checking::Workspace work{program, unspoken, {}, {}, {}, {}, {}, 0};
+    if (const auto detail = picture_expression(script, "detail")) {
+        shape.detail =
+            checking::check_constant(work, script, *detail, "detail").value_or(shape.detail);
+    }
     if (const auto expression = picture_expression(script, "shape")) {
         const ast::Expr& value = script.expressions[expression->root];
         shape.span = value.span;
@@ -331,9 +338,6 @@ PictureShape picture_shape(const ast::Script& script, Sources& sources) {
         }
         if (const auto* word = std::get_if<ast::Name>(&value.node)) name = word->name;
     }
-    Program program;
-    Diagnostics unspoken;  // Errors were reported on loading.
-    checking::Workspace work{program, unspoken, {}, {}, {}, {}, {}, 0};
     const ast::Script functions = cell_functions_of(sources);
     if (!functions.functions.empty()) work.cell_functions = &functions;
     const std::vector<ShapeForm> shapes = checking::check_shapes(work, script, sources);

@@ -34,8 +34,9 @@ inline constexpr const char* usual_shape = "ball";
 /// path. Adds nothing to `sources` that the check has not.
 struct PictureShape {
     std::optional<ShapeForm> form;
-    std::string path;  ///< As written; empty if there is a form.
-    Span span;         ///< Where it was written; empty for the usual shape.
+    std::string path;     ///< As written; empty if there is a form.
+    Span span;            ///< Where it was written; empty for the usual shape.
+    double detail = 0.5;  ///< How far facets may be from the shape, in pixels.
 };
 PictureShape picture_shape(const ast::Script& script, Sources& sources);
 

@@ -36,13 +36,13 @@ private:
 };
 
 /// Facets of the things in files are as fine as in a picture of this height.
-constexpr double pixels_of_files = 200;
+constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
 Result<void> write_things(const std::filesystem::path& path, const GrownCells& cells,
                           const ModelFileOptions& options) {
     const auto model = cells.simulation.model();
     const FilePlaces in_file(model.get());
-    Instances copies = instances_of(cells.drawn, pixels_of_files);
+    Instances copies = instances_of(cells.drawn, pixels_of_files, detail_of_files);
     for (std::size_t k = 0; k < copies.placements.size(); ++k) {
         Placement& each = copies.placements[k];
         each.place = in_file.place(each.place);

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -154,13 +156,30 @@ PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage) {
     return frames;
 }
 
-DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage) {
+Result<std::shared_ptr<const FileShape>> picture_file(Script& script) {
+    const PictureShape shape = picture_shape(script.tree, script.sources);
+    if (shape.path.empty()) return nullptr;
+    auto made = read_shape(script, shape.path);
+    if (made) return std::make_shared<const FileShape>(*std::move(made));
+    script.diagnostics.error(shape.span, made.error().message, made.error().hint);
+    return failure("the shape of the picture cannot be read");
+}
+
+DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage,
+                       std::shared_ptr<const FileShape> file) {
     const StageState& state = simulation.state(stage);
     CHECK(state.tissue, "the stage is one of cells that crawl");
     const Tissue& tissue = *state.tissue;
     const PlacedFrames frames = frames_of(simulation, stage);
     DrawnCells placed;
-    placed.form = *picture_shape(script.tree, script.sources).form;
+    PictureShape shape = picture_shape(script.tree, script.sources);
+    placed.detail = shape.detail;
+    placed.file = std::move(file);
+    if (!shape.path.empty() && !placed.file) {
+        auto made = read_shape(script, shape.path);
+        if (made) placed.file = std::make_shared<const FileShape>(*std::move(made));
+    }
+    placed.form = shape.form ? *std::move(shape.form) : library_shape(usual_shape);
     std::vector<std::string> names(measure_names.begin(), measure_names.end());
     std::vector<ItemId> quantities;
     for (const ItemId item : placed.form.quantities.ids()) {
@@ -189,8 +208,10 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     for (std::size_t k = 0; k < tissue.count(); ++k) {
         Placement placement;
         const double wide = measure(width, k, 2 * frames.radii[k]);
-        const double high = measure(height, k, frames.radii[k]);
-        placement.scale = {wide / 2, high, measure(length, k, wide) / 2};
+        const FileShape* const model = placed.file.get();
+        const double high = measure(height, k, model ? wide * model->height : frames.radii[k]);
+        placement.scale = {wide / 2, high,
+                           measure(length, k, model ? wide * model->length : wide) / 2};
         placement.place = frames.places[k];
         const auto is_size = [](double size) { return size > 0 && std::isfinite(size); };
         if (!is_size(placement.scale.x) || !is_size(placement.scale.y) ||
@@ -200,15 +221,15 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
         placement.turn = frames.turns[k];
         const double angle = measure(tilt, k, 0);
         if (std::isfinite(angle)) placement.turn = placement.turn * leaning(angle);
-        const std::uint32_t shape = shapes.shared.of_cells[k];
-        if (shape == SharedShapes::none || !shapes.faults[shape].empty()) {
+        const std::uint32_t of_cell = shapes.shared.of_cells[k];
+        if (of_cell == SharedShapes::none || !shapes.faults[of_cell].empty()) {
             if (faulty++ == 0) {
                 placed.fault = words_on_fault(placed.form, shapes, values, k,
                                               tissue.numbers()[tissue.by_number()[k]]);
             }
             continue;
         }
-        placement.mesh = shape;
+        placement.mesh = of_cell;
         placed.placements.push_back(placement);
         placed.cells.push_back(k);
     }
@@ -220,28 +241,52 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     return placed;
 }
 
-Instances instances_of(const DrawnCells& cells, double pixels) {
-    std::vector<double> largest(cells.shapes.size(), 0);
-    for (const Placement& each : cells.placements) {
-        double& most = largest[each.mesh];
-        most = std::max({most, each.scale.x, each.scale.y, each.scale.z});
-    }
+namespace {
+
+/// Facets are at most 2^-level from a shape of the usual size.
+constexpr int coarsest_level = 2, finest_level = 8;
+
+int level_of(const Vector3d& scale, double pixels, double detail) {
+    const double size = std::max({scale.x, scale.y, scale.z}) * pixels / detail;
+    const double level = std::ceil(std::log2(size));
+    return static_cast<int>(std::clamp<double>(level, coarsest_level, finest_level));
+}
+
+}  // namespace
+
+Instances instances_of(const DrawnCells& cells, double pixels, double detail) {
     Instances instances;
-    instances.meshes.resize(cells.shapes.size());
+    instances.placements = cells.placements;
+    if (cells.file) {
+        instances.meshes = {cells.file->mesh};
+        for (Placement& each : instances.placements) each.mesh = 0;
+        return instances;
+    }
+    struct Wanted {
+        std::uint32_t shape;
+        int level;
+        auto operator<=>(const Wanted&) const = default;
+    };
+    std::map<Wanted, std::uint32_t> known;
+    std::vector<Wanted> wanted;
+    for (Placement& each : instances.placements) {
+        const Wanted mesh{each.mesh, level_of(each.scale, pixels, detail)};
+        const auto number = static_cast<std::uint32_t>(wanted.size());
+        const auto [found, is_new] = known.try_emplace(mesh, number);
+        if (is_new) wanted.push_back(mesh);
+        each.mesh = found->second;
+    }
+    instances.meshes.resize(wanted.size());
     Team team(hardware_threads());
     team.run([&](int thread) {
         const auto each = static_cast<std::size_t>(team.size());
-        for (auto k = static_cast<std::size_t>(thread); k < cells.shapes.size(); k += each) {
-            if (largest[k] == 0) continue;
-            SweptDetail detail;
-            detail.tolerance = std::clamp(0.5 / (pixels * largest[k]), 0.003, 0.2);
-            detail.longest_edge = longest_facet;
+        for (auto k = static_cast<std::size_t>(thread); k < wanted.size(); k += each) {
+            const SweptDetail fineness{longest_facet, std::exp2(-wanted[k].level)};
             // What is not sound after all has no triangles.
-            auto mesh = mesh_of(parts_of(cells.form, cells.shapes[k]), detail);
+            auto mesh = mesh_of(parts_of(cells.form, cells.shapes[wanted[k].shape]), fineness);
             if (mesh) instances.meshes[k] = std::move(*mesh);
         }
     });
-    instances.placements = cells.placements;
     return instances;
 }
 
@@ -273,7 +318,7 @@ TriangleMesh floor_of(Vector3d extent) {
 
 Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
                  const DrawOptions& options) {
-    Instances copies = instances_of(cells, static_cast<double>(options.height));
+    Instances copies = instances_of(cells, static_cast<double>(options.height), cells.detail);
     for (std::size_t k = 0; k < copies.placements.size(); ++k) {
         copies.placements[k].colour = colours[cells.cells[k]];
     }

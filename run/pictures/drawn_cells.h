@@ -5,11 +5,13 @@
 #include "picture/image.h"
 #include "render/draw.h"
 #include "run/domain/model_cells.h"
+#include "run/pictures/file_shape.h"
 #include "run/pictures/shape_meshes.h"
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,19 +22,27 @@ class Tissue;
 /// The cells of a stage that have a size, in ascending order of their numbers. Lengths are those of
 /// scripts.
 struct DrawnCells {
-    ShapeForm form;
-    std::vector<ShapeValues> shapes;    ///< Of the form: those in use.
-    std::vector<Placement> placements;  ///< `mesh` is the shape. Without colours.
-    std::vector<std::size_t> cells;     ///< By placement: the place of its cell in number_order().
-    std::size_t count = 0;              ///< Of all cells, also of those without a size.
-    Colour skin{0.25F, 0.24F, 0.23F};   ///< Of the surface below them, sRGB.
-    Vector3d extent;                    ///< Of the plane, or of the box of space.
+    std::shared_ptr<const FileShape> file;  ///< If the shape is that of a file, else null.
+    ShapeForm form;                         ///< Else that of formulas.
+    double detail = 0.5;                    ///< Of pictures, in pixels.
+    std::vector<ShapeValues> shapes;        ///< Of the form: those in use.
+    std::vector<Placement> placements;      ///< `mesh` is the shape. Without colours.
+    std::vector<std::size_t> cells;    ///< By placement: the place of its cell in number_order().
+    std::size_t count = 0;             ///< Of all cells, also of those without a size.
+    Colour skin{0.25F, 0.24F, 0.23F};  ///< Of the surface below them, sRGB.
+    Vector3d extent;                   ///< Of the plane, or of the box of space.
     std::string fault;  ///< What is said of cells whose shape cannot be drawn; "" without such.
 };
 
 /// Places the cells as the settings of the picture block say, of which some may be missing.
-/// Settings that read what has no value yet count as missing, too.
-DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage);
+/// Settings that read what has no value yet count as missing, too. `file` is that of
+/// picture_file(); without it, the file is read.
+DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32_t stage,
+                       std::shared_ptr<const FileShape> file = nullptr);
+
+/// The shape of the file that the picture block names; null if it names none. Fails as read_shape()
+/// does.
+Result<std::shared_ptr<const FileShape>> picture_file(Script& script);
 
 /// The values of a plane of a tissue in ascending order of the cells' numbers.
 std::vector<double> number_order(const Field& field, const Tissue& tissue);
@@ -53,9 +63,9 @@ PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage);
 Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
                  const DrawOptions& options);
 
-/// Meshes in which nothing that is larger than half a pixel is missing, if a length of 1 has this
-/// number of pixels. Throws std::bad_alloc.
-Instances instances_of(const DrawnCells& cells, double pixels);
+/// Meshes whose facets are at most `detail` pixels from their shapes, if a length of 1 has
+/// `pixels`. Throws std::bad_alloc.
+Instances instances_of(const DrawnCells& cells, double pixels, double detail);
 
 /// Lays copies flat that stand on a plane or in a box, with the plane's normal upwards: y of
 /// scripts, which points downwards in pictures, comes towards the viewer. That swaps left and

@@ -49,6 +49,9 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
                        near.empty() ? fmt::format("the palettes are {}", fmt::join(names, ", "))
                                     : fmt::format("did you mean '{}'?", near));
     }
+    auto file = picture_file(script);
+    if (!file) return tl::unexpected(file.error());
+    painter.file_shape_ = *std::move(file);
     if (request.show.empty()) return painter;
 
     const SourceId source = script.sources.add("<--show>", request.show);
@@ -144,7 +147,8 @@ Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const Tissue& tissue = *simulation.state(stage).tissue;
     for (Field& field : values.fields) field = row_of_cells(field, tissue);
-    values.cells = std::make_shared<const DrawnCells>(drawn_cells(*script_, simulation, stage));
+    values.cells =
+        std::make_shared<const DrawnCells>(drawn_cells(*script_, simulation, stage, file_shape_));
     return values;
 }
 

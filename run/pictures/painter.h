@@ -13,6 +13,7 @@
 namespace cascade {
 
 struct DrawnCells;
+struct FileShape;
 
 /// Values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
@@ -71,9 +72,10 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
-    std::shared_ptr<const ModelCells> model_;  ///< Of the last canvas; null on grids.
-    std::shared_ptr<ModelDrawer> drawer_;      ///< Made with the first picture.
-    bool shows_cells_ = false;                 ///< The last canvas was of cells that crawl.
+    std::shared_ptr<const FileShape> file_shape_;  ///< That the picture block names; else null.
+    std::shared_ptr<const ModelCells> model_;      ///< Of the last canvas; null on grids.
+    std::shared_ptr<ModelDrawer> drawer_;          ///< Made with the first picture.
+    bool shows_cells_ = false;                     ///< The last canvas was of cells that crawl.
     Field outside_;  ///< Of the last canvas: NaN outside of the domain; empty without a mask.
 };
 

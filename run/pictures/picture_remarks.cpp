@@ -91,10 +91,10 @@ std::string describe_waves(Painter& painter, const Simulation& simulation, std::
 std::string remark_on_picture(Painter& painter, const Simulation& simulation) {
     const auto stage = simulation.shown_stage();
     if (!stage) return {};
-    const StageCourse& course = simulation.state(*stage).course;
-    if (course.empty() || course.ended_even()) return {};
+    const StageState& state = simulation.state(*stage);
+    if (state.tissue) return painter.canvas(simulation).cells->fault;
+    if (state.course.empty() || state.course.ended_even()) return {};
     const Canvas canvas = painter.canvas(simulation);
-    if (canvas.cells && !canvas.cells->fault.empty()) return canvas.cells->fault;
     if (painter.request().range && !canvas.is_colour()) {
         std::string remark = describe_range(spread_of(canvas.fields[0]), *painter.request().range);
         if (!remark.empty()) return remark;

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# What cells look like: shapes by formulas and of files, coats below them, and other looks of a saved run.
+set -u
+rm -rf ./*
+
+fail() { echo "cell_shapes: $*"; exit 1; }
+# points FILE.obj: its numbers of points and triangles.
+points() { grep -c '^v ' "$1"; grep -c '^f ' "$1"; }
+
+cells='cells still { p'"'"' += cling(1) }
+domain { surface: sphere }
+stage stand: still { founders: 6; duration: 0.1; r: 0.1 }'
+draw() { # draw NAME PICTURE [OPTION …]: writes NAME.png and NAME.obj
+    local name=$1 picture=$2
+    shift 2
+    printf '%s\n' "$cells" "$picture" >"$name.cascade"
+    "$CASCADE" run -q "$name.cascade" -o "$name.png" -o "$name.obj" "$@" 2>err || fail "$name: $(cat err)"
+}
+
+# A shape of the script is drawn as the one of the library that says the same.
+draw ball 'picture { shape: ball; color: rgb(1, 0, 0) }'
+draw own 'shape own { middle = vector(0, -cos(pi * t), 0); radius = sin(pi * t) }
+picture { shape: own; color: rgb(1, 0, 0) }'
+cmp -s ball.obj own.obj || fail "a ball by formulas is another one"
+# Each cell has a form of its own.
+draw forms 'shape box { k: 1 in 1 .. 2; radius = k }
+picture { shape: box; k: 1 + x; color: rgb(1, 0, 0) }'
+draw form 'shape box { k: 1 in 1 .. 2; radius = k }
+picture { shape: box; color: rgb(1, 0, 0) }'
+cmp -s forms.obj form.obj && fail "all cells have one form"
+
+# What cannot be drawn is said, and the rest drawn.
+draw torn 'shape torn { k: 1; radius = (1 - t) / k }
+picture { shape: torn; k: if(x > 0.5, 1, 0); color: rgb(1, 0, 0) }'
+"$CASCADE" run torn.cascade -o torn.png >out 2>&1 || fail "torn: $(cat out)"
+grep -q "of 6 cells are not drawn: the shape 'torn' of cell [0-5] with k = 0 is not finite at t = 0" out ||
+    fail "torn: $(cat out)"
+
+# The model of a file: a pyramid of width 4, height 6 and length 2 stands on its base.
+cat >pyramid.obj <<'END'
+v 1 5 1
+v 5 5 1
+v 5 5 3
+v 1 5 3
+v 3 11 2
+f 1 2 3 4
+f 2 1 5
+f 3 2 5
+f 4 3 5
+f 1 4 5
+END
+draw file 'picture { shape: "pyramid.obj"; width: 0.2; color: rgb(1, 0, 0) }'
+draw square 'picture { shape: "pyramid.obj"; width: 0.2; length: 0.1; height: 0.3; color: rgb(1, 0, 0) }'
+paste -d' ' file.obj square.obj | awk '$1 == "v" { for (k = 2; k < 5; ++k) if (($k - $(k + 7))^2 > 1e-10) exit 1 }' ||
+    fail "a file does not keep its proportions"
+mkdir -p elsewhere && mv pyramid.obj elsewhere
+"$CASCADE" run -q file.cascade -o gone.png 2>err && fail "a missing file is drawn"
+grep -q "file.cascade:4:18: error: .*pyramid.obj" err || fail "a missing file: $(cat err)"
+[ ! -e gone.png ] || fail "a picture was written without its shape"
+"$CASCADE" run -q file.cascade -o there.obj --allow-read elsewhere || fail "--allow-read"
+cmp -s there.obj file.obj || fail "another place, another shape"
+
+# The fewer pixels, the more triangles in pictures; files do not change.
+draw fine 'picture { shape: ball; color: rgb(1, 0, 0); detail: 0.05 }'
+cmp -s ball.obj fine.obj || fail "detail: changes files"
+cmp -s ball.png fine.png && fail "detail: changes no picture"
+
+exit 0
