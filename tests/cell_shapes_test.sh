@@ -65,4 +65,29 @@ draw fine 'picture { shape: ball; color: rgb(1, 0, 0); detail: 0.05 }'
 cmp -s ball.obj fine.obj || fail "detail: changes files"
 cmp -s ball.png fine.png && fail "detail: changes no picture"
 
+# The skin shows what grew before, in pictures and files.
+coat() { # coat NAME SKIN DOMAIN
+    cat >"$1.cascade" <<END
+system bands { u: y > 0.5; u' = 0 }
+cells still { p' += cling(1) }
+domain { $3 }
+stage coat: bands { iterations: 1 }
+stage stand: still { founders: 6; duration: 0.1; r: 0.02 }
+picture { color: rgb(0, 1, 0); skin: $2 }
+END
+}
+coat even 'rgb(1, 0, 0)' 'surface: sphere; cells: 900'
+coat bands 'rgb(u, 0, 1 - coat.u)' 'surface: sphere; cells: 900'
+for name in even bands; do
+    "$CASCADE" run -q $name.cascade -o $name.png -o $name.obj -o $name.glb --merge 2>err || fail "$name"
+    [ ! -s err ] || fail "$name: $(cat err)"
+done
+cmp -s even.png bands.png && fail "the skin is of one colour"
+grep -q '^v .* 1 0 0$' bands.obj || fail "no red in bands.obj"
+grep -q '^v .* 0 0 1$' bands.obj || fail "no blue in bands.obj"
+coat plane 'rgb(u, 0, 1 - coat.u)' 'grid: 40, 20'
+"$CASCADE" run -q plane.cascade -o plane.png || fail "a coat on a plane"
+coat wrong 'rgb(r, 0, 1 - coat.u)' 'surface: sphere; cells: 900'
+"$CASCADE" run -q wrong.cascade -o wrong.png 2>err && fail "the skin reads cells"
+grep -q "'r' is not a parameter of bands" err || fail "the skin reads cells: $(cat err)"
 exit 0

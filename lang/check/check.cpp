@@ -152,4 +152,11 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script,
     return std::nullopt;
 }
 
+std::optional<std::uint32_t> skin_stage(const Program& program, std::uint32_t stage) {
+    for (std::uint32_t k = stage; k > 0; --k) {
+        if (!program.system_of(k - 1).cells) return k - 1;
+    }
+    return std::nullopt;
+}
+
 }  // namespace cascade

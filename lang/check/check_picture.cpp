@@ -49,7 +49,8 @@ public:
         if (!shows_cells()) return report_no_cells(statement.name);
         if (setting == Setting::shape) return check_shape(statement);
         if (setting == Setting::detail) return check_detail(statement);
-        check_type(statement, setting == Setting::skin ? ValueType::colour : ValueType::number);
+        if (setting == Setting::skin) return check_skin(statement);
+        check_type(statement, ValueType::number);
     }
 
 private:
@@ -82,8 +83,26 @@ private:
                                             work_.program.stages[*scope_.stage].name));
     }
 
+    /// The skin is that of the surface, on which cells of fields are.
+    void check_skin(const ast::Statement& statement) {
+        Scope scope = scope_;
+        const bool knows_systems =
+            std::ranges::none_of(work_.program.stages,
+                                 [](const Stage& stage) { return stage.system == unknown_system; });
+        if (!knows_systems) return;
+        if (const auto stage = skin_stage(work_.program, *scope_.stage)) {
+            scope.stage = stage;
+            scope.system = work_.program.stages[*stage].system;
+        }
+        check_type(statement, ValueType::colour, scope);
+    }
+
     void check_type(const ast::Statement& statement, ValueType type) {
-        const auto checked = check_expression(work_, script_, statement.values[0], scope_);
+        check_type(statement, type, scope_);
+    }
+
+    void check_type(const ast::Statement& statement, ValueType type, const Scope& scope) {
+        const auto checked = check_expression(work_, script_, statement.values[0], scope);
         if (!checked) return;
         if (checked->type() != type) {
             const bool is_colour = type == ValueType::colour;
@@ -93,7 +112,7 @@ private:
                                     is_colour ? "rgb(…) and palette(…) make colours" : "");
             return;
         }
-        mark_reads(work_, checked->formula, scope_.system);
+        mark_reads(work_, checked->formula, scope.system);
     }
 
     void check_shape(const ast::Statement& statement) {

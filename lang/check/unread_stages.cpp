@@ -55,12 +55,15 @@ std::string how_to_go_on(const Program& program, std::uint32_t stage) {
 
 }  // namespace
 
-void warn_of_unread_stages(const Program& program, std::uint32_t shown, const Formula* picture,
+void warn_of_unread_stages(const Program& program, std::span<const StageView> views,
                            Diagnostics& diagnostics) {
     if (program.stages.empty()) return;
     std::vector<bool> is_read(program.stages.size());
-    is_read.back() = is_read[shown] = true;
-    if (picture != nullptr) note_reads(*picture, is_read);
+    is_read.back() = true;
+    for (const StageView& view : views) {
+        is_read[view.stage] = true;
+        if (view.formula) note_reads(*view.formula, is_read);
+    }
     for (const Stage& stage : program.stages) {
         for (const Formula& item : stage.items) note_reads(item, is_read);
         note_reads(stage.show, is_read);

@@ -5,13 +5,20 @@
 #include "lang/program/program.h"
 
 #include <cstdint>
+#include <optional>
+#include <span>
 
 namespace cascade {
 
-/// Warns of every stage that nothing reads. `shown` is the stage whose picture is drawn and counts
-/// as read, like the stages that `picture` (or nullptr) reads. A stage that reads nothing is not
-/// reported if it is read itself.
-void warn_of_unread_stages(const Program& program, std::uint32_t shown, const Formula* picture,
+/// A formula of the picture.
+struct StageView {
+    std::uint32_t stage = 0;  ///< Whose names it reads; it counts as read.
+    std::optional<Formula> formula;
+};
+
+/// Warns of every stage that nothing reads. A stage that reads nothing is not reported if it is
+/// read itself.
+void warn_of_unread_stages(const Program& program, std::span<const StageView> views,
                            Diagnostics& diagnostics);
 
 }  // namespace cascade

@@ -3,9 +3,12 @@
 
 #include "export/instanced_model.h"
 #include "export/placed_cells.h"
+#include "export/refine.h"
+#include "run/pictures/model_picture.h"
 #include "tissue/tissue.h"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -38,6 +41,27 @@ private:
 /// Facets of the things in files are as fine as in a picture of this height.
 constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
+struct Body {
+    SurfaceMesh mesh;
+    std::vector<Colour> colours;  ///< Of its points.
+};
+
+/// In the coordinates of the model's file.
+Body body_of(const ModelCells& model, const DrawnCells& drawn) {
+    Body body{model.mesh_of_file(), {}};
+    if (!drawn.coat) {
+        body.colours.assign(body.mesh.points.size(), drawn.skin);
+        return body;
+    }
+    Team team(hardware_threads());
+    const CellFilter filter(body.mesh, model.cells, team);
+    RefinedMesh fine = refined_for_colours(body.mesh, model.cells);
+    const PaintedCells coat{drawn.coat->channels, drawn.coat->values, drawn.coat->colour, {}};
+    body.colours = colours_at(fine.places, filter, coat, team);
+    body.mesh = std::move(fine.mesh);
+    return body;
+}
+
 Result<void> write_things(const std::filesystem::path& path, const GrownCells& cells,
                           const ModelFileOptions& options) {
     const auto model = cells.simulation.model();
@@ -50,10 +74,10 @@ Result<void> write_things(const std::filesystem::path& path, const GrownCells& c
         each.scale = each.scale * in_file.length(1);
         each.colour = cells.colours[cells.drawn.cells[k]];
     }
-    SurfaceMesh body;
-    if (model) body = model->mesh_of_file();
-    const std::vector<Colour> skin(body.points.size(), cells.drawn.skin);
-    return write_instanced(path, {model ? &body : nullptr, skin, copies}, options.merge);
+    Body body;
+    if (model) body = body_of(*model, cells.drawn);
+    return write_instanced(path, {model ? &body.mesh : nullptr, body.colours, copies},
+                           options.merge);
 }
 
 Result<void> write_values(const std::filesystem::path& path, const GrownCells& cells) {

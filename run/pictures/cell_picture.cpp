@@ -173,7 +173,8 @@ CellScene::CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& t
     spacing_ = static_cast<float>(cell_spacing(cells) * drawn_.scale);
 }
 
-Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team) const {
+Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
+                      const Instances* copies) const {
     const std::size_t count = cells_.places.size();
     CHECK(look.values.size() == count * look.channels, "each cell has values of all channels");
     CHECK(look.heights.empty() || look.heights.size() == count, "each cell has a height");
@@ -200,7 +201,9 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team)
         });
     }
     add_levels(cells_, highest, levels, team);
-    return cascade::draw(caster_, shader, options, team);
+    if (copies == nullptr) return cascade::draw(caster_, shader, options, team);
+    const cascade::Scene all(&drawn_.mesh, copies);
+    return cascade::draw(RayCaster(all), shader, options, team);
 }
 
 }  // namespace cascade

@@ -20,8 +20,12 @@ public:
     /// Colours are those of the filtered values. Where the footprint of a sample is larger than a
     /// cell, the colours of the cells are used, blurred by diffusion to the footprint's width. Sets
     /// `round_shadows` of the options. Bumps change the shading but not the outline. The picture
-    /// does not depend on the number of threads. Throws std::bad_alloc.
-    Image draw(const PaintedCells& look, DrawOptions options, Team& team) const;
+    /// does not depend on the number of threads. `copies` stand on the surface, in the coordinates
+    /// of drawn(). Throws std::bad_alloc.
+    Image draw(const PaintedCells& look, DrawOptions options, Team& team,
+               const Instances* copies = nullptr) const;
+
+    const DrawnMesh& drawn() const { return drawn_; }
 
     const CellFilter& filter() const { return filter_; }
 

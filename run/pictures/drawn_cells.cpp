@@ -7,6 +7,7 @@
 #include "lang/check/check_shape.h"
 #include "picture/srgb.h"
 #include "run/domain/creased_mesh.h"
+#include "run/pictures/model_picture.h"
 #include "tissue/tissue.h"
 
 #include <fmt/format.h>
@@ -61,20 +62,33 @@ std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& si
     return numbers;
 }
 
-/// The colour of the surface below the cells, if the script says it.
-std::optional<Colour> skin_of(Script& script, const Simulation& simulation, std::uint32_t stage) {
+/// The colours of the surface below the cells, where the script says them.
+void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage,
+               DrawnCells& drawn) {
     const auto expression = picture_expression(script.tree, "skin");
-    if (!expression) return std::nullopt;
+    if (!expression) return;
+    const Program& program = *script.program;
+    const auto of_fields = skin_stage(program, stage);
+    const std::uint32_t read = of_fields.value_or(stage);
     Diagnostics unspoken;
-    const auto formula = check_view(script.tree, *expression, stage, stage, *script.program,
-                                    script.sources, unspoken);
-    if (!formula || formula->nodes.back().type != ValueType::colour) return std::nullopt;
-    const std::vector<Field> parts = simulation.evaluate(*formula, stage);
-    Colour colour;
-    for (std::size_t k = 0; k < colour.size(); ++k) {
-        colour[k] = static_cast<float>(std::clamp(parts[k].number_at(0, 0), 0.0, 1.0));
+    const auto formula =
+        check_view(script.tree, *expression, read, stage, program, script.sources, unspoken);
+    if (!formula || formula->nodes.back().type != ValueType::colour) return;
+    Canvas canvas{simulation.evaluate(*formula, read)};
+    const auto model = simulation.model();
+    const Grid& grid = simulation.grid();
+    if (of_fields && model) {
+        drawn.coat = std::make_shared<const ModelLook>(*model, canvas, ValueRange(), palettes()[0]);
+    } else if (of_fields && grid.depth == 1) {
+        for (Field& field : canvas.fields) {
+            if (field.precision() != Precision::single) field = field.converted(Precision::single);
+        }
+        drawn.floor = std::make_shared<const Image>(
+            paint(canvas.fields[0], canvas.fields[1], canvas.fields[2]));
     }
-    return colour;
+    for (std::size_t k = 0; k < drawn.skin.size(); ++k) {
+        drawn.skin[k] = static_cast<float>(std::clamp(canvas.fields[k].number_at(0, 0), 0.0, 1.0));
+    }
 }
 
 /// About the x axis, from y towards z.
@@ -204,7 +218,7 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     placed.extent = {static_cast<double>(grid.width) / longest,
                      static_cast<double>(grid.height) / longest,
                      grid.depth > 1 ? static_cast<double>(grid.depth) / longest : 0};
-    if (const auto skin = skin_of(script, simulation, stage)) placed.skin = *skin;
+    take_skin(script, simulation, stage, placed);
     for (std::size_t k = 0; k < tissue.count(); ++k) {
         Placement placement;
         const double wide = measure(width, k, 2 * frames.radii[k]);
@@ -302,6 +316,7 @@ void lay_flat(Instances& copies) {
 
 namespace {
 
+/// The corners of the floor are those of the plane, (0, 0), (0, 1), (1, 1) and (1, 0).
 TriangleMesh floor_of(Vector3d extent) {
     const auto point = [](double x, double z) {
         return Vector3{static_cast<float>(x), 0, static_cast<float>(z)};
@@ -314,10 +329,22 @@ TriangleMesh floor_of(Vector3d extent) {
     return mesh;
 }
 
+/// The colour of the floor where it is hit.
+Colour light_of_floor(const Image& colours, const Hit& hit) {
+    const std::array<float, 3> weights = hit.weights();
+    const float x = hit.triangle == 0 ? weights[2] : weights[1] + weights[2];
+    const float y = hit.triangle == 0 ? weights[1] + weights[2] : weights[1];
+    const auto cell = [](float part, std::int64_t count) {
+        const auto place = static_cast<std::int64_t>(part * static_cast<float>(count));
+        return std::clamp<std::int64_t>(place, 0, count - 1);
+    };
+    return light_of(colours.at(cell(x, colours.width), cell(y, colours.height)));
+}
+
 }  // namespace
 
 Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
-                 const DrawOptions& options) {
+                 ModelDrawer* drawer, const DrawOptions& options) {
     Instances copies = instances_of(cells, static_cast<double>(options.height), cells.detail);
     for (std::size_t k = 0; k < copies.placements.size(); ++k) {
         copies.placements[k].colour = colours[cells.cells[k]];
@@ -325,9 +352,16 @@ Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const
     DrawOptions used = options;
     TriangleMesh body;
     if (model != nullptr) {
-        DrawnMesh drawn = creased_mesh(model->mesh);
         const ModelBox box(model->mesh);
-        move_instances(copies, box.in_script(drawn.middle), box.longest * drawn.scale);
+        const auto stand_on = [&](const DrawnMesh& drawn) {
+            move_instances(copies, box.in_script(drawn.middle), box.longest * drawn.scale);
+        };
+        if (cells.coat) {
+            stand_on(drawer->drawn());
+            return drawer->draw(*cells.coat, options, &copies);
+        }
+        DrawnMesh drawn = creased_mesh(model->mesh);
+        stand_on(drawn);
         body = std::move(drawn.mesh);
         used.round_shadows = true;
     } else {
@@ -338,8 +372,10 @@ Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const
     Team team(hardware_threads());
     const Scene scene(has_body ? &body : nullptr, &copies);
     const Look skin{light_of(cells.skin), {}};
-    return draw(
-        RayCaster(scene), [&](const Sight&) { return skin; }, used, team);
+    const SurfaceLook look = [&](const Sight& sight) {
+        return cells.floor ? Look{light_of_floor(*cells.floor, sight.hit), {}} : skin;
+    };
+    return draw(RayCaster(scene), look, used, team);
 }
 
 }  // namespace cascade

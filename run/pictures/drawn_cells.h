@@ -18,6 +18,8 @@
 namespace cascade {
 
 class Tissue;
+class ModelDrawer;
+struct ModelLook;
 
 /// The cells of a stage that have a size, in ascending order of their numbers. Lengths are those of
 /// scripts.
@@ -29,8 +31,11 @@ struct DrawnCells {
     std::vector<Placement> placements;      ///< `mesh` is the shape. Without colours.
     std::vector<std::size_t> cells;    ///< By placement: the place of its cell in number_order().
     std::size_t count = 0;             ///< Of all cells, also of those without a size.
-    Colour skin{0.25F, 0.24F, 0.23F};  ///< Of the surface below them, sRGB.
-    Vector3d extent;                   ///< Of the plane, or of the box of space.
+    Colour skin{0.25F, 0.24F, 0.23F};  ///< Of the surface below them, sRGB, unless it has a coat.
+    /// Colours of the skin at the cells of a model, or of a plane, that fields have; else null.
+    std::shared_ptr<const ModelLook> coat;
+    std::shared_ptr<const Image> floor;
+    Vector3d extent;    ///< Of the plane, or of the box of space.
     std::string fault;  ///< What is said of cells whose shape cannot be drawn; "" without such.
 };
 
@@ -59,9 +64,9 @@ struct PlacedFrames {
 PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage);
 
 /// Draws the cells with their colours (sRGB, in the order of numbers) on their model, or over their
-/// plane if `model` is null. Throws std::bad_alloc.
+/// plane if `model` is null. A coat is drawn by `drawer`. Throws std::bad_alloc.
 Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
-                 const DrawOptions& options);
+                 ModelDrawer* drawer, const DrawOptions& options);
 
 /// Meshes whose facets are at most `detail` pixels from their shapes, if a length of 1 has
 /// `pixels`. Throws std::bad_alloc.

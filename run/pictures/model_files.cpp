@@ -47,6 +47,10 @@ std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
+RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells) {
+    return refined(mesh, colour_distance * cell_spacing(cells), most_triangles);
+}
+
 bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
     return bake > 0 && in_lower_case(path.extension().string()) == ".glb";
 }
@@ -96,8 +100,7 @@ Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {
 
 Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
     if (!refined_) {
-        refined_ = std::make_unique<RefinedMesh>(
-            refined(mesh_, colour_distance * cell_spacing(model_.cells), most_triangles));
+        refined_ = std::make_unique<RefinedMesh>(refined_for_colours(mesh_, model_.cells));
     }
     const PaintedCells painted = {look_.channels, look_.values, look_.colour, {}};
     return write_model(path, refined_->mesh,

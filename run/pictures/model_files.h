@@ -37,6 +37,9 @@ struct ModelFileOptions {
     bool is_baked(const std::filesystem::path& path) const;
 };
 
+/// The mesh with triangles so small that colours of cells at its points show their pattern.
+RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells);
+
 /// Writes the state at one moment. Objects passed to it must outlive it.
 class ModelFileWriter {
 public:

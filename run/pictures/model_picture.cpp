@@ -42,8 +42,10 @@ ModelDrawer::ModelDrawer(std::shared_ptr<const ModelCells> model)
       team_(hardware_threads()),
       scene_(model_->mesh, model_->cells, team_) {}
 
-Image ModelDrawer::draw(const ModelLook& look, const DrawOptions& options) {
-    return scene_.draw({look.channels, look.values, look.colour, look.heights}, options, team_);
+Image ModelDrawer::draw(const ModelLook& look, const DrawOptions& options,
+                        const Instances* copies) {
+    return scene_.draw({look.channels, look.values, look.colour, look.heights}, options, team_,
+                       copies);
 }
 
 }  // namespace cascade

@@ -41,7 +41,10 @@ public:
     /// Throws std::bad_alloc.
     explicit ModelDrawer(std::shared_ptr<const ModelCells> model);
 
-    Image draw(const ModelLook& look, const DrawOptions& options);
+    /// With copies on it, if there are any, in the coordinates of drawn().
+    Image draw(const ModelLook& look, const DrawOptions& options,
+               const Instances* copies = nullptr);
+    const DrawnMesh& drawn() const { return scene_.drawn(); }
     const ModelCells& model() const { return *model_; }
     const CellFilter& filter() const { return scene_.filter(); }
 

@@ -174,7 +174,9 @@ Image Painter::with_cells(const Canvas& canvas, std::optional<ValueRange> range)
     options.height *= request_.scale;
     options.view = request_.view;
     options.view.up = {0, 1, 0};
-    return draw_cells(*canvas.cells, colours_of_cells(canvas, range), model_.get(), options);
+    if (canvas.cells->coat && !drawer_) drawer_ = std::make_shared<ModelDrawer>(model_);
+    return draw_cells(*canvas.cells, colours_of_cells(canvas, range), model_.get(), drawer_.get(),
+                      options);
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {

@@ -109,17 +109,26 @@ void check_views(Script& script) {
     // With --until-stage, the picture may name stages that do not run, which is not an error in the
     // script, so only a whole run is checked here.
     if (last + 1 != script.program->stages.size()) return;
-    const auto expression = picture_expression(script.tree);
-    if (!expression) {
-        return warn_of_unread_stages(*script.program, stage, nullptr, script.diagnostics);
+    const Program& program = *script.program;
+    std::vector<StageView> views{{stage, std::nullopt}};
+    if (const auto expression = picture_expression(script.tree)) {
+        views[0].formula = check_view(script.tree, *expression, stage, last, program,
+                                      script.sources, script.diagnostics);
+        if (!views[0].formula) return;
+        if (views[0].formula->nodes.back().type != ValueType::colour) {
+            script.diagnostics.error(views[0].formula->nodes.back().span,
+                                     "'color' must be a colour",
+                                     "use rgb(…) or palette(value, low, high, \"name\")");
+        }
     }
-    const auto formula = check_view(script.tree, *expression, stage, last, *script.program,
-                                    script.sources, script.diagnostics);
-    if (formula && formula->nodes.back().type != ValueType::colour) {
-        script.diagnostics.error(formula->nodes.back().span, "'color' must be a colour",
-                                 "use rgb(…) or palette(value, low, high, \"name\")");
+    const auto skin = picture_expression(script.tree, "skin");
+    const auto below = skin_stage(program, stage);
+    if (skin && below) {
+        Diagnostics unspoken;  // The checker of the picture has found its errors.
+        views.push_back({*below, check_view(script.tree, *skin, *below, last, program,
+                                            script.sources, unspoken)});
     }
-    if (formula) warn_of_unread_stages(*script.program, stage, &*formula, script.diagnostics);
+    warn_of_unread_stages(program, views, script.diagnostics);
 }
 
 }  // namespace
