@@ -9,6 +9,7 @@
 #include "app/time_table.h"
 #include "core/counted.h"
 #include "core/with_commas.h"
+#include "lang/syntax/replace_blocks.h"
 #include "run/script/embedded_script.h"
 #include "run/script/script_folder.h"
 #include "run/session/session_picture.h"
@@ -37,13 +38,22 @@ std::optional<LoadedFile> load_for_run(const Options& options, const Console& co
         return std::nullopt;
     }
     if (given) {
-        saved->file = given->script.file;
         if (given->script.text != saved->text) {
-            console.fail({fmt::format("{} differs from the script of the run saved in {}",
-                                      options.scripts[0], options.run.resume.string()),
-                          "a saved run goes on with its own script: leave SCRIPT out"});
-            return std::nullopt;
+            if (!differ_in_pictures_only(given->script.text, saved->text)) {
+                console.fail({fmt::format("{} differs from the script of the run saved in {}",
+                                          options.scripts[0], options.run.resume.string()),
+                              "a saved run goes on with its own script: leave SCRIPT out; only "
+                              "pictures and shapes may be others"});
+                return std::nullopt;
+            }
+            saved = load_saved_script(options.run.resume, options.overrides, given->script.folder,
+                                      &given->script);
+            if (!saved) {
+                console.fail(saved.error());
+                return std::nullopt;
+            }
         }
+        saved->file = given->script.file;
     }
     const auto edited = find_edited_script(options.run.resume, saved->name, saved->text);
     if (!given && edited) {

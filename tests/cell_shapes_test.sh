@@ -90,4 +90,15 @@ coat plane 'rgb(u, 0, 1 - coat.u)' 'grid: 40, 20'
 coat wrong 'rgb(r, 0, 1 - coat.u)' 'surface: sphere; cells: 900'
 "$CASCADE" run -q wrong.cascade -o wrong.png 2>err && fail "the skin reads cells"
 grep -q "'r' is not a parameter of bands" err || fail "the skin reads cells: $(cat err)"
+
+# A saved run is drawn in other colours and shapes, without taking a step.
+"$CASCADE" run -q ball.cascade --save kept -o ball.png || fail "--save"
+printf '%s\n' "$cells" '# Another look.' 'shape cone { radius = 1 - t }' 'picture { shape: cone; color: rgb(0, 0, 1) }' \
+    >look.cascade
+"$CASCADE" run look.cascade --resume kept -o look.png >out 2>&1 || fail "another look: $(cat out)"
+"$CASCADE" run -q look.cascade -o wanted.png || fail "look"
+cmp -s look.png wanted.png || fail "another look at --resume is another picture"
+sed 's/r: 0.1/r: 0.2/' look.cascade >other.cascade
+"$CASCADE" run -q other.cascade --resume kept -o other.png 2>err && fail "another radius at --resume"
+grep -q "differs from the script of the run" err || fail "another radius: $(cat err)"
 exit 0

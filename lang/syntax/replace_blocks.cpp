@@ -2,6 +2,7 @@
 #include "lang/syntax/replace_blocks.h"
 
 #include "lang/syntax/parse.h"
+#include "lang/syntax/token.h"
 
 #include <algorithm>
 #include <cctype>
@@ -47,7 +48,34 @@ struct ParsedText {
     bool is_of_blocks = true;  ///< And of nothing else?
 };
 
+/// The tokens outside of pictures and shapes; line breaks one at a time, and none at the ends.
+std::vector<std::string_view> words_without_pictures(const ParsedText& parsed) {
+    Diagnostics never_any;
+    std::vector<std::string_view> words;
+    bool is_after_break = true;
+    auto piece = parsed.pieces.begin();
+    for (const Token& token : lex(0, parsed.sources, never_any)) {
+        while (piece != parsed.pieces.end() && piece->span.end <= token.span.begin) ++piece;
+        const bool is_of_picture = piece != parsed.pieces.end() &&
+                                   token.span.begin >= piece->span.begin &&
+                                   (piece->kind == static_cast<int>(ast::BlockKind::picture) ||
+                                    piece->kind == static_cast<int>(ast::BlockKind::shape));
+        const bool is_break = token.kind == TokenKind::newline;
+        if (is_of_picture || (is_break && is_after_break)) continue;
+        is_after_break = is_break;
+        words.push_back(is_break ? "\n" : parsed.sources.text(token.span));
+    }
+    while (!words.empty() && (words.back() == "\n" || words.back().empty())) words.pop_back();
+    return words;
+}
+
 }  // namespace
+
+bool differ_in_pictures_only(const std::string& one, const std::string& other) {
+    const ParsedText first(one), second(other);
+    return !first.errors.has_errors() && !second.errors.has_errors() &&
+           words_without_pictures(first) == words_without_pictures(second);
+}
 
 std::string with_blocks(const std::string& script, const std::string& added) {
     const ParsedText old(script), more(added);

@@ -86,8 +86,10 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
 
 /// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`,
 /// grant reads and name the place of the model. Files of the script are looked up in
-/// `script_folder` if the user named it, else where find_script_folder() says.
+/// `script_folder` if the user named it, else where find_script_folder() says. `look` is a script
+/// that differs from the saved one in pictures only and takes its place.
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes,
-                                 const std::filesystem::path& script_folder = {});
+                                 const std::filesystem::path& script_folder = {},
+                                 const Script* look = nullptr);
 
 }  // namespace cascade

@@ -206,7 +206,7 @@ Result<void> check_against_script(const std::filesystem::path& folder, const nlo
 }  // namespace
 
 Result<Script> load_saved_script(const std::filesystem::path& folder, const Overrides& changes,
-                                 const std::filesystem::path& script_folder) {
+                                 const std::filesystem::path& script_folder, const Script* look) {
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
     if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver ||
@@ -228,7 +228,8 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
         const auto text = json->at("script").get<std::string>();
         const auto files =
             script_folder.empty() ? find_script_folder(folder, name, text) : script_folder;
-        Script script = load_script(name, text, files, std::move(*overrides));
+        Script script = load_script(look ? look->name : name, look ? look->text : text, files,
+                                    std::move(*overrides));
         script.file = folder;
         return script;
     } catch (const nlohmann::json::exception&) {

@@ -44,5 +44,19 @@ TEST(ReplaceBlocks, WhatIsWrongOrNoBlockIsAppended) {
     EXPECT_EQ(with_blocks("", "stage one: s { }\n"), "stage one: s { }\n");
 }
 
+TEST(ReplaceBlocks, ScriptsMayDifferInPicturesOnly) {
+    const std::string same = script;
+    EXPECT_TRUE(differ_in_pictures_only(same, same));
+    EXPECT_TRUE(
+        differ_in_pictures_only(same, "# Other words.\n\npicture { color: rgb(1, 0, 0) }\n" + same +
+                                          "\nshape s { radius = 1 - t }\n"));
+    EXPECT_TRUE(differ_in_pictures_only(same + "picture { shape: thorn }",
+                                        "picture { shape: ball }\n" + same));
+    EXPECT_FALSE(differ_in_pictures_only(same, same + "stage three: s { }\n"));
+    EXPECT_FALSE(differ_in_pictures_only("stage a: s { k: 1; m: 2 }", "stage a: s { k: 1 }"));
+    EXPECT_FALSE(differ_in_pictures_only("stage a: s { k: 11 }", "stage a: s { k: 1 1 }"));
+    EXPECT_FALSE(differ_in_pictures_only(same, same + "picture { color"));
+}
+
 }  // namespace
 }  // namespace cascade
