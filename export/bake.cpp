@@ -1,17 +1,13 @@
 // Threads paint bands of rows of texels, each texel as the mean of its samples in linear light;
 // then gaps are filled and colours stored.
-//
-// Filtered values vary smoothly within a triangle, but thresholds and places make colours jump. So
-// the filter is queried at knots along a row of samples, its values are interpolated, and every
-// sample gets a colour of its own.
 #include "export/bake.h"
 
 #include "core/check.h"
 #include "core/counted.h"
 #include "core/enough_memory.h"
+#include "export/field_samples.h"
 #include "export/fill_gaps.h"
 #include "export/render_vertices.h"
-#include "export/texture_layout.h"
 #include "mesh/normals.h"
 #include "picture/srgb.h"
 
@@ -25,37 +21,32 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t rows_of_band = 16;  ///< Texels; a thread's unit of work.
-/// The distance of knots, in radii of the filter: linear interpolation between them leaves an error
-/// below 1/255 of the range of the values.
-constexpr double knots_apart = 1.0 / 16;
-constexpr std::int64_t most_steps = 64;   ///< Samples from one knot to the next.
-constexpr double most_covered_area = 64;  ///< Beyond it, the texture repeats all over the model.
+constexpr double most_covered_area = 64;   ///< Beyond it, the texture repeats all over the model.
 
 /// Working memory of one thread, allocated in advance.
 struct Scratch {
-    PlacePainter painter;
-    std::vector<std::uint32_t> owners = {};    ///< Of the samples of a band.
-    std::span<const std::uint32_t> row = {};   ///< Those of a row of texels.
-    std::vector<Colour> lights = {};           ///< Of the samples of a row of texels.
-    std::vector<float> heights = {};           ///< Likewise.
-    std::vector<float> here = {}, there = {};  ///< Filtered values at two knots,
-    std::vector<float> between = {};           ///< and between them.
-    std::int64_t covered = 0, again = 0;       ///< Numbers of samples.
+    std::unique_ptr<SamplePainter> painter;
+    std::vector<std::uint32_t> owners = {};   ///< Of the samples of a band.
+    std::span<const std::uint32_t> row = {};  ///< Those of a row of texels.
+    std::vector<Colour> lights = {};          ///< Of the samples of a row of texels.
+    std::vector<float> heights = {};          ///< Likewise.
+    std::vector<SurfacePlace> places = {};    ///< Of the samples of a texel with heights.
+    std::int64_t covered = 0, again = 0;      ///< Numbers of samples.
 };
 
 class TextureBaker {
 public:
-    TextureBaker(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
+    TextureBaker(const SurfaceMesh& mesh, const MakeSamplePainter& make_painter,
                  const BakeOptions& options)
         : mesh_(mesh),
-          filter_(filter),
-          cells_(cells),
+          make_painter_(make_painter),
+          has_heights_(make_painter()->has_heights()),
           options_(options),
           layout_(mesh, options.width * options.samples, options.height * options.samples),
           normals_(corner_normals(mesh)),
           vertices_(render_vertices(mesh, normals_)),
           colour_(options.width, options.height),
-          relief_(has_heights() ? options.width : 0, has_heights() ? options.height : 0),
+          relief_(has_heights_ ? options.width : 0, has_heights_ ? options.height : 0),
           slopes_(relief_.width, relief_.height) {}
 
     Result<Bake> run(Team& team, const std::atomic<bool>& cancel) {
@@ -83,21 +74,18 @@ public:
     }
 
 private:
-    bool has_heights() const { return !cells_.heights.empty(); }
     std::int64_t samples() const { return options_.samples; }
     std::size_t texel(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>(y * options_.width + x);
     }
 
     Scratch make_scratch() const {
-        Scratch own{PlacePainter(filter_, cells_)};
+        Scratch own{make_painter_()};
         const auto row = static_cast<std::size_t>(layout_.width() * samples());
         own.owners.resize(row * static_cast<std::size_t>(rows_of_band));
         own.lights.resize(row);
         own.heights.resize(row);
-        for (auto* values : {&own.here, &own.there, &own.between}) {
-            values->resize(own.painter.number_of_values());
-        }
+        own.places.reserve(static_cast<std::size_t>(samples() * samples()));
         return own;
     }
 
@@ -132,43 +120,11 @@ private:
 
     void paint_span(std::uint32_t owner, std::int64_t first, std::int64_t end, std::int64_t y,
                     std::int64_t j, Scratch& own) const {
-        const auto place_of = [&](std::int64_t i) {
-            return layout_.place_at(owner, i, y * samples() + j);
-        };
-        const auto paint = [&](std::int64_t i, std::span<const float> values,
-                               const SurfacePlace& place) {
-            const PlacePainter::Look look = own.painter.look_of(values, place);
-            own.lights[sample(i, j)] = light_of(look.colour);
-            own.heights[sample(i, j)] = look.height;
-        };
-        const SurfacePlace begin = place_of(first);
-        own.painter.filter_at(begin, own.here);
-        paint(first, own.here, begin);
-        const std::int64_t steps = end - first > 2 ? steps_of(begin, place_of(first + 1)) : 1;
-        for (std::int64_t knot = first, next; knot + 1 < end; knot = next) {
-            next = std::min(knot + steps, end - 1);
-            const SurfacePlace there = place_of(next);
-            own.painter.filter_at(there, own.there);
-            for (std::int64_t i = knot + 1; i < next; ++i) {
-                const float part = static_cast<float>(i - knot) / static_cast<float>(next - knot);
-                for (std::size_t k = 0; k < own.between.size(); ++k) {
-                    own.between[k] = own.here[k] + part * (own.there[k] - own.here[k]);
-                }
-                paint(i, own.between, place_of(i));
-            }
-            paint(next, own.there, there);
-            std::swap(own.here, own.there);
-        }
+        const std::size_t begin = sample(first, j), count = sample(end, j) - begin;
+        own.painter->paint({layout_, owner, first, y * samples() + j,
+                            std::span(own.lights).subspan(begin, count),
+                            std::span(own.heights).subspan(begin, count)});
         own.covered += end - first;
-    }
-
-    /// The number of samples from one knot to the next, given two neighbouring samples.
-    std::int64_t steps_of(const SurfacePlace& one, const SurfacePlace& other) const {
-        const double apart = length(position_of(mesh_, one) - position_of(mesh_, other));
-        const double reach = knots_apart * filter_.radius();
-        return apart * most_steps > reach
-                   ? std::max(static_cast<std::int64_t>(reach / apart), std::int64_t{1})
-                   : most_steps;
     }
 
     /// Calls `visit(i, j)` for each sample of a texel that is on the surface.
@@ -192,17 +148,14 @@ private:
         for (float& light : sum) light /= static_cast<float>(count);
         colour_.texels[texel(x, y)] = sum;
         colour_.is_filled[texel(x, y)] = 1;
-        if (has_heights()) raise_texel(x, y, count, own);
+        if (has_heights_) raise_texel(x, y, own);
     }
 
-    void raise_texel(std::int64_t x, std::int64_t y, int count, Scratch& own) {
+    void raise_texel(std::int64_t x, std::int64_t y, Scratch& own) {
         double sum = 0, finite = 0;
-        int number = 0;
-        SurfacePlace middle;  // The normal of the middle sample represents all.
+        own.places.clear();
         visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
-            if (number++ == count / 2) {
-                middle = layout_.place_at(own.row[sample(i, j)], i, y * samples() + j);
-            }
+            own.places.push_back(layout_.place_at(own.row[sample(i, j)], i, y * samples() + j));
             const float height = own.heights[sample(i, j)];
             if (!std::isfinite(height)) return;
             sum += static_cast<double>(height);
@@ -211,16 +164,16 @@ private:
         if (finite == 0) return;
         relief_.texels[texel(x, y)][0] = static_cast<float>(sum / finite);
         relief_.is_filled[texel(x, y)] = 1;
-        const Vector3 normal = bumped_normal(middle, own.painter);
+        const Vector3 normal = raised_normal(own);
         if (!std::isfinite(normal.x + normal.y + normal.z)) return;
         slopes_.texels[texel(x, y)] = {normal.x, normal.y, normal.z};
         slopes_.is_filled[texel(x, y)] = 1;
     }
 
-    /// The normal of the displaced surface, relative to the tangent, the bitangent and the smooth
-    /// normal: J. Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights.
-    Vector3 bumped_normal(const SurfacePlace& place, PlacePainter& painter) const {
-        const Vector3d rise = painter.rise_at(place);
+    /// The normal of the raised surface at a texel's samples, relative to the tangent, the
+    /// bitangent and the smooth normal.
+    Vector3 raised_normal(Scratch& own) const {
+        const SurfacePlace& place = own.places[own.places.size() / 2];
         const Vector3d normal = normals_.at(mesh_, place);
         Vector3d sum;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -230,7 +183,9 @@ private:
         const Vector3d tangent = unit(sum - normal * dot(sum, normal));
         const int side = vertices_.tangents[vertices_.triangles[place.triangle][0]].side;
         const Vector3d bitangent = cross(normal, tangent) * static_cast<double>(side);
-        const Vector3d bumped = unit(Vector3d{-dot(rise, tangent), -dot(rise, bitangent), 1});
+        const Vector3d raised = own.painter->raised_normal(own.places, normal);
+        const Vector3d bumped =
+            unit(Vector3d{dot(raised, tangent), dot(raised, bitangent), dot(raised, normal)});
         return {static_cast<float>(bumped.x), static_cast<float>(bumped.y),
                 static_cast<float>(bumped.z)};
     }
@@ -245,7 +200,7 @@ private:
         fill_gaps(colour_);
         for (Colour& texel : colour_.texels) texel = stored_of(texel);
         bake.colour = image_of(std::move(colour_));
-        if (!has_heights()) return bake;
+        if (!has_heights_) return bake;
         finish_relief(bake);
         fill_gaps(slopes_);
         for (auto& texel : slopes_.texels) {
@@ -308,8 +263,8 @@ private:
     }
 
     const SurfaceMesh& mesh_;
-    const CellFilter& filter_;
-    const PaintedCells& cells_;
+    const MakeSamplePainter& make_painter_;
+    bool has_heights_;
     const BakeOptions& options_;
     TextureLayout layout_;
     CornerNormals normals_;
@@ -334,6 +289,12 @@ Result<void> check_bakeable(const SurfaceMesh& mesh) {
 
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel) {
+    const auto painter = [&] { return std::make_unique<FieldSamples>(mesh, filter, cells); };
+    return bake(mesh, painter, options, team, cancel);
+}
+
+Result<Bake> bake(const SurfaceMesh& mesh, const MakeSamplePainter& painter,
+                  const BakeOptions& options, Team& team, const std::atomic<bool>& cancel) {
     const auto is_side = [](std::int64_t side) {
         return side >= 1 && side <= BakeOptions::largest_texture;
     };
@@ -342,9 +303,7 @@ Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const Paint
           "the size of a texture is checked where it is given");
     if (auto good = check_bakeable(mesh); !good) return tl::unexpected(good.error());
     return enough_memory_for(
-        [&]() -> Result<Bake> {
-            return TextureBaker(mesh, filter, cells, options).run(team, cancel);
-        },
+        [&]() -> Result<Bake> { return TextureBaker(mesh, painter, options).run(team, cancel); },
         fmt::format("there is not enough memory for a texture of {} × {}", options.width,
                     options.height));
 }

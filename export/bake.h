@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "export/painted_cells.h"
+#include "export/sample_painter.h"
 #include "picture/image.h"
 
 #include <atomic>
@@ -42,6 +43,9 @@ Result<void> check_bakeable(const SurfaceMesh& mesh);
 /// Fails as check_bakeable does, if the texture coordinates have no area, and if memory is short;
 /// undefined if `cancel` became true.
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
+                  const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
+/// The same of what painters see, of which each thread has one.
+Result<Bake> bake(const SurfaceMesh& mesh, const MakeSamplePainter& painter,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 
 /// The files that write_baked makes: the model, then in the same folder NAME_color.png and, with

@@ -91,6 +91,33 @@ coat wrong 'rgb(r, 0, 1 - coat.u)' 'surface: sphere; cells: 900'
 "$CASCADE" run -q wrong.cascade -o wrong.png 2>err && fail "the skin reads cells"
 grep -q "'r' is not a parameter of bands" err || fail "the skin reads cells: $(cat err)"
 
+# A model with texture coordinates gets maps that show what stands on it.
+cat >square.obj <<'END'
+v 0 0 0
+v 4 0 0
+v 4 0 4
+v 0 0 4
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+f 4/4 3/3 2/2 1/1
+END
+flat='cells still { p'"'"' += cling(1) }
+domain { mesh: "square.obj" }
+stage stand: still { founders: 20; duration: 0.1; r: 0.05 }'
+printf '%s\n' "$flat" 'picture { shape: thorn; color: rgb(1, 0, 0); skin: rgb(0, 0, 1) }' >maps.cascade
+"$CASCADE" run maps.cascade -o maps.glb --bake 64 >out 2>&1 || fail "--bake: $(cat out)"
+for name in maps.glb maps_color.png maps_height.png maps_normal.png; do
+    grep -q "wrote $name" out && [ -s $name ] || fail "--bake without $name: $(cat out)"
+done
+"$CASCADE" mesh maps.glb | grep -q "4 points, 2 triangles" || fail "--bake writes more than the model"
+sed 's/surface: sphere/surface: creature/' ball.cascade >creature.cascade
+"$CASCADE" run -q creature.cascade -o creature.glb --bake 64 2>err && fail "maps without texture coordinates"
+grep -q "no texture coordinates" err || fail "maps without texture coordinates: $(cat err)"
+"$CASCADE" run -q plane.cascade -o plane.glb --bake 64 2>err && fail "maps of a plane"
+grep -q "the domain is not a model" err || fail "maps of a plane: $(cat err)"
+
 # A saved run is drawn in other colours and shapes, without taking a step.
 "$CASCADE" run -q ball.cascade --save kept -o ball.png || fail "--save"
 printf '%s\n' "$cells" '# Another look.' 'shape cone { radius = 1 - t }' 'picture { shape: cone; color: rgb(0, 0, 1) }' \

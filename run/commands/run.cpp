@@ -112,7 +112,7 @@ Result<void> Runner::prepare() {
 
 /// Checks all places to which the run will write.
 Result<void> Runner::check_places(Folders folders) {
-    if (auto good = check_outputs(request_, outputs_); !good) return good;
+    if (auto good = check_outputs(script_, request_, outputs_); !good) return good;
     if (!request_.save.empty()) {
         if (auto good = check_savable(request_.save, script_); !good) return good;
     }

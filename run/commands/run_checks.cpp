@@ -53,8 +53,17 @@ struct OutputFile {
     std::string_view what;
 };
 
-std::vector<OutputFile> files_of(const RunRequest& request,
+/// Of cells that crawl.
+bool has_cells(const Script& script) {
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (script.program->system_of(k).cells) return true;
+    }
+    return false;
+}
+
+std::vector<OutputFile> files_of(const Script& script, const RunRequest& request,
                                  std::span<const std::filesystem::path> outputs) {
+    const bool has_heights = request.picture.bump != 0 || has_cells(script);
     std::vector<OutputFile> files;
     const auto add = [&](std::span<const std::filesystem::path> paths, std::string_view what) {
         for (const auto& path : paths) files.push_back({path, what});
@@ -64,7 +73,7 @@ std::vector<OutputFile> files_of(const RunRequest& request,
         if (kind == OutputKind::picture && request.turntable > 0) {
             add(turntable_paths(output, request.turntable), "the picture");
         } else if (request.model_files.is_baked(output)) {
-            add(baked_paths(output, request.picture.bump != 0), "the baked model");
+            add(baked_paths(output, has_heights), "the baked model");
         } else {
             add({&output, 1}, kind == OutputKind::picture ? "the picture" : "the model");
         }
@@ -79,9 +88,9 @@ std::vector<OutputFile> files_of(const RunRequest& request,
 
 }  // namespace
 
-Result<void> check_outputs(const RunRequest& request,
+Result<void> check_outputs(const Script& script, const RunRequest& request,
                            std::span<const std::filesystem::path> outputs) {
-    std::vector<OutputFile> files = files_of(request, outputs);
+    std::vector<OutputFile> files = files_of(script, request, outputs);
     std::set<std::filesystem::path> folders;
     for (const OutputFile& file : files) {
         if (auto good = check_writable(file.path); !good) return good;
@@ -195,19 +204,27 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
                       "-o NAME.png draws pictures NAME-001.png, …");
 }
 
+constexpr std::string_view not_a_model = "the domain is not a model";
+constexpr std::string_view how_to_get_a_model =
+    "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
+
+void check_maps_without_model(OptionRefuser& options, const RunRequest& request) {
+    options.refuse_if(request.model_files.bake > 0, "--bake", std::string(not_a_model),
+                      std::string(how_to_get_a_model));
+}
+
 /// Options that apply to models only.
 void check_without_model(OptionRefuser& options, const RunRequest& request) {
-    const std::string message = "the domain is not a model";
-    const std::string hint = "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
+    const std::string message(not_a_model), hint(how_to_get_a_model);
     for (const auto& output : request.outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
         options.refuse("-o", output.string(),
                        "only what grows on a model is written so, and " + message, hint);
     }
     options.refuse_if(request.model_files.retile, "--retile", message, hint);
-    options.refuse_if(request.model_files.bake > 0, "--bake", message, hint);
     options.refuse_if(request.picture.bump != 0, "--bump", message, hint);
     options.refuse_if(!request.simulation.cell_cache.empty(), "--cache", message, hint);
+    check_maps_without_model(options, request);
 }
 
 void check_on_plane(OptionRefuser& options, const RunRequest& request) {
@@ -231,14 +248,6 @@ void check_with_cells(OptionRefuser& options, const RunRequest& request) {
                       "-o NAME.cells.vtp has all values for ParaView");
     options.refuse_if(request.features, "--features", message, "");
     options.refuse_if(request.model_files.retile, "--retile", message, "");
-    options.refuse_if(request.model_files.bake > 0, "--bake", message, "");
-}
-
-bool has_cells(const Script& script) {
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        if (script.program->system_of(k).cells) return true;
-    }
-    return false;
 }
 
 /// What is written while a run takes its steps.
@@ -273,6 +282,8 @@ Result<void> check_request(Script& script, const RunRequest& request) {
                       "a plane has no slices", "grid: W, H, D makes a volume");
     if (has_cells(script)) {
         check_with_cells(options, request);
+        if (domain.model) check_model_files(options, request);
+        else check_maps_without_model(options, request);
     } else if (domain.model) {
         check_on_model(options, request);
         check_model_files(options, request);

@@ -22,7 +22,7 @@ Result<void> check_request(Script& script, const RunRequest& request);
 
 /// Tests all outputs for writing, so that a long run does not fail at its end. Leaves no files, and
 /// removes temporary files of killed runs.
-Result<void> check_outputs(const RunRequest& request,
+Result<void> check_outputs(const Script& script, const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
 /// Creates the folders, and tests them for writing. Those that are tried are removed again.
 enum class Folders { tried, made };

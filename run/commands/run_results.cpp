@@ -112,9 +112,16 @@ Result<void> RunResults::write_cell_files(const Canvas& canvas) {
     for (const auto& output : outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
         say(fmt::format("writing {}", output.filename().string()));
-        const auto written = write_cells(output, cells, request.model_files);
-        if (written) report.written.push_back(output);
-        else if (!first) first = written.error();
+        const auto written =
+            write_cells(output, cells, request.model_files, texts(request.picture));
+        if (!written) {
+            if (!first) first = written.error();
+            continue;
+        }
+        report.written.insert(report.written.end(), written->paths.begin(), written->paths.end());
+        for (const std::string& warning : written->warnings) {
+            if (control.warn) control.warn(warning);
+        }
     }
     if (first) return tl::unexpected(*first);
     return {};

@@ -1,12 +1,16 @@
 // Scripts know models upright and of length 1; files have the coordinates of the model's file.
 #include "run/pictures/cell_files.h"
 
+#include "export/bake.h"
 #include "export/instanced_model.h"
 #include "export/placed_cells.h"
 #include "export/refine.h"
+#include "run/pictures/cells_from_outside.h"
 #include "run/pictures/model_picture.h"
 #include "tissue/tissue.h"
 
+#include <atomic>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,29 +45,8 @@ private:
 /// Facets of the things in files are as fine as in a picture of this height.
 constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
-struct Body {
-    SurfaceMesh mesh;
-    std::vector<Colour> colours;  ///< Of its points.
-};
-
-/// In the coordinates of the model's file.
-Body body_of(const ModelCells& model, const DrawnCells& drawn) {
-    Body body{model.mesh_of_file(), {}};
-    if (!drawn.coat) {
-        body.colours.assign(body.mesh.points.size(), drawn.skin);
-        return body;
-    }
-    Team team(hardware_threads());
-    const CellFilter filter(body.mesh, model.cells, team);
-    RefinedMesh fine = refined_for_colours(body.mesh, model.cells);
-    const PaintedCells coat{drawn.coat->channels, drawn.coat->values, drawn.coat->colour, {}};
-    body.colours = colours_at(fine.places, filter, coat, team);
-    body.mesh = std::move(fine.mesh);
-    return body;
-}
-
-Result<void> write_things(const std::filesystem::path& path, const GrownCells& cells,
-                          const ModelFileOptions& options) {
+/// The things that a picture shows, in the coordinates of the model's file.
+Instances things_in_file(const GrownCells& cells) {
     const auto model = cells.simulation.model();
     const FilePlaces in_file(model.get());
     Instances copies = instances_of(cells.drawn, pixels_of_files, detail_of_files);
@@ -74,10 +57,64 @@ Result<void> write_things(const std::filesystem::path& path, const GrownCells& c
         each.scale = each.scale * in_file.length(1);
         each.colour = cells.colours[cells.drawn.cells[k]];
     }
-    Body body;
-    if (model) body = body_of(*model, cells.drawn);
-    return write_instanced(path, {model ? &body.mesh : nullptr, body.colours, copies},
-                           options.merge);
+    return copies;
+}
+
+/// The model below them, in the same coordinates, and its colours.
+class Skin {
+public:
+    Skin(const ModelCells& model, const DrawnCells& drawn)
+        : mesh(model.mesh_of_file()), model_(model), team_(hardware_threads()) {
+        colours.colour = drawn.skin;
+        if (!drawn.coat) return;
+        filter_.emplace(mesh, model.cells, team_);
+        colours.filter = &*filter_;
+        colours.coat = {drawn.coat->channels, drawn.coat->values, drawn.coat->colour, {}};
+    }
+
+    /// Gives the points of the mesh colours; they become more if there is a coat.
+    std::vector<Colour> colour_points() {
+        if (!filter_) return std::vector<Colour>(mesh.points.size(), colours.colour);
+        RefinedMesh fine = refined_for_colours(mesh, model_.cells);
+        mesh = std::move(fine.mesh);
+        return colours_at(fine.places, *filter_, colours.coat, team_);
+    }
+
+    Team& team() { return team_; }
+
+    SurfaceMesh mesh;
+    SkinColours colours;
+
+private:
+    const ModelCells& model_;
+    Team team_;
+    std::optional<CellFilter> filter_;
+};
+
+Result<void> write_things(const std::filesystem::path& path, const GrownCells& cells,
+                          bool is_merged) {
+    const Instances copies = things_in_file(cells);
+    const auto model = cells.simulation.model();
+    if (!model) return write_instanced(path, {nullptr, {}, copies}, is_merged);
+    Skin skin(*model, cells.drawn);
+    const std::vector<Colour> colours = skin.colour_points();
+    return write_instanced(path, {&skin.mesh, colours, copies}, is_merged);
+}
+
+Result<CellFiles> write_maps(const std::filesystem::path& path, const GrownCells& cells,
+                             std::int64_t side, const PngTexts& texts) {
+    Skin skin(*cells.simulation.model(), cells.drawn);
+    const CellsFromOutside outside(skin.mesh, things_in_file(cells));
+    BakeOptions options;
+    options.width = options.height = side;
+    const std::atomic<bool> never = false;
+    const auto painter = [&] { return std::make_unique<OutsideSamples>(outside, skin.colours); };
+    const auto baked = bake(skin.mesh, painter, options, skin.team(), never);
+    if (!baked) return tl::unexpected(baked.error());
+    if (auto done = write_baked(path, skin.mesh, *baked, texts); !done) {
+        return tl::unexpected(done.error());
+    }
+    return CellFiles{baked_paths(path, true), baked->warnings};
 }
 
 Result<void> write_values(const std::filesystem::path& path, const GrownCells& cells) {
@@ -105,10 +142,13 @@ Result<void> write_values(const std::filesystem::path& path, const GrownCells& c
 
 }  // namespace
 
-Result<void> write_cells(const std::filesystem::path& path, const GrownCells& cells,
-                         const ModelFileOptions& options) {
+Result<CellFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
+                              const ModelFileOptions& options, const PngTexts& texts) {
     const bool has_things = output_kind(path) == OutputKind::model;
-    return has_things ? write_things(path, cells, options) : write_values(path, cells);
+    if (has_things && options.is_baked(path)) return write_maps(path, cells, options.bake, texts);
+    auto done = has_things ? write_things(path, cells, options.merge) : write_values(path, cells);
+    if (!done) return tl::unexpected(done.error());
+    return CellFiles{{path}, {}};
 }
 
 }  // namespace cascade

@@ -1,0 +1,49 @@
+// What baking paints: the look of a surface at the samples of a texture.
+#pragma once
+
+#include "core/palette.h"
+#include "export/texture_layout.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace cascade {
+
+/// Consecutive samples of a row of a texture that lie in one triangle, and where their looks go.
+struct SampleRow {
+    const TextureLayout& layout;
+    std::uint32_t triangle = 0;
+    std::int64_t first = 0, row = 0;  ///< Of the first sample.
+    std::span<Colour> lights;         ///< Reflected fractions, 0 … 1 (light_of).
+    std::span<float> heights;         ///< Above the surface, in the unit of the mesh.
+
+    SurfacePlace place(std::size_t k) const {
+        return layout.place_at(triangle, first + static_cast<std::int64_t>(k), row);
+    }
+};
+
+/// Paints samples. Not thread-safe: each thread has one of its own.
+class SamplePainter {
+public:
+    SamplePainter() = default;
+    virtual ~SamplePainter() = default;
+    SamplePainter(const SamplePainter&) = delete;
+    SamplePainter& operator=(const SamplePainter&) = delete;
+
+    /// False if all heights are 0.
+    virtual bool has_heights() const = 0;
+
+    /// Sets all lights, and all heights if it has any.
+    virtual void paint(const SampleRow& row) = 0;
+
+    /// A vector along the normal of what is raised by the heights, for the samples of one texel,
+    /// of which there is at least one. `normal` is that of the surface in their middle.
+    virtual Vector3d raised_normal(std::span<const SurfacePlace> samples,
+                                   const Vector3d& normal) = 0;
+};
+
+using MakeSamplePainter = std::function<std::unique_ptr<SamplePainter>()>;
+
+}  // namespace cascade
