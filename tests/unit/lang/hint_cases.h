@@ -200,6 +200,18 @@ inline constexpr HintCase hint_cases[] = {
      "duration: 1; a: a"},
     {"tissue", "duration: 1; show: two.a", "a value that is carried on, as in c: c, can be shown",
      "duration: 1; a: a; show: a"},
+    {"script",
+     "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
+     "stage s: scales { duration: 1; founders: 6; body: z - 0.5 }",
+     "as in body: coral.v - 0.3",
+     "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
+     "stage s: scales { duration: 1; founders: 6; body: g.v - 0.3 }"},
+    {"script",
+     "domain { grid: 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
+     "stage s: scales { duration: 1; founders: 6; body: g.v - 0.3 }",
+     "as in domain { grid: 64, 64, 64 }",
+     "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
+     "stage s: scales { duration: 1; founders: 6; body: g.v - 0.3 }"},
     {"domain", "seeed: 1", "did you mean 'seed'?"},
     {"picture", "color: palette(u, 0, 1, 'grey')", "write \"grey\""},
     {"picture", "color: palette(u, 0, 1, \"gray\")", "did you mean 'grey'?",
