@@ -36,6 +36,12 @@ ls frames/*.png >/dev/null 2>&1 || fail "there are no frames"
 cmp -s part.npz one.npz && fail "the run was not stopped"
 "$CASCADE" run -q --resume kept -o resumed.npz || fail "--resume"
 cmp -s resumed.npz one.npz || fail "a resumed run has other cells"
+for step in 10 40; do # Cells divide within these steps.
+    "$CASCADE" run -q cover.cascade --stop-at cover:$step --save early -o part.npz || fail "--save"
+    "$CASCADE" run -q --resume early -o resumed.npz || fail "--resume at step $step"
+    cmp -s resumed.npz one.npz || fail "a run resumed at step $step has other cells"
+    rm -rf early
+done
 cp kept/cover.r.npy kept/cover.p.x.npy
 "$CASCADE" run -q --resume kept -o resumed.npz 2>err && fail "a changed run is resumed"
 grep -q "damaged" err || fail "a changed run: $(cat err)"
