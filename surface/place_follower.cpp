@@ -23,7 +23,8 @@ std::vector<std::vector<std::uint32_t>> triangles_at_points(const SurfaceMesh& m
 
 }  // namespace
 
-PlaceFollower::PlaceFollower(const SurfaceMesh& mesh) : all_(mesh) {
+PlaceFollower::PlaceFollower(const SurfaceMesh& mesh)
+    : all_(mesh), insides_(mesh.triangles.size()) {
     CHECK(!mesh.triangles.empty(), "a surface has triangles");
     const auto at_points = triangles_at_points(mesh);
     std::vector<bool> is_rim(mesh.points.size(), false);
@@ -44,8 +45,8 @@ PlaceFollower::PlaceFollower(const SurfaceMesh& mesh) : all_(mesh) {
         around.erase(std::find(around.begin(), around.end(), t));
         around_.insert(around_.end(), around.begin(), around.end());
         ends_.push_back(static_cast<std::uint32_t>(around_.size()));
-        insides_.push_back(inside_of(mesh, t));
-        insides_[t].steepness = steepness_around(mesh, t, around);
+        insides_.data()[t] = inside_of(mesh, t);
+        insides_.data()[t].steepness = steepness_around(mesh, t, around);
         Triangle triangle;
         for (std::uint32_t k = 0; k < 3; ++k) {
             triangle.corners[k] = mesh.corner(t, k);
@@ -60,6 +61,9 @@ PlaceFollower::PlaceFollower(const SurfaceMesh& mesh) : all_(mesh) {
 PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
     Inside inside;
     inside.corner = mesh.corner(triangle, 0);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        inside.across[k] = mesh.across[triangle][corner_after(k)].triangle;
+    }
     const Vector3d normal = mesh.double_area_normal(triangle);
     const double inverse = 1 / dot(normal, normal);
     if (!std::isfinite(inverse)) return inside;
@@ -84,7 +88,7 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
 std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
                                                      std::uint32_t triangle,
                                                      std::span<const std::uint32_t> around) const {
-    const Inside& inside = insides_[triangle];
+    const Inside& inside = insides_.data()[triangle];
     const std::array<std::uint32_t, 3> own = mesh.triangles[triangle];
     const std::array outward{unit(inside.of_second + inside.of_third), -unit(inside.of_second),
                              -unit(inside.of_third)};
@@ -126,7 +130,7 @@ std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
 /// A place whose distance has a square above `most` may be given as infinitely far.
 PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point,
                                             double most) const {
-    const Inside& inside = insides_[number];
+    const Inside& inside = insides_.data()[number];
     const Over over = inside.over(point);
     const auto& [first, second, third] = over.weights;
     const double square = over.height * over.height;
@@ -152,7 +156,7 @@ PlaceFollower::Found PlaceFollower::found(const Near& near, Vector3d point) cons
     Found result;
     result.place = {near.triangle, near.weights};
     if (near.is_inside) {
-        result.position = point - insides_[near.triangle].normal * near.height;
+        result.position = point - insides_.data()[near.triangle].normal * near.height;
         result.distance = std::abs(near.height);
         return result;
     }
@@ -172,9 +176,8 @@ std::optional<PlaceFollower::Found> PlaceFollower::find(Vector3d point, std::uin
         Near best = measured(from, point);
         for (int move = 0; move < most_moves; ++move) {
             const std::uint32_t before = best.triangle;
-            const bool is_nearest =
-                best.is_inside &&
-                insides_[before].is_nearest({best.weights, best.height, insides_[before].normal});
+            const bool is_nearest = best.is_inside && insides_.data()[before].is_nearest(
+                                                          {best.weights, best.height, {}, before});
             if (!is_nearest) {
                 const std::uint32_t first = before == 0 ? 0 : ends_[before - 1];
                 for (std::uint32_t k = first; k < ends_[before]; ++k) {

@@ -1,6 +1,7 @@
 // The nearest places of a surface to points that move a little at a time.
 #pragma once
 
+#include "core/links.h"
 #include "surface/nearest_place.h"
 
 #include <algorithm>
@@ -36,27 +37,36 @@ public:
 
     /// Brings the data of stay() to the cache.
     void prepare(std::uint32_t triangle) const {
-        if (triangle >= insides_.size()) return;
-        __builtin_prefetch(&insides_[triangle]);
-        __builtin_prefetch(reinterpret_cast<const char*>(&insides_[triangle]) + 64);
+        if (triangle >= triangles_.size()) return;
+        const Inside* const inside = insides_.data() + triangle;
+        __builtin_prefetch(inside);
+        __builtin_prefetch(reinterpret_cast<const char*>(inside) + 64);
     }
     /// A point over the inside of a triangle.
     struct Over {
         std::array<double, 3> weights;
         double height = 0;  ///< Over the triangle.
         Vector3d normal;    ///< Of the triangle, of length 1.
+        std::uint32_t triangle = 0;
     };
-    /// The same as find() where it stays in the inside of the triangle that it begins from, at
-    /// once; nothing elsewhere.
+    /// What find() finds where that is in the inside of the triangle that it begins from, or of one
+    /// next to it, at once; nothing elsewhere.
     std::optional<Over> stay(Vector3d point, std::uint32_t from) const {
-        if (from >= insides_.size()) return std::nullopt;
-        const Inside& inside = insides_[from];
-        const Over over = inside.over(point);
-        if (!inside.is_nearest(over)) return std::nullopt;
-        return over;
+        for (int moves = 0; moves <= most_moves_of_stay && from < triangles_.size(); ++moves) {
+            const Inside& inside = insides_.data()[from];
+            Over over = inside.over(point);
+            over.triangle = from;
+            if (inside.is_nearest(over)) return over;
+            const std::size_t corner = inside.farthest_edge(over);
+            // Too near to an edge, or not finite.
+            if (!(over.weights[corner] < 0)) return std::nullopt;
+            from = inside.across[corner];
+        }
+        return std::nullopt;
     }
 
 private:
+    static constexpr int most_moves_of_stay = 2;
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     /// A triangle as points near it need it, side by side in memory.
     struct alignas(64) Inside {
@@ -67,11 +77,19 @@ private:
         /// How steeply the triangles around rise on the side of the normal and on the other one:
         /// see steepness_around().
         std::array<float, 2> steepness{};
+        std::array<std::uint32_t, 3> across{};  ///< By corner: the triangle over the opposite edge.
 
         Over over(Vector3d point) const {
             const Vector3d at = point - corner;
             const double second = dot(of_second, at), third = dot(of_third, at);
-            return {{1 - second - third, second, third}, dot(normal, at), normal};
+            return {{1 - second - third, second, third}, dot(normal, at), normal, 0};
+        }
+        /// The corner opposite to the edge that a point is farthest beyond.
+        std::size_t farthest_edge(const Over& over) const {
+            std::array<double, 3> within{};
+            for (std::size_t k = 0; k < 3; ++k) within[k] = double{heights[k]} * over.weights[k];
+            return static_cast<std::size_t>(std::min_element(within.begin(), within.end()) -
+                                            within.begin());
         }
         /// Is no place of the triangles around nearer? They are all beyond the edges, and rise
         /// towards the point more slowly than a ball around it that touches this one. Very near to
@@ -104,7 +122,7 @@ private:
     Found found(const Near& near, Vector3d point) const;
 
     NearestPlace all_;
-    std::vector<Inside> insides_;
+    AlignedArray<Inside> insides_;  ///< By triangle; many of them lie in few pages of memory.
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> ends_;  ///< Those around triangle t end before around_[ends_[t]].
     std::vector<std::uint32_t>

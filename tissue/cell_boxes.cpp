@@ -8,11 +8,6 @@
 namespace cascade {
 namespace {
 
-/// The difference to the nearest image.
-double nearest(double difference, double period) {
-    return period > 0 ? difference - period * std::nearbyint(difference / period) : difference;
-}
-
 /// Up to this number, comparing all pairs is faster than to sort: it takes no branches.
 constexpr std::size_t most_compared = 48;
 
@@ -41,7 +36,7 @@ CellBoxes::CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& r
     double widest = 0;
     Vector3d low = cells[0].place, high = low;
     for (const BoxedCell& cell : cells) {
-        widest = std::max(widest, std::max(cell.reach, rule.near / 2) + cell.slack);
+        widest = std::max(widest, width_of(cell, rule));
         const Vector3d& p = cell.place;
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -60,17 +55,9 @@ void CellBoxes::look(const BoxedCell& own, std::int64_t first, std::int64_t last
     const NeighbourKeys::Room room = found.room_for(static_cast<std::size_t>(end - at));
     std::size_t next = 0;
     for (; at != end; ++at) {
-        Vector3d apart = at->place - own.place;
-        if constexpr (is_periodic) {
-            apart = {nearest(apart.x, rule_.period[0]), nearest(apart.y, rule_.period[1]),
-                     nearest(apart.z, rule_.period[2])};
-        }
-        // Both cells of a pair compute the same bits.
-        const double distance =
-            std::max(own.reach + at->reach, rule_.near) + (own.slack + at->slack);
         room.cells[next] = at->cell;
         room.ranks[next] = static_cast<std::int32_t>(at->rank);
-        next += static_cast<unsigned>(dot(apart, apart) < distance * distance) &
+        next += static_cast<unsigned>(are_near<is_periodic>(own, *at, rule_)) &
                 static_cast<unsigned>(at->cell != own.cell);
     }
     found.add(next);
@@ -97,10 +84,10 @@ void CellBoxes::find_as(const BoxedCell& own, NeighbourKeys& found) const {
 }
 
 void CellBoxes::find(const BoxedCell& own, NeighbourKeys& found) const {
-    if (rule_.period == std::array<double, 3>{}) {
-        find_as<false>(own, found);
-    } else {
+    if (repeats(rule_)) {
         find_as<true>(own, found);
+    } else {
+        find_as<false>(own, found);
     }
 }
 

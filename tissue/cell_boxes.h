@@ -19,6 +19,35 @@ struct BoxedCell {
     std::uint32_t cell = 0, rank = 0;
 };
 
+/// A cell with this skin.
+inline BoxedCell boxed(const CellPlaces& cells, std::uint32_t cell, const NeighbourRule& rule,
+                       double skin) {
+    const double radius = cells.radii[cell];
+    return {cells.places[cell], rule.reach * radius, slack_of(rule, skin, radius), cell,
+            cells.ranks[cell]};
+}
+/// Half the distance at which two such cells are neighbours.
+inline double width_of(const BoxedCell& cell, const NeighbourRule& rule) {
+    return std::max(cell.reach, rule.near / 2) + cell.slack;
+}
+/// The difference to the nearest image of a cell, along an axis.
+inline double nearest_image(double difference, double period) {
+    return period > 0 ? difference - period * std::nearbyint(difference / period) : difference;
+}
+/// Are two cells neighbours? The same for both, to the last bit.
+template <bool is_periodic>
+bool are_near(const BoxedCell& own, const BoxedCell& other, const NeighbourRule& rule) {
+    Vector3d apart = other.place - own.place;
+    if constexpr (is_periodic) {
+        apart = {nearest_image(apart.x, rule.period[0]), nearest_image(apart.y, rule.period[1]),
+                 nearest_image(apart.z, rule.period[2])};
+    }
+    const double distance =
+        std::max(own.reach + other.reach, rule.near) + (own.slack + other.slack);
+    return dot(apart, apart) < distance * distance;
+}
+inline bool repeats(const NeighbourRule& rule) { return rule.period != std::array<double, 3>{}; }
+
 /// The neighbours found for a cell.
 class NeighbourKeys {
 public:
@@ -42,6 +71,16 @@ public:
         ++count_;
     }
     void clear() { count_ = 0; }
+    /// Leaves out the cells for which `is_out` is true.
+    void leave_out(const auto& is_out) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < count_; ++k) {
+            if (is_out(cells_[k])) continue;
+            cells_[kept] = cells_[k];
+            ranks_[kept++] = ranks_[k];
+        }
+        count_ = kept;
+    }
     std::span<const std::uint32_t> cells() const { return {cells_.data(), count_}; }
     std::size_t count() const { return count_; }
 

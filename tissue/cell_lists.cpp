@@ -2,12 +2,21 @@
 #include "tissue/cell_lists.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cascade {
 namespace {
 
 /// Cells are put in order again when this part of the links more than then has become far.
 constexpr double far_part_to_order = 0.1;
+/// Lists last for this number of steps in which cells move as in the last one.
+constexpr double steps_of_lists = 6;
+constexpr double most_skin = 1;
+/// What a step is expected to take of a skin, in steps like the last one, and the part of the skin
+/// that this may be at most.
+constexpr double expected_steps = 1.5, part_of_skin = 0.8;
+/// The rest is left for rounding.
+constexpr double part_of_room = 1 - 1e-6;
 /// Fewer cells are all near in memory.
 constexpr std::size_t least_cells_to_order = 4096;
 
@@ -46,6 +55,7 @@ void CellLists::read(const Tissue& tissue, const std::vector<Field>& state) {
 
 void CellLists::begin_step(const Tissue& tissue) {
     read(tissue, tissue.species);
+    mean_radius_ = rule_.mean_radius;
     watch_->begin_step(places_, radii_, rule_);
 }
 
@@ -68,30 +78,91 @@ bool CellLists::reach(const Tissue& tissue, const std::vector<Field>& state, dou
     return all;
 }
 
-void CellLists::end_step(const Tissue& tissue) {
+void CellLists::end_step(Tissue& tissue) {
     each_place(tissue, species_, tissue.species,
                [&](std::size_t cell, Vector3d place, double radius) {
                    watch_->look(cell, place, radius);
+                   tissue.restlessness[cell] = static_cast<float>(watch_->way_of(cell, place));
                });
+}
+
+/// A skin that lasts for some steps like the last one.
+double CellLists::skin_of(const Tissue& tissue, std::size_t cell, double least) const {
+    const double wanted = steps_of_lists * double{tissue.restlessness[cell]};
+    return std::max(least, std::min(most_skin, wanted));
+}
+
+/// In the list and in the table, where a few places are padding.
+double CellLists::most_links() const {
+    return most_bytes_ / (sizeof(std::uint32_t) + 2 * sizeof(std::int16_t));
 }
 
 Result<void> CellLists::build(const Tissue& tissue, const std::vector<Field>& state, bool is_full) {
     read(tissue, state);
-    const double skin = is_full ? MovementWatch::full_skin : skin_;
-    // In the list and in the table, where a few places are padding.
-    const double bytes_of_link = sizeof(std::uint32_t) + 2 * sizeof(std::int16_t);
-    auto lists = find_neighbours({places_, radii_, tissue.ranks()}, rule_, skin,
-                                 most_bytes_ / bytes_of_link, team_);
+    skins_.clear();
+    const double least = is_full ? std::max(skin_, MovementWatch::full_skin) : skin_;
+    for (std::size_t cell = 0; cell < tissue.count(); ++cell) {
+        skins_.push_back(static_cast<float>(skin_of(tissue, cell, least)));
+    }
+    NeighbourSearch search({places_, radii_, tissue.ranks(), skins_}, rule_, 0);
+    auto lists = find_neighbours(search, tissue.ranks(), most_links(), team_);
     if (!lists) return tl::unexpected(lists.error());
-    const double far_part = static_cast<double>(lists->far_links) /
-                            static_cast<double>(std::max<std::size_t>(1, lists->neighbours.size()));
+    kept_.start(std::move(*lists), std::move(search));
+    watch_->begin_lists(places_, radii_, rule_, skins_);
+    take(tissue);
+    ++builds_;
+    return {};
+}
+
+Result<void> CellLists::renew(const Tissue& tissue, std::span<const std::uint32_t> cells) {
+    read(tissue, tissue.species);
+    skins_.resize(tissue.count());
+    std::vector<BoxedCell> marks;
+    bool is_small_enough = true;
+    for (const std::uint32_t cell : cells) {
+        // As wide as the boxes of the last search allow.
+        const double radius = radii_[cell], extent = slack_of(rule_, 1, radius);
+        const double room = kept_.widest() - std::max(rule_.reach * radius, rule_.near / 2);
+        const double most = extent > 0 ? part_of_room * room / extent : most_skin;
+        const double skin = std::min(most, skin_of(tissue, cell, skin_));
+        is_small_enough = is_small_enough && skin >= skin_;
+        skins_[cell] = static_cast<float>(skin);
+        marks.push_back(
+            boxed({places_, radii_, tissue.ranks(), {}}, cell, rule_, double{skins_[cell]}));
+    }
+    if (!is_small_enough || !kept_.renew(marks, tissue.ranks(), most_links())) {
+        return build(tissue, tissue.species, false);
+    }
+    for (const std::uint32_t cell : cells) {
+        watch_->renew(cell, places_[cell], radii_[cell], rule_, double{skins_[cell]});
+    }
+    take(tissue);
+    return {};
+}
+
+Result<void> CellLists::renew_restless(const Tissue& tissue) {
+    std::vector<std::uint32_t> restless;
+    each_place(tissue, species_, tissue.species,
+               [&](std::size_t cell, Vector3d place, double radius) {
+                   // A new list at this place would last no longer than its skin.
+                   const double way = std::min(expected_steps * double{tissue.restlessness[cell]},
+                                               part_of_skin * double{skins_[cell]});
+                   if (watch_->reaches(cell, place, radius, slack_of(rule_, way, radius))) return;
+                   restless.push_back(static_cast<std::uint32_t>(cell));
+               });
+    if (restless.empty()) return {};
+    return renew(tissue, restless);
+}
+
+/// Makes the table of links that kernels read.
+void CellLists::take(const Tissue& tissue) {
+    const NeighbourLists& lists = kept_.lists();
+    const double far_part = static_cast<double>(lists.far_links) /
+                            static_cast<double>(std::max<std::size_t>(1, lists.neighbours.size()));
     if (is_just_ordered_) far_part_ = far_part;
     is_just_ordered_ = false;
     is_disordered_ = far_part > far_part_ + far_part_to_order;
-    links_.assign({lists->ends, lists->neighbours}, tissue.layout(), tissue.precision());
-    watch_->begin_lists(places_, radii_, rule_, skin);
-    ++builds_;
-    return {};
+    links_.assign({lists.ends, lists.neighbours}, tissue.layout(), tissue.precision());
 }
 
 }  // namespace cascade

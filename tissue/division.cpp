@@ -56,6 +56,8 @@ Divided divide(Tissue& tissue, std::span<const CellEvent> events,
         const Vector3d half = along * (tissue.value(places.species.radius, mother) / 2);
         put(tissue, places, mother, place - half);
         put(tissue, places, child, place + half);
+        // They overlap, and will push each other.
+        tissue.restlessness[mother] = tissue.restlessness[child] = 1;
         result.mothers.push_back(mother);
         result.children.push_back(child);
     }

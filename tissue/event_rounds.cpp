@@ -17,15 +17,20 @@ std::vector<Field>& EventRounds::run(const CellValues& values,
     return stepper_.values().run(values, tissue_.species, tissue_, stepper_.moment(0), among);
 }
 
-std::optional<TissueFailure> EventRounds::happen(std::vector<CellEvent> events) {
+std::optional<TissueFailure> EventRounds::happen(std::vector<CellEvent> events, bool are_all) {
     const auto ranks = tissue_.ranks();
     std::sort(events.begin(), events.end(), [&](const CellEvent& a, const CellEvent& b) {
         return ranks[a.cell] < ranks[b.cell];
     });
+    const bool is_alone = rules_.conditions().values.is_of_cell_alone;
     while (tissue_.count() > 0) {
         if (events.empty()) {
+            std::span<const std::uint32_t> among;
+            if (is_alone && are_all) among = changed_;
+            if (is_alone && are_all && changed_.empty()) break;
             events = events_at(rules_.conditions(), tissue_.species, tissue_, stepper_.moment(0),
-                               stepper_.values());
+                               stepper_.values(), among);
+            are_all = true;
         }
         if (events.empty()) break;
         if (auto failure = one_round(events)) return failure;
@@ -62,12 +67,19 @@ std::optional<TissueFailure> EventRounds::one_round(std::span<const CellEvent> e
         const int count = ++divisions_[tissue_.numbers()[divided.mothers[k]]];
         divisions_[tissue_.numbers()[divided.children[k]]] = count;
     }
+    changed_ = divided.mothers;
+    changed_.insert(changed_.end(), divided.children.begin(), divided.children.end());
+    std::sort(changed_.begin(), changed_.end(),
+              [ranks = tissue_.ranks()](auto a, auto b) { return ranks[a] < ranks[b]; });
     if (tissue_.count() == 0) return std::nullopt;
     if (auto failure = find_not_finite(tissue_)) return failure;
     std::vector<CellEvent> dividing;
     std::copy_if(events.begin(), events.end(), std::back_inserter(dividing),
                  [](const CellEvent& event) { return !event.dies; });
-    auto built = stepper_.cells_changed(divided.has_moved);
+    // Where cells have gone, all are elsewhere in memory.
+    const bool has_deaths = dividing.size() < events.size();
+    auto built = stepper_.cells_changed(divided.has_moved,
+                                        has_deaths ? std::span<const std::uint32_t>() : changed_);
     if (built && !dividing.empty()) {
         restart(dividing, divided);
         built = carry(dividing, divided);
@@ -136,6 +148,7 @@ void EventRounds::restart(std::span<const CellEvent> dividing, const Divided& di
 /// begin with what their mother is at the end; so their rates are counted from hers, but for values
 /// that have started again. The other cells are where they are at the end.
 Result<void> EventRounds::carry(std::span<const CellEvent> dividing, const Divided& divided) {
+    std::vector<std::uint32_t> cells;
     struct Value {
         std::uint32_t cell;
         std::size_t species;
@@ -146,7 +159,9 @@ Result<void> EventRounds::carry(std::span<const CellEvent> dividing, const Divid
     const std::vector<std::size_t> restarted = rules_.restarts().species;
     for (std::size_t n = 0; n < dividing.size(); ++n) {
         const CellEvent& event = dividing[n];
+        if (event.left == 0) continue;
         most = std::max(most, event.left);
+        cells.insert(cells.end(), {divided.mothers[n], divided.children[n]});
         for (std::size_t k = 0; k < event.values.size(); ++k) {
             const bool is_new = std::find(restarted.begin(), restarted.end(), k) != restarted.end();
             const double rate = is_new ? 0 : event.mean_rates[k];
@@ -158,7 +173,7 @@ Result<void> EventRounds::carry(std::span<const CellEvent> dividing, const Divid
     const double steps = std::max(1.0, std::ceil(most * tissue_.time.stiffness / 2));
     for (int half_step = 0; half_step < 2 * steps; ++half_step) {
         if (auto reached = stepper_.reach(tissue_.species); !reached) return reached;
-        const std::vector<Field>& rates = run(rules_.rates());
+        const std::vector<Field>& rates = run(rules_.rates(), cells);
         for (Value& each : values) {
             const double rate =
                 value_in(rates[each.species], tissue_, each.cell) - each.mothers_rate;

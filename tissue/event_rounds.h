@@ -26,9 +26,9 @@ public:
           stepper_(stepper) {}
 
     /// Lets the events of a step happen and carries their cells to its end, which is now; then all
-    /// those whose conditions hold now, again and again until there are none. Returns the failure
-    /// that ends the stage, if there is one.
-    std::optional<TissueFailure> happen(std::vector<CellEvent> events);
+    /// those whose conditions hold now, again and again until there are none. `are_all`: none holds
+    /// now for any other cell. Returns the failure that ends the stage, if there is one.
+    std::optional<TissueFailure> happen(std::vector<CellEvent> events, bool are_all);
     /// Has any cell divided or died?
     bool has_changed() const { return has_changed_; }
 
@@ -49,6 +49,8 @@ private:
     TissueStepper& stepper_;
     std::map<std::uint32_t, int> divisions_;  ///< By number, in the history of each cell.
     bool has_changed_ = false;
+    /// The cells of the last round's divisions, by number.
+    std::vector<std::uint32_t> changed_;
 };
 
 }  // namespace cascade

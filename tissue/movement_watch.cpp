@@ -48,6 +48,9 @@ using SpeciesPlane = StepProblem::SpeciesPlane;
 
 namespace {
 
+/// The rest of a slack is left for rounding.
+constexpr double part_for_rounding = 0.98;
+
 double limit_of(const NeighbourRule& rule, double part, double radius) {
     const double extent = slack_of(rule, 1, radius);
     return extent > 0 ? part * extent : std::numeric_limits<double>::infinity();
@@ -56,12 +59,19 @@ double limit_of(const NeighbourRule& rule, double part, double radius) {
 }  // namespace
 
 void MovementWatch::begin_lists(std::span<const Vector3d> places, std::span<const double> radii,
-                                const NeighbourRule& rule, double skin) {
+                                const NeighbourRule& rule, std::span<const float> skins) {
     reach_ = rule.reach;
     listed_.clear();
     for (std::size_t k = 0; k < places.size(); ++k) {
-        listed_.push_back({places[k], radii[k], limit_of(rule, 0.98 * skin, radii[k])});
+        listed_.push_back(
+            {places[k], radii[k], limit_of(rule, part_for_rounding * skins[k], radii[k])});
     }
+}
+
+void MovementWatch::renew(std::size_t cell, Vector3d place, double radius,
+                          const NeighbourRule& rule, double skin) {
+    listed_.resize(std::max(listed_.size(), cell + 1));
+    listed_[cell] = {place, radius, limit_of(rule, part_for_rounding * skin, radius)};
 }
 
 void MovementWatch::begin_step(std::span<const Vector3d> places, std::span<const double> radii,
@@ -79,6 +89,10 @@ bool MovementWatch::is_within(const Mark& mark, Vector3d place, double radius,
     const Vector3d way = place - mark.place;
     const double left = mark.limit - around - reach_ * std::max(radius - mark.radius, 0.0);
     return left >= 0 && dot(way, way) <= left * left;
+}
+
+double MovementWatch::way_of(std::size_t cell, Vector3d place) const {
+    return length(place - started_[cell].place) / started_[cell].limit * most_of_radius;
 }
 
 void MovementWatch::look(std::size_t cell, Vector3d place, double radius) {

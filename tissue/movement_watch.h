@@ -25,9 +25,12 @@ public:
     /// for rounding.
     static constexpr double full_skin = 0.52;
 
-    /// Lists have been built with this skin for cells at these places.
+    /// Lists have been built with these skins for cells at these places.
     void begin_lists(std::span<const Vector3d> places, std::span<const double> radii,
-                     const NeighbourRule& rule, double skin);
+                     const NeighbourRule& rule, std::span<const float> skins);
+    /// The list of one cell, which may be a new one, has been found again at this place.
+    void renew(std::size_t cell, Vector3d place, double radius, const NeighbourRule& rule,
+               double skin);
     /// A step begins at these places.
     void begin_step(std::span<const Vector3d> places, std::span<const double> radii,
                     const NeighbourRule& rule);
@@ -44,6 +47,8 @@ public:
     bool reaches(std::size_t cell, Vector3d place, double radius, double around) const {
         return is_within(listed_[cell], place, radius, around);
     }
+    /// How far a cell has gone from where the step began, as a skin that it would take.
+    double way_of(std::size_t cell, Vector3d place) const;
     std::size_t count() const { return listed_.size(); }
 
 private:

@@ -1,11 +1,8 @@
-// Boxes for each octave of radii. A cell looks for those of its own octave and of larger ones, so
-// boxes are never much smaller than the distance that is searched; the larger ones are told of the
-// pairs that smaller cells have found.
+// Cells look for neighbours; larger ones are told of the pairs that smaller cells have found.
 #include "tissue/neighbours.h"
 
-#include "core/check.h"
 #include "core/morton.h"
-#include "tissue/cell_boxes.h"
+#include "tissue/neighbour_search.h"
 
 #include <fmt/format.h>
 
@@ -17,80 +14,9 @@
 namespace cascade {
 namespace {
 
-/// Cells this far apart in memory do not share a near cache.
-constexpr std::uint32_t far_in_memory = 2048;
-constexpr std::size_t most_levels = 32;
-
 /// Neighbours of different octaves.
 struct Pair {
     std::uint32_t larger = 0, smaller = 0;
-};
-
-/// The cells of each octave in boxes.
-class Search {
-public:
-    Search(const CellPlaces& cells, const NeighbourRule& rule, double skin) {
-        double widest = 0;
-        for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {
-            const double radius = cells.radii[cell];
-            entries_.push_back({cells.places[cell], rule.reach * radius,
-                                slack_of(rule, skin, radius), cell, cells.ranks[cell]});
-            widest = std::max(widest, width_of(entries_.back(), rule));
-        }
-        if (widest == 0) return;
-        std::vector<std::vector<BoxedCell>> octaves(most_levels);
-        levels_.resize(entries_.size());
-        for (const BoxedCell& entry : entries_) {
-            const double width = width_of(entry, rule);
-            const int octave = width > 0 ? std::ilogb(widest / width) : most_levels;
-            const auto level = std::min(static_cast<std::size_t>(octave), most_levels - 1);
-            levels_[entry.cell] = static_cast<std::uint8_t>(level);
-            octaves[level].push_back(entry);
-        }
-        for (std::size_t level = 0; level < most_levels; ++level) {
-            if (octaves[level].empty()) continue;
-            boxes_.emplace_back(std::move(octaves[level]), rule);
-            level_of_boxes_.push_back(static_cast<std::uint8_t>(level));
-        }
-    }
-
-    std::size_t count() const { return entries_.size(); }
-    bool finds_nothing() const { return boxes_.empty(); }
-
-    /// The keys of a cell's neighbours: first of those in larger octaves, whose number is returned,
-    /// then of those in its own.
-    std::size_t find(std::uint32_t cell, NeighbourKeys& found) const {
-        found.clear();
-        std::size_t larger = 0;
-        for (std::size_t k = 0; k < boxes_.size() && level_of_boxes_[k] <= levels_[cell]; ++k) {
-            if (level_of_boxes_[k] == levels_[cell]) larger = found.count();
-            boxes_[k].find(entries_[cell], found);
-        }
-        return larger;
-    }
-
-    /// The number of links, estimated from some of the cells.
-    double estimated_links() const {
-        const std::size_t stride = (count() + 63) / 64;
-        std::size_t links = 0, looked_at = 0;
-        NeighbourKeys found;
-        for (std::size_t cell = 0; cell < count(); cell += stride, ++looked_at) {
-            const std::size_t larger = find(static_cast<std::uint32_t>(cell), found);
-            links += found.count() + larger;
-        }
-        return static_cast<double>(links) * static_cast<double>(count()) /
-               static_cast<double>(std::max<std::size_t>(looked_at, 1));
-    }
-
-private:
-    static double width_of(const BoxedCell& entry, const NeighbourRule& rule) {
-        return std::max(entry.reach, rule.near / 2) + entry.slack;
-    }
-
-    std::vector<BoxedCell> entries_;  ///< By cell.
-    std::vector<std::uint8_t> levels_;
-    std::vector<CellBoxes> boxes_;  ///< From the largest cells to the smallest.
-    std::vector<std::uint8_t> level_of_boxes_;
 };
 
 /// The lists of a thread's cells.
@@ -101,7 +27,7 @@ struct Part {
     std::size_t far_links = 0;
 };
 
-void search_part(const Search& search, RowRange cells, std::atomic<std::int64_t>& left,
+void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std::int64_t>& left,
                  Part& part) {
     constexpr std::int64_t cells_at_once = 256;  // Between two looks at what is left.
     part.neighbours.reserve(static_cast<std::size_t>(16 * (cells.end - cells.begin)));
@@ -121,7 +47,7 @@ void search_part(const Search& search, RowRange cells, std::atomic<std::int64_t>
         const std::span<const std::uint32_t> sorted = found.sorted();
         part.neighbours.insert(part.neighbours.end(), sorted.begin(), sorted.end());
         for (const std::uint32_t other : sorted) {
-            part.far_links += other - cell + far_in_memory > 2 * far_in_memory ? 1 : 0;
+            part.far_links += is_far_link(cell, other) ? 1 : 0;
         }
         part.counts.push_back(sorted.size());
         links += static_cast<std::int64_t>(sorted.size() + larger);
@@ -170,10 +96,13 @@ tl::unexpected<Failure> too_many(std::size_t cells, double links, double most_li
 
 Result<NeighbourLists> find_neighbours(const CellPlaces& cells, const NeighbourRule& rule,
                                        double skin, double most_links, Team& team) {
-    CHECK(cells.places.size() == cells.radii.size() && cells.places.size() == cells.ranks.size(),
-          "each cell has a radius and a rank");
+    return find_neighbours(NeighbourSearch(cells, rule, skin), cells.ranks, most_links, team);
+}
+
+Result<NeighbourLists> find_neighbours(const NeighbourSearch& search,
+                                       std::span<const std::uint32_t> ranks, double most_links,
+                                       Team& team) {
     NeighbourLists lists;
-    const Search search(cells, rule, skin);
     if (search.finds_nothing()) {
         lists.ends.assign(search.count(), 0);
         return lists;
@@ -202,7 +131,7 @@ Result<NeighbourLists> find_neighbours(const CellPlaces& cells, const NeighbourR
         pairs.insert(pairs.end(), part.pairs.begin(), part.pairs.end());
         lists.far_links += part.far_links;
     }
-    if (!pairs.empty()) add_pairs(pairs, cells.ranks, lists);
+    if (!pairs.empty()) add_pairs(pairs, ranks, lists);
     return lists;
 }
 

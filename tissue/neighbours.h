@@ -39,6 +39,7 @@ struct CellPlaces {
     std::span<const Vector3d> places;
     std::span<const double> radii;         ///< At least 0.
     std::span<const std::uint32_t> ranks;  ///< Their order by number: 0, 1, …
+    std::span<const float> skins = {};     ///< Of each cell; empty: that of the search.
 };
 
 /// The lists of all cells.

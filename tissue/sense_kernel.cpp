@@ -45,13 +45,30 @@ private:
                 const std::int64_t at = layout.row_start(row) + column;
                 const Vector3d point = {arguments.fields[0][at], arguments.fields[1][at],
                                         arguments.fields[2][at]};
-                const NearPlace near = surroundings_->near(point, triangles_->before[cell]);
+                NearPlace other;
+                const NearPlace& near = find(point, cell, place < count, other);
                 if (place < count) triangles_->now[cell] = near.place.triangle;
                 for (std::size_t k = 0; k < senses_.size(); ++k) {
                     arguments.results[k][at] = static_cast<Number>(value_of(senses_[k], near));
                 }
             }
         }
+    }
+
+    /// `is_own`: the place is that of the cell, not one after the last cell, for which `other` is
+    /// used.
+    const NearPlace& find(Vector3d point, std::size_t cell, bool is_own, NearPlace& other) const {
+        const std::uint32_t from = triangles_->before[cell];
+        if (!is_own || triangles_->found.empty()) {
+            return other = surroundings_->near(point, from);
+        }
+        NearTriangles::Found& found = triangles_->found[cell];
+        if (found.point != point || found.from != from) {
+            found.point = point;
+            found.from = from;
+            found.near = surroundings_->near(point, from);
+        }
+        return found.near;
     }
 
     static double value_of(const Sense& sense, const NearPlace& near) {

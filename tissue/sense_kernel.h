@@ -6,9 +6,11 @@
 #include "surface/cell_filter.h"
 #include "tissue/surroundings.h"
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -39,6 +41,21 @@ PlaceValue of_grid(const Field& values, Boundaries boundary);
 struct NearTriangles {
     std::vector<std::uint32_t> before;  ///< At the last complete step: one for each cell.
     std::vector<std::uint32_t> now;     ///< Where the last evaluation found the cell.
+
+    /// The last place that was found for a cell: often several kernels ask for the same one.
+    struct Found {
+        Vector3d point;
+        std::uint32_t from = 0;  ///< The triangle at which the search began.
+        NearPlace near;
+    };
+    std::vector<Found> found;  ///< One for each cell, or none at all.
+
+    /// Begins at the triangles of a complete step.
+    void begin(std::span<const std::uint32_t> triangles) {
+        before.assign(triangles.begin(), triangles.end());
+        now = before;
+        found.resize(before.size(), {{NAN, 0, 0}, 0, {}});
+    }
 };
 
 /// Fields: the three components of place. Results: one for each sense. `triangles` must have an

@@ -1,6 +1,7 @@
 // Surfaces and boxes.
 #include "tissue/surroundings.h"
 
+#include "core/links.h"
 #include "mesh/normals.h"
 #include "surface/curvature.h"
 
@@ -21,9 +22,13 @@ NearPlace near_nothing(Vector3d point) {
 class AroundSurface : public Surroundings {
 public:
     explicit AroundSurface(const SurfaceMesh& mesh)
-        : mesh_(mesh), follower_(mesh), normals_(sphere_normals(mesh)) {
-        for (const auto& [a, b, c] : mesh.triangles) {
-            corner_normals_.push_back({normals_[a], normals_[b], normals_[c]});
+        : mesh_(mesh),
+          follower_(mesh),
+          normals_(sphere_normals(mesh)),
+          corner_normals_(mesh.triangles.size()) {
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const auto& [a, b, c] = mesh.triangles[t];
+            corner_normals_.data()[t] = {normals_[a], normals_[b], normals_[c]};
         }
         for (const auto& edges : mesh.across) {
             for (const TriangleEdge& edge : edges) is_open_ = is_open_ || !edge.exists();
@@ -34,9 +39,9 @@ public:
         NearPlace near = near_nothing(point);
         near.place.triangle = triangle;
         if (const auto over = follower_.stay(point, triangle)) {
-            near.place.weights = over->weights;
+            near.place = {over->triangle, over->weights};
             near.position = point - over->normal * over->height;
-            near.normal = normal_of(triangle, over->weights);
+            near.normal = normal_of(over->triangle, over->weights);
             near.off = std::copysign(over->height, dot(point - near.position, near.normal));
             return near;
         }
@@ -51,11 +56,11 @@ public:
         return near;
     }
     void prepare(std::uint32_t triangle) const override {
-        if (triangle >= corner_normals_.size()) return;
+        if (triangle >= mesh_.triangles.size()) return;
         follower_.prepare(triangle);
-        const auto* const normals = reinterpret_cast<const char*>(&corner_normals_[triangle]);
+        const auto* const normals = corner_normals_.data() + triangle;
         __builtin_prefetch(normals);
-        __builtin_prefetch(normals + sizeof(corner_normals_[0]) - 1);
+        __builtin_prefetch(reinterpret_cast<const char*>(normals + 1) - 1);
     }
     Vector3d held_inside(Vector3d point, const NearPlace& near) const override {
         return near.is_beyond ? near.position + near.normal * near.off : point;
@@ -71,15 +76,15 @@ public:
 private:
     /// As normal_at(), which looks for the corners' normals in several places.
     Vector3d normal_of(std::uint32_t triangle, const std::array<double, 3>& weights) const {
-        const auto& [a, b, c] = corner_normals_[triangle];
+        const auto& [a, b, c] = corner_normals_.data()[triangle];
         const Vector3d sum = a * weights[0] + b * weights[1] + c * weights[2];
         return dot(sum, sum) > 0 ? unit(sum) : normal_at(mesh_, normals_, {triangle, weights});
     }
 
     const SurfaceMesh& mesh_;
     PlaceFollower follower_;
-    std::vector<Vector3d> normals_;                        ///< By point,
-    std::vector<std::array<Vector3d, 3>> corner_normals_;  ///< and by triangle and corner.
+    std::vector<Vector3d> normals_;                         ///< By point,
+    AlignedArray<std::array<Vector3d, 3>> corner_normals_;  ///< and by triangle and corner.
     bool is_open_ = false;
 };
 

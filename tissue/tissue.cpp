@@ -7,17 +7,19 @@
 #include <bit>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 namespace cascade {
 namespace {
 
-/// Calls `use(address, first cell, number of cells)` for each row up to `cells` cells.
+/// Calls `use(address, first cell, number of cells)` for each row of the cells `first` … `end` − 1.
 template <typename Number>
-void for_each_row(Plane<Number>& plane, std::size_t cells, const auto& use) {
+void for_each_row(Plane<Number>& plane, std::size_t first, std::size_t end, const auto& use) {
     const auto width = static_cast<std::size_t>(plane.layout().width);
-    for (std::size_t first = 0; first < cells; first += width) {
-        use(plane.row(static_cast<std::int64_t>(first / width)), first,
-            std::min(width, cells - first));
+    while (first < end) {
+        const std::size_t column = first % width, count = std::min(width - column, end - first);
+        use(plane.row(static_cast<std::int64_t>(first / width)) + column, first, count);
+        first += count;
     }
 }
 
@@ -25,14 +27,25 @@ std::size_t capacity_of(const PlaneLayout& layout) {
     return static_cast<std::size_t>(layout.width * layout.height);
 }
 
-/// Writes the value of each cell, and that of the last cell into all places after it.
+/// Copies the last of `count` cells into all places after it.
 template <typename Number>
-void write(Plane<Number>& plane, std::span<const Number> values) {
-    for_each_row(plane, capacity_of(plane.layout()), [&](Number* row, auto first, auto count) {
-        for (std::size_t i = 0; i < count; ++i) {
-            row[i] = values.empty() ? Number{} : values[std::min(first + i, values.size() - 1)];
-        }
+void fill_after(Plane<Number>& plane, std::size_t count) {
+    const auto width = static_cast<std::size_t>(plane.layout().width);
+    const std::size_t last = std::max<std::size_t>(count, 1) - 1;
+    const Number value =
+        count == 0 ? Number{} : plane.row(static_cast<std::int64_t>(last / width))[last % width];
+    for_each_row(plane, count, capacity_of(plane.layout()),
+                 [&](Number* row, auto, auto places) { std::fill_n(row, places, value); });
+}
+
+/// Writes the values of the cells from `first` on, and that of the last one into all places after
+/// it.
+template <typename Number>
+void write(Plane<Number>& plane, std::span<const Number> values, std::size_t first = 0) {
+    for_each_row(plane, first, first + values.size(), [&](Number* row, auto begin, auto count) {
+        std::copy_n(values.data() + (begin - first), count, row);
     });
+    fill_after(plane, first + values.size());
 }
 
 template <typename Number>
@@ -70,22 +83,26 @@ std::vector<std::vector<double>> numbers_in(const std::vector<Field>& fields,
     return result;
 }
 
+/// Puts cell sources[k] at place first + k. Other places before the last one stay as they are,
+/// which must be none if the layout is another one.
 void rearrange_field(Field& field, const PlaneLayout& layout,
-                     std::span<const std::uint32_t> sources) {
+                     std::span<const std::uint32_t> sources, std::size_t first) {
     field.visit([&]<typename Number>(Plane<Number>& plane) {
         const std::vector<Number> values = read(plane, sources);
         if (plane.layout() != layout) plane = Plane<Number>(layout);
-        write<Number>(plane, values);
+        write<Number>(plane, values, first);
     });
 }
 
+/// The same for values by cell.
 template <typename Value>
-std::vector<Value> gathered(const std::vector<Value>& from,
-                            std::span<const std::uint32_t> sources) {
-    std::vector<Value> to;
-    to.reserve(sources.size());
-    for (const std::uint32_t source : sources) to.push_back(from[source]);
-    return to;
+void rearrange_values(std::vector<Value>& values, std::span<const std::uint32_t> sources,
+                      std::size_t first) {
+    std::vector<Value> moved;
+    moved.reserve(sources.size());
+    for (const std::uint32_t source : sources) moved.push_back(values[source]);
+    values.resize(first);
+    values.insert(values.end(), moved.begin(), moved.end());
 }
 
 void set_in(Field& field, std::int64_t element, double value) {
@@ -106,6 +123,7 @@ Tissue::Tissue(const TissueRecord& record, Precision precision)
       numbers_(record.numbers) {
     choose_layout(numbers_.size());
     triangles.resize(numbers_.size(), no_triangle);
+    restlessness.resize(numbers_.size());
     for (const std::vector<double>& values : record.species) {
         CHECK(values.size() == count(), "a value for each cell");
         species.push_back(field_of(values, layout_, precision_));
@@ -119,7 +137,11 @@ Tissue::Tissue(const TissueRecord& record, Precision precision)
         kept.push_back(values.empty() ? Field() : field_of(values, layout_, precision_));
     }
     frozen_by_ = record.frozen;
-    number_cells();
+    by_number_.resize(count());
+    std::iota(by_number_.begin(), by_number_.end(), std::uint32_t{0});
+    std::sort(by_number_.begin(), by_number_.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return numbers_[a] < numbers_[b]; });
+    number_cells(0);
     find_frozen();
 }
 
@@ -151,55 +173,73 @@ void Tissue::choose_layout(std::size_t cells) {
     layout_ = PlaneLayout(grid_);
 }
 
-void Tissue::number_cells() {
-    by_number_.resize(count());
-    std::iota(by_number_.begin(), by_number_.end(), std::uint32_t{0});
-    std::sort(by_number_.begin(), by_number_.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return numbers_[a] < numbers_[b]; });
+/// Fills what says the cells' numbers, of which those before `first` are known.
+void Tissue::number_cells(std::size_t first) {
     ranks_.resize(count());
     elements_by_number_.clear();
-    for (const std::uint32_t cell : by_number_) {
-        elements_by_number_.push_back(static_cast<std::uint32_t>(element(cell)));
+    for (std::uint32_t rank = 0; rank < count(); ++rank) {
+        ranks_[by_number_[rank]] = rank;
+        elements_by_number_.push_back(static_cast<std::uint32_t>(element(by_number_[rank])));
     }
-    for (std::uint32_t rank = 0; rank < by_number_.size(); ++rank) ranks_[by_number_[rank]] = rank;
     if (number_plane_.empty() || number_plane_.layout() != layout_) {
         number_plane_ = Field(layout_, precision_);
         inside_ = Mask(layout_);
         ones_ = Field(layout_, precision_);
+        first = 0;
     }
     number_plane_.visit([&]<typename Number>(Plane<Number>& plane) {
         using Word = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;
         std::vector<Number> words;
-        for (const std::uint32_t number : numbers_) {
-            words.push_back(std::bit_cast<Number>(static_cast<Word>(number)));
+        for (std::size_t cell = first; cell < count(); ++cell) {
+            words.push_back(std::bit_cast<Number>(static_cast<Word>(numbers_[cell])));
         }
-        write<Number>(plane, words);
+        write<Number>(plane, words, first);
     });
-    for_each_row(inside_, capacity_of(layout_), [&](std::uint8_t* row, auto first, auto places) {
-        for (std::size_t i = 0; i < places; ++i) row[i] = first + i < count() ? 1 : 0;
-    });
-    ones_.visit([&]<typename Number>(Plane<Number>& plane) {
-        for_each_row(plane, capacity_of(layout_), [&](Number* row, auto first, auto places) {
-            for (std::size_t i = 0; i < places; ++i) row[i] = first + i < count() ? 1 : 0;
-        });
-    });
+    const auto fill_ones = [&](auto* row, auto begin, auto places) {
+        for (std::size_t i = 0; i < places; ++i) row[i] = begin + i < count() ? 1 : 0;
+    };
+    for_each_row(inside_, first, capacity_of(layout_), fill_ones);
+    ones_.visit([&](auto& plane) { for_each_row(plane, first, capacity_of(layout_), fill_ones); });
 }
 
 bool Tissue::rearrange(std::span<const std::uint32_t> sources, std::size_t first_born) {
     const PlaneLayout before = layout_;
     const std::size_t room = capacity_of(layout_);
     if (sources.size() > room || sources.size() < room / 4) choose_layout(sources.size());
-    for (Field& field : species) rearrange_field(field, layout_, sources);
-    for (Field& field : stiffest) rearrange_field(field, layout_, sources);
-    for (Field& field : kept) {
-        if (!field.empty()) rearrange_field(field, layout_, sources);
+    std::size_t first = 0;  // Of the cells that change.
+    if (layout_ == before) {
+        while (first < std::min(sources.size(), count()) && sources[first] == first) ++first;
     }
-    triangles = gathered(triangles, sources);
-    numbers_ = gathered(numbers_, sources);
+    const std::span<const std::uint32_t> moved = sources.subspan(first);
+    for (Field& field : species) rearrange_field(field, layout_, moved, first);
+    for (Field& field : stiffest) rearrange_field(field, layout_, moved, first);
+    for (Field& field : kept) {
+        if (!field.empty()) rearrange_field(field, layout_, moved, first);
+    }
+    keep_order(sources, first_born);
+    rearrange_values(triangles, moved, first);
+    rearrange_values(restlessness, moved, first);
+    rearrange_values(numbers_, moved, first);
     for (std::size_t k = first_born; k < numbers_.size(); ++k) numbers_[k] = next_number++;
-    number_cells();
+    number_cells(first);
     find_frozen();
     return layout_ != before;
+}
+
+/// Cells keep their order by number, and those that are born follow.
+void Tissue::keep_order(std::span<const std::uint32_t> sources, std::size_t first_born) {
+    constexpr std::uint32_t nowhere = 0xffffffff;
+    std::vector<std::uint32_t> places(count(), nowhere);
+    for (std::uint32_t k = 0; k < first_born; ++k) places[sources[k]] = k;
+    std::vector<std::uint32_t> order;
+    order.reserve(sources.size());
+    for (const std::uint32_t cell : by_number_) {
+        if (places[cell] != nowhere) order.push_back(places[cell]);
+    }
+    for (auto k = static_cast<std::uint32_t>(first_born); k < sources.size(); ++k) {
+        order.push_back(k);
+    }
+    by_number_ = std::move(order);
 }
 
 void Tissue::freeze_by(std::size_t kept_plane) {
@@ -211,7 +251,7 @@ void Tissue::find_frozen() {
     if (!frozen_by_) return;
     if (frozen_.empty() || frozen_.layout() != layout_) frozen_ = Mask(layout_);
     kept[*frozen_by_].visit([&](const auto& plane) {
-        for_each_row(frozen_, capacity_of(layout_),
+        for_each_row(frozen_, 0, capacity_of(layout_),
                      [&](std::uint8_t* row, auto first, auto places) {
                          for (std::size_t i = 0; i < places; ++i) {
                              row[i] = plane.origin()[element(first + i)] != 0 ? 1 : 0;
@@ -222,14 +262,8 @@ void Tissue::find_frozen() {
 
 void Tissue::pad() {
     if (count() == 0) return;
-    const auto last = element(count() - 1);
     for (Field& field : species) {
-        field.visit([&](auto& plane) {
-            const auto value = plane.origin()[last];
-            for (std::size_t k = count(); k < capacity_of(layout_); ++k) {
-                plane.origin()[element(k)] = value;
-            }
-        });
+        field.visit([&](auto& plane) { fill_after(plane, count()); });
     }
 }
 

@@ -87,6 +87,9 @@ public:
     std::vector<Field> stiffest;
     /// By cell: the triangle nearest to it at the last complete step, or no_triangle.
     std::vector<std::uint32_t> triangles;
+    /// By cell: how far it may be expected to go in a step, as a skin of lists. No result depends
+    /// on it.
+    std::vector<float> restlessness;
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
     TissueTime time;
@@ -124,7 +127,8 @@ public:
 
 private:
     void choose_layout(std::size_t cells);
-    void number_cells();
+    void number_cells(std::size_t first);
+    void keep_order(std::span<const std::uint32_t> sources, std::size_t first_born);
     void find_frozen();
 
     Precision precision_;

@@ -192,7 +192,7 @@ private:
     /// Finds the events of a step. If they are many, the step ends before the others.
     bool finish_step(TriedStep tried, double length) {
         events_.clear();
-        is_quiet_ = false;
+        is_quiet_ = has_all_events_ = false;
         if (rules_.conditions().values.problem != nullptr) {
             const auto found = stepper_.events(tried, length);
             if (!found) {
@@ -201,6 +201,7 @@ private:
             }
             events_ = std::move(found->events);
             is_quiet_ = events_.empty();
+            has_all_events_ = found->has_all;
             length *= found->part;
         }
         const double t = stepper_.moment(length).next_t;
@@ -242,7 +243,7 @@ private:
                                                    period[2] > 0 ? moved.z : 0});
         }
         if (!is_changed) return;
-        is_quiet_ = false;
+        is_quiet_ = has_all_events_ = false;
         tissue_.pad();
         stepper_.forget_rates();
     }
@@ -252,7 +253,7 @@ private:
         EventRounds rounds(rules_, surroundings_, tissue_, species_, schedule_, stepper_);
         double last_event = time().t;
         if (!events_.empty()) last_event -= events_.back().left;
-        if (!is_quiet_) outcome_.failure = rounds.happen(std::move(events_));
+        if (!is_quiet_) outcome_.failure = rounds.happen(std::move(events_), has_all_events_);
         if (outcome_.failure) return false;
         if (rounds.has_changed()) {
             time().last_event = last_event;
@@ -292,6 +293,8 @@ private:
     std::vector<CellEvent> events_;  ///< Found by the last step and not yet happened.
     /// No condition holds at the end of the last step.
     bool is_quiet_ = false;
+    /// None holds there but for the cells of `events_`.
+    bool has_all_events_ = false;
     double now_ = 0;  ///< The present progress towards rest.
     bool is_started_ = false;
 };

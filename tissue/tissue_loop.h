@@ -37,7 +37,7 @@ struct TissueSchedule {
     bool has_exact_events = false;      ///< A step ends at each event.
     std::uint32_t seed = 0, stage = 0;  ///< For random directions of division.
     NeighbourRule neighbours;           ///< The period is that of the surroundings.
-    double skin = 0.15;                 ///< No result depends on it.
+    double skin = 0.3;                  ///< No result depends on it.
     double most_list_bytes = 4e9;
     std::size_t most_cells = 10'000'000;
     int threads = 1;

@@ -23,8 +23,17 @@ constexpr std::size_t cells_of_an_event = 20;
 /// A step ends at the latest this many of the shortest times in which rates act after an event.
 constexpr double most_of_stiffness = 4;
 
-/// The number of lists after a repeated step that are made to last for any step.
-constexpr int builds_after_repeat = 16;
+bool all_finite(const Tissue& tissue) {
+    return std::all_of(tissue.species.begin(), tissue.species.end(), [&](const Field& field) {
+        return field.visit([&](const auto& plane) {
+            bool all = true;
+            tissue.each_cell([&](std::size_t, std::int64_t at) {
+                all = all & std::isfinite(plane.origin()[at]);
+            });
+            return all;
+        });
+    });
+}
 
 NeighbourRule rule_of(const TissueSchedule& schedule, const Surroundings& surroundings) {
     NeighbourRule rule = schedule.neighbours;
@@ -44,6 +53,7 @@ TissueFailure failure_of(TissueFailure::Kind kind, const Tissue& tissue) {
 }
 
 std::optional<TissueFailure> find_not_finite(const Tissue& tissue) {
+    if (all_finite(tissue)) return std::nullopt;
     for (const std::uint32_t cell : tissue.by_number()) {
         for (std::size_t k = 0; k < tissue.species.size(); ++k) {
             if (std::isfinite(tissue.value(k, cell))) continue;
@@ -75,11 +85,14 @@ Result<void> TissueStepper::reach(const std::vector<Field>& state, double around
 }
 
 Result<void> TissueStepper::build_lists(const std::vector<Field>& state, bool is_full) {
-    auto built = lists_.build(tissue_, state, is_full || full_builds_ > 0);
-    full_builds_ = std::max(0, full_builds_ - 1);
+    auto built = lists_.build(tissue_, state, is_full);
+    count_cells();
+    return built;
+}
+
+void TissueStepper::count_cells() {
     const auto cells = static_cast<std::int64_t>(tissue_.count());
     for (auto& [stages, problem] : problems_) problem.cells_inside = cells;
-    return built;
 }
 
 Result<void> TissueStepper::order_cells() {
@@ -88,10 +101,12 @@ Result<void> TissueStepper::order_cells() {
     return cells_changed(false);
 }
 
-Result<void> TissueStepper::cells_changed(bool has_moved) {
-    triangles_->before = triangles_->now = tissue_.triangles;
-    auto built = build_lists(tissue_.species, false);
-    if (!built) return built;
+Result<void> TissueStepper::cells_changed(bool has_moved, std::span<const std::uint32_t> only) {
+    triangles_->begin(tissue_.triangles);
+    auto found =
+        only.empty() ? lists_.build(tissue_, tissue_.species, false) : lists_.renew(tissue_, only);
+    if (!found) return found;
+    count_cells();
     if (has_moved || !stepper_) {
         values_.clear();
         stepper_.reset();
@@ -146,8 +161,9 @@ std::vector<double> TissueStepper::sizes() {
 
 Result<TriedStep> TissueStepper::attempt(double length) {
     for (bool is_full = false;; is_full = true) {
-        const auto reached = reach(tissue_.species);
-        if (!reached) return tl::unexpected(reached.error());
+        if (const auto renewed = lists_.renew_restless(tissue_); !renewed) {
+            return tl::unexpected(renewed.error());
+        }
         lists_.begin_step(tissue_);
         stepper_->planes().take_back(tissue_.species);
         stepper_->use(problem(stages(length)));
@@ -166,7 +182,6 @@ Result<TriedStep> TissueStepper::attempt(double length) {
             return tried;
         }
         undo(tried);
-        full_builds_ = builds_after_repeat;
         const auto built = build_lists(tissue_.species, true);
         if (!built) return tl::unexpected(built.error());
     }
@@ -224,9 +239,10 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
 void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic,
                            StepEvents& result) {
     if (found.empty()) return;
+    const bool is_alone = rules_.conditions().values.is_of_cell_alone;
     const std::size_t most = schedule_.has_exact_events ? 0 : tissue_.count() / cells_of_an_event;
     const double length = cubic.moment.length;
-    if (!rules_.conditions().values.is_of_cell_alone) {
+    if (!is_alone) {
         result.part = found[0].part;
     } else {
         if (found.size() > most) result.part = found[most].part;
@@ -246,6 +262,7 @@ void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic
         }
         result.events.push_back(std::move(event));
     }
+    result.has_all = is_alone && result.part == 1;
     if (result.part < 1) cubic.put_all(tissue_.species, result.part);
 }
 

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -38,8 +39,9 @@ public:
                   const TissueSchedule& schedule);
 
     /// To be called first of all and after every change of cells, with whether the planes have
-    /// moved: builds the lists, and binds everything if they have.
-    Result<void> cells_changed(bool has_moved);
+    /// moved: finds the lists, and binds everything if they have. `only`: the cells that are new or
+    /// elsewhere, if no others have changed or gone; empty: all.
+    Result<void> cells_changed(bool has_moved, std::span<const std::uint32_t> only = {});
     /// Puts the cells in another order if that saves more time than it takes.
     Result<void> order_cells();
 
@@ -54,6 +56,7 @@ public:
     struct StepEvents {
         double part = 1;  ///< Of the step, at which it ends.
         std::vector<CellEvent> events;
+        bool has_all = false;  ///< No condition holds at the end for any other cell.
     };
     Result<StepEvents> events(const TriedStep& tried, double length);
     void accept();
@@ -77,6 +80,7 @@ public:
 
 private:
     Result<void> build_lists(const std::vector<Field>& state, bool is_full);
+    void count_cells();
     void end_at(std::vector<CellEvent>& found, const StepCubic& cubic, StepEvents& result);
     StageClock clock(double length) const;
     const StepProblem& problem(std::uint32_t stages);
@@ -90,7 +94,6 @@ private:
     const TissueSchedule& schedule_;
     Team team_;
     CellLists lists_;
-    int full_builds_ = 0;  ///< The number of lists to be made that last for any step.
     ValueRunner values_;
     std::map<std::uint32_t, StepProblem> problems_;  ///< By stages.
     std::optional<Stepper> stepper_;

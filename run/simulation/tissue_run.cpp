@@ -56,7 +56,7 @@ TissueRun::TissueRun(const Environment& environment, std::span<StageState> state
                     }),
              near_) {
     CHECK(state_.started && state_.tissue, "a stage is started before it advances");
-    near_->before = near_->now = state_.tissue->triangles;
+    near_->begin(state_.tissue->triangles);
     const TissueStage here = tissue_stage(environment, states, stage);
     loop_.emplace(rules_, *state_.ground->surroundings(), *state_.tissue, near_, species_of(here),
                   schedule(keeping), progress_of(environment, stage));

@@ -26,7 +26,7 @@ void expect_nearest_places(const SurfaceMesh& mesh, double step, double rise) {
         const auto found = follower.find(point, triangle);
         ASSERT_TRUE(found);
         if (const auto over = follower.stay(point, triangle)) {
-            EXPECT_EQ(found->place.triangle, triangle);
+            EXPECT_EQ(found->place.triangle, over->triangle);
             EXPECT_EQ(found->place.weights, over->weights);
             EXPECT_EQ(found->position, point - over->normal * over->height);
         }

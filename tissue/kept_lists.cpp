@@ -1,0 +1,149 @@
+// Renewed cells are looked for in the boxes of the last search, where they may still be with their
+// old marks, and among themselves.
+#include "tissue/kept_lists.h"
+
+#include <algorithm>
+
+namespace cascade {
+namespace {
+
+/// Lists of all cells are found when more than one of this many cells has been renewed since.
+constexpr std::size_t cells_of_a_renewed = 8;
+/// Fewer cells are looked at one by one.
+constexpr std::size_t few_cells = 32;
+
+}  // namespace
+
+void KeptLists::start(NeighbourLists lists, NeighbourSearch search) {
+    lists_ = std::move(lists);
+    search_ = std::move(search);
+    renewed_.clear();
+    slots_.assign(lists_.ends.size(), no_slot);
+}
+
+bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uint32_t> ranks,
+                      double most_links) {
+    const std::size_t most = std::max(few_cells, ranks.size() / cells_of_a_renewed);
+    if (!search_.has_one_octave() || renewed_.size() + cells.size() > most) return false;
+    for (const BoxedCell& cell : cells) {
+        if (!(width_of(cell, search_.rule()) <= search_.widest())) return false;
+    }
+    // Enough room for all cells to be neighbours of those.
+    const auto links = static_cast<double>(lists_.neighbours.size());
+    if (links + 2.0 * static_cast<double>(cells.size() * ranks.size()) > most_links) return false;
+    slots_.resize(ranks.size(), no_slot);
+    for (const BoxedCell& cell : cells) {
+        if (is_renewed(cell.cell)) {
+            renewed_[slots_[cell.cell]] = cell;
+        } else {
+            slots_[cell.cell] = static_cast<std::uint32_t>(renewed_.size());
+            renewed_.push_back(cell);
+        }
+    }
+    new_lists_.clear();
+    for (const BoxedCell& cell : cells) find(cell);
+    note_links(cells);
+    merge(ranks);
+    return true;
+}
+
+/// Adds the new list of a cell.
+void KeptLists::find(const BoxedCell& cell) {
+    found_.clear();
+    search_.find_all(cell, found_);
+    found_.leave_out([this](std::uint32_t other) { return is_renewed(other); });
+    const bool is_periodic = repeats(search_.rule());
+    for (const BoxedCell& other : renewed_) {
+        const bool is_near = is_periodic ? are_near<true>(cell, other, search_.rule())
+                                         : are_near<false>(cell, other, search_.rule());
+        if (is_near && other.cell != cell.cell) found_.add(other.cell, other.rank);
+    }
+    const std::span<const std::uint32_t> sorted = found_.sorted();
+    new_lists_.emplace_back(sorted.begin(), sorted.end());
+}
+
+/// Finds which lists change.
+void KeptLists::note_links(std::span<const BoxedCell> cells) {
+    kinds_.assign(slots_.size(), Kind::kept);
+    list_numbers_.resize(slots_.size());
+    for (std::uint32_t k = 0; k < cells.size(); ++k) {
+        kinds_[cells[k].cell] = Kind::renewed;
+        list_numbers_[cells[k].cell] = k;
+    }
+    added_.clear();
+    for (std::uint32_t k = 0; k < cells.size(); ++k) {
+        const std::uint32_t cell = cells[k].cell;
+        for (const std::uint32_t other : list_of(cell)) {
+            if (kinds_[other] == Kind::kept) kinds_[other] = Kind::touched;
+        }
+        for (const std::uint32_t other : new_lists_[k]) {
+            if (kinds_[other] == Kind::renewed) continue;
+            kinds_[other] = Kind::touched;
+            added_.emplace_back(other, cell);
+        }
+    }
+    std::sort(added_.begin(), added_.end());
+}
+
+/// What the list of a cell was; empty for a new cell.
+std::span<const std::uint32_t> KeptLists::list_of(std::uint32_t cell) const {
+    if (cell >= lists_.ends.size()) return {};
+    const std::size_t begin = cell == 0 ? 0 : lists_.ends[cell - 1];
+    return {lists_.neighbours.data() + begin, lists_.ends[cell] - begin};
+}
+
+void KeptLists::merge(std::span<const std::uint32_t> ranks) {
+    next_.ends.clear();
+    next_.neighbours.clear();
+    next_.ends.reserve(ranks.size());
+    next_.neighbours.reserve(lists_.neighbours.size() + 2 * added_.size());
+    next_.far_links = lists_.far_links;
+    const auto count = static_cast<std::uint32_t>(ranks.size());
+    std::size_t next_added = 0;
+    std::vector<std::uint32_t> merged;
+    for (std::uint32_t cell = 0; cell < count; ++cell) {
+        if (kinds_[cell] == Kind::renewed) {
+            write(cell, new_lists_[list_numbers_[cell]]);
+        } else if (kinds_[cell] == Kind::kept) {
+            const std::uint32_t first = cell;
+            while (cell + 1 < count && kinds_[cell + 1] == Kind::kept) ++cell;
+            copy(first, cell);
+        } else {
+            merged.clear();
+            for (const std::uint32_t other : list_of(cell)) {
+                if (kinds_[other] != Kind::renewed) merged.push_back(other);
+            }
+            for (; next_added < added_.size() && added_[next_added].first == cell; ++next_added) {
+                merged.push_back(added_[next_added].second);
+            }
+            std::sort(merged.begin(), merged.end(),
+                      [&](std::uint32_t a, std::uint32_t b) { return ranks[a] < ranks[b]; });
+            write(cell, merged);
+        }
+    }
+    std::swap(lists_, next_);
+}
+
+/// The lists of these cells, as they are.
+void KeptLists::copy(std::uint32_t first, std::uint32_t last) {
+    const std::uint32_t* const all = lists_.neighbours.data();
+    const std::size_t begin = first == 0 ? 0 : lists_.ends[first - 1];
+    const std::size_t shift = next_.neighbours.size() - begin;
+    next_.neighbours.insert(next_.neighbours.end(), all + begin, all + lists_.ends[last]);
+    for (std::uint32_t k = first; k <= last; ++k) next_.ends.push_back(lists_.ends[k] + shift);
+}
+
+/// A list that replaces the one of a cell.
+void KeptLists::write(std::uint32_t cell, std::span<const std::uint32_t> neighbours) {
+    const auto far_links = [&](std::span<const std::uint32_t> list) {
+        return static_cast<std::size_t>(
+            std::count_if(list.begin(), list.end(),
+                          [&](std::uint32_t other) { return is_far_link(cell, other); }));
+    };
+    next_.far_links += far_links(neighbours);
+    next_.far_links -= far_links(list_of(cell));
+    next_.neighbours.insert(next_.neighbours.end(), neighbours.begin(), neighbours.end());
+    next_.ends.push_back(next_.neighbours.size());
+}
+
+}  // namespace cascade
