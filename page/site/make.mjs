@@ -25,9 +25,9 @@ function run(words, options = {}) {
 }
 
 const empty = mkdtempSync(join(tmpdir(), "cascade-site-"));
-/// Can the engine of live.html grow it? It has no files, and makes cells for these models only.
+/// Can the engine of live.html grow it? It has no files, makes cells for few models, and no bodies.
 function is_live(script) {
-    if (/\bmesh:|\bsurface: *(creature|implicit)/.test(script)) return false;
+    if (/\bmesh:|\bbody:|\bsurface: *(creature|implicit)/.test(script)) return false;
     writeFileSync(join(empty, "script.cascade"), script);
     return run([program, "check", "script.cascade"], { cwd: empty }).status === 0;
 }

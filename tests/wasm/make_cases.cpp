@@ -84,11 +84,16 @@ public:
     /// Adds the kernels of a script that no earlier one has.
     void add_script(const Script& script) {
         const Program& program = *script.program;
-        Grid grid = program.domain.grid;
-        grid.width = std::min<std::int64_t>(grid.width, 37);
-        grid.height = std::min<std::int64_t>(grid.height, 3);
-        grid.depth = std::min<std::int64_t>(grid.depth, 2);
+        Grid cells_of_domain = program.domain.grid;
+        cells_of_domain.width = std::min<std::int64_t>(cells_of_domain.width, 37);
+        cells_of_domain.height = std::min<std::int64_t>(cells_of_domain.height, 3);
+        cells_of_domain.depth = std::min<std::int64_t>(cells_of_domain.depth, 2);
         for (std::uint32_t stage = 0; stage < program.stages.size(); ++stage) {
+            Grid grid = cells_of_domain;
+            if (program.system_of(stage).cells) {
+                grid.linked = true;
+                grid.depth = 1;
+            }
             const PlanOptions options{Materialise::when_cheaper, false, true};
             std::vector<StepPlan> plans{plan_uniform_start(program, stage),
                                         plan_start(program, stage),

@@ -203,7 +203,7 @@ inline constexpr HintCase hint_cases[] = {
     {"script",
      "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
      "stage s: scales { duration: 1; founders: 6; body: z - 0.5 }",
-     "as in body: coral.v - 0.3",
+     "as in body: coral.v - 0.3; a formula alone gives domain { surface: implicit(…) }",
      "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
      "stage s: scales { duration: 1; founders: 6; body: g.v - 0.3 }"},
     {"script",
