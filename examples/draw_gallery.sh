@@ -21,6 +21,7 @@ draw_one() {
         on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
         cells/fur | cells/leopard_thorns) draw "$1" --view 55,15 ;;
         cells/bear) draw "$1" --view 20,10 ;;
+        cells/feathers) draw "$1" --view 62,14 ;;
         cells/thorny_head) draw "$1" --view 25,5 ;;
         cells/grown_body) draw "$1" --view 30,20 ;;
         cells/*) draw "$1" ;;

@@ -1495,10 +1495,44 @@ picture {
   bend: 1
   skin: rgb(0.36, 0.21, 0.11)
   color: mix(rgb(0.03, 0.02, 0.02),
-    mix(rgb(0.66, 0.41, 0.22), rgb(1.0, 0.78, 0.46), smoothstep(-0.7, 0.8, dot(ez, vector(0.3, -1, 0.2)))),
-    smoothstep(0.030, 0.040, eyes()))
+             mix(rgb(0.66, 0.41, 0.22), rgb(1.0, 0.78, 0.46), smoothstep(-0.7, 0.8, dot(ez, vector(0.3, -1, 0.2)))),
+             smoothstep(0.030, 0.040, eyes()))
 }
-`,picture:"UklGRtoAAABXRUJQVlA4IM4AAACQCACdASpIADYAP3GuzF60railKBZrMpAuCWUA1Mg9m4ZsBEbra6DuL14lGmZkmrsrRm4Ax5B3MwUpyHJr0l8CPCEYTDMMva/iGKmVAAD+7znIFRXtY2OkwkOofvzWSGxP7KbCZv+i/JhlL+B/XFWzmOattJAwEhhZ0OH5oMcAjeHz8SwSt+q4mRrdyM7ufyTvbU+WHXBjBrSUJJbQiL48Xxjn/c9FqL+amgby6GWQxEkBHmiqvFEV+/GB3EhSeso7sgJ/pK+uv8Q/AAAAAA=="},{name:"cells/fur",title:"Fur that a single cell begins",about:"It divides until the animal is covered, and every cell is combed as the cells around it are, and downwards",script:`# Fur that a single cell begins: it divides until the animal is covered, and every cell is combed
+`,picture:"UklGRtoAAABXRUJQVlA4IM4AAACQCACdASpIADYAP3GuzF60railKBZrMpAuCWUA1Mg9m4ZsBEbra6DuL14lGmZkmrsrRm4Ax5B3MwUpyHJr0l8CPCEYTDMMva/iGKmVAAD+7znIFRXtY2OkwkOofvzWSGxP7KbCZv+i/JhlL+B/XFWzmOattJAwEhhZ0OH5oMcAjeHz8SwSt+q4mRrdyM7ufyTvbU+WHXBjBrSUJJbQiL48Xxjn/c9FqL+amgby6GWQxEkBHmiqvFEV+/GB3EhSeso7sgJ/pK+uv8Q/AAAAAA=="},{name:"cells/feathers",title:"A bird in its feathers",about:"They grow from three, small on the head and long on the tail, and each lies over the next ones like a roof tile",script:`# A bird in its feathers: they grow from three, small on the head and long on the tail, and each lies
+# over the next ones like a roof tile. Beak and eyes have none. The body is a formula, a sum of blobs.
+fn oval(u, v, w, a, b, c) = min(a, min(b, c)) * (1 - sqrt((u / a)^2 + (v / b)^2 + (w / c)^2))
+fn raised(v, w) = 0.94 * v - 0.34 * w
+fn along(v, w) = 0.94 * w + 0.34 * v
+fn is_bare(x, y, z) = z > 0.94 or length(vector(abs(x - 0.216), y, z) - vector(0.095, 0.474, 0.881)) < 0.027
+fn back(tone) = mix(rgb(0.16, 0.30, 0.54), rgb(0.26, 0.45, 0.70), tone)
+fn belly(y) = mix(rgb(1, 0.97, 0.88), rgb(0.95, 0.46, 0.18), smoothstep(0.27, 0.36, y))
+
+cells feathers: scales {
+  r: 0.012
+  tone: random(0, 1) after divide
+  r' = 2 * (mix(0.026, 0.009, smoothstep(0.35, 0.85, z)) - r)
+  turn' += 4 * toward(ez, vector(0, -0.35, -1))
+}
+domain {
+  # Body, wings, head, eyes, beak, tail.
+  surface: implicit(log(
+    exp(oval(x, raised(y, z), along(y, z), 0.42, 0.44, 0.66) / 0.09)
+    + exp(oval(abs(x) - 0.36, raised(y - 0.02, z + 0.25), along(y - 0.02, z + 0.25), 0.12, 0.24, 0.62) / 0.04)
+    + exp(oval(x, y - 0.46, z - 0.48, 0.27, 0.27, 0.28) / 0.07)
+    + exp(oval(abs(x) - 0.20, y - 0.54, z - 0.64, 0.05, 0.05, 0.05) / 0.015)
+    + exp(oval(x, y - 0.42, z - 0.78, 0.06, 0.05, 0.15) / 0.03)
+    + exp(oval(x, raised(y + 0.36, z + 0.9), along(y + 0.36, z + 0.9), 0.20, 0.07, 0.55) / 0.06)), 1.7)
+}
+stage grow: feathers { founders: 3; duration: 60 }
+picture {
+  shape: feather
+  width: if(is_bare(x, y, z), 0, mix(3.2, 4, smoothstep(0.6, 0.9, z)) * r)
+  length: mix(5.5, 8, smoothstep(0.6, 0.8, z)) * r
+  height: 1.3 * r
+  skin: rgb(0.06, 0.06, 0.06)
+  color: mix(back(tone), belly(y), smoothstep(0.05, -0.1, dot(ey, vector(0, 1, -0.2))))
+}
+`,picture:"UklGRugAAABXRUJQVlA4INwAAABQCQCdASpIADYAP3GqyV20rLukqzJMS3AuCWMA1BRJes3epINLybD1wTKw1O08/cLbJ8UlQupSPsWNqfCTTYmL8Uo32fdD0HM+HvpqLZmuK7vYAAD+7TIcZElBCe+cpRSSHYIidyDU3K5287Zp3/6mn0tEoDBU3vusRtutKy2GpgyfjUJkd6AsTKimVrnJplqUVTnsrWSnjdYU8B8sw6ZPRQiY36LTW+k/FXbYkhspwp0uRgCrfk8SI0EdvDlPELw+ButjGNabtpNP1DJbt1HBTdb+/t/IElrAAAAA"},{name:"cells/fur",title:"Fur that a single cell begins",about:"It divides until the animal is covered, and every cell is combed as the cells around it are, and downwards",script:`# Fur that a single cell begins: it divides until the animal is covered, and every cell is combed
 # as the cells around it are, and downwards. Fleischer et al. 1995, figure 8.
 cells fur: scales {
   turn' += 0.3 * toward(ez, vector(0, -1, 0))
@@ -1516,7 +1550,9 @@ picture {
 # to a ball, and cells that cover them without leaving their surface.
 fn middle() = sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2)    # the distance from it
 domain { grid: 48, 48, 48; boundary: noflux }
-stage grown: swift_hohenberg { solver: rkl2; speed: auto; duration: 60; r: 0.4; g: 0; u: random(0, 0.2) }
+stage grown: swift_hohenberg {
+  solver: rkl2; speed: auto; duration: 60; r: 0.4; g: 0; u: random(0, 0.2)
+}
 stage skin: scales {
   founders: 60
   r: 0.011
