@@ -1,15 +1,13 @@
 // A run that is changed while it runs: what is kept, what is refused, and that its log gives the
 // same bits again.
-#include "run/session/live_run.h"
+#include "live_run_fixture.h"
 
 #include "support/kernel_comparison.h"
 #include "support/new_seed.h"
-#include "support/random_stream.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -29,51 +27,13 @@ constexpr const char* two_stages =
     "stage one: s { iterations: 60; speed: 0.2 }\n"
     "stage two: s { iterations: 60; speed: 0.2; u: one.u; v: one.v; k: 2 - one.u }\n";
 
-const SimulationOptions interpreted = {BackendKind::interpreter, 0, 1};
-
-class LiveRunTest : public ::testing::Test {
+class LiveRunTest : public LiveRunFixture {
 protected:
-    std::unique_ptr<LiveRun> begun(const std::string& text) {
-        auto run = LiveRun::begin(load_script("test", text, "."), interpreted, control_);
-        EXPECT_TRUE(run) << run.error().messages(false);
-        return run ? std::move(*run) : nullptr;
+    std::string difference_of_values(const StageState& one, const StageState& other,
+                                     bool) const override {
+        return same_bits(one.species, other.species);
     }
-    std::unique_ptr<LiveRun> played(const SessionLog& log) {
-        auto run = LiveRun::play(log, ".", interpreted, control_);
-        EXPECT_TRUE(run) << run.error().messages(false);
-        return run ? std::move(*run) : nullptr;
-    }
-    void advance(LiveRun& run, std::int64_t count) {
-        const auto end = run.advance(count, control_);
-        EXPECT_TRUE(end) << end.error().message;
-    }
-    void apply(LiveRun& run, const Change& change) {
-        const auto made = run.apply(change, control_);
-        EXPECT_TRUE(made) << made.error().messages(false);
-    }
-    std::string refused(LiveRun& run, const Change& change) {
-        const auto made = run.apply(change, control_);
-        EXPECT_FALSE(made);
-        return made ? "" : made.error().messages(false);
-    }
-    /// Empty if all stages have the same values and are equally far.
-    static std::string difference(const LiveRun& first, const LiveRun& second) {
-        if (first.place() != second.place()) return "they are at other places";
-        for (std::uint32_t k = 0; k <= first.place().stage; ++k) {
-            const StageState& a = first.simulation().state(k);
-            const StageState& b = second.simulation().state(k);
-            if (a.t != b.t || a.done != b.done) return "their times differ";
-            if (auto other = same_bits(a.species, b.species); !other.empty()) return other;
-        }
-        return "";
-    }
-
-    RunControl control_;
 };
-
-std::string with(std::string text, const std::string& old, const std::string& changed) {
-    return text.replace(text.find(old), old.size(), changed);
-}
 
 TEST_F(LiveRunTest, StepsGoFromStageToStage) {
     const auto run = begun(two_stages);
@@ -303,45 +263,24 @@ TEST_F(LiveRunTest, ALogThatIsPlayedAgainGivesTheSameBits) {
         with(two_stages, "boundary: noflux", "boundary: noflux; mask: disc(0.5, 0.4, 0.35)"),
         with(two_stages, "grid: 20, 16; boundary: noflux", "surface: torus; cells: 300"),
     };
-    const std::array<Change, 9> changes = {
-        SetNumber{"c", "0.15"},
-        SetNumber{"c", "0.05 + 0.05"},
-        SetNumber{"one.k", "1.2 + 0.1*x"},
-        Paint{"u", "u + disc(0.5, 0.5, 0.4)"},
-        Paint{"k", "mix(k, 0.7, x)"},
-        Paint{"v", "v*(1 + 0.2*y)"},
-        NextStage{},
-        SetText{"again"},  // See below.
-        SetText{"other"},
-    };
     for (const std::string& script : scripts) {
+        const std::vector<Change> changes = {
+            SetNumber{"c", "0.15"},
+            SetNumber{"c", "0.05 + 0.05"},
+            SetNumber{"one.k", "1.2 + 0.1*x"},
+            Paint{"u", "u + disc(0.5, 0.5, 0.4)"},
+            Paint{"k", "mix(k, 0.7, x)"},
+            Paint{"v", "v*(1 + 0.2*y)"},
+            NextStage{},
+            SetText{script},
+            SetText{with(script, "0.2 * lap(v)", "0.3*lap(v)")},
+        };
         for (int turn = 0; turn < 4; ++turn) {
             RandomStream random(new_seed() + static_cast<std::uint64_t>(turn));
             const auto run = begun(script);
             ASSERT_TRUE(run);
-            run->set_undo_memory(random.chance(50) ? std::size_t{20000} : std::size_t{1} << 24);
-            for (int k = 0; k < 14; ++k) {
-                advance(*run, random.below(25));
-                const std::uint32_t what = random.below(14);
-                if (what < 9) {
-                    Change change = changes[what];
-                    if (what == 7) change = SetText{script};
-                    if (what == 8) change = SetText{with(script, "0.2 * lap(v)", "0.3*lap(v)")};
-                    (void)run->apply(change, control_, random.chance(30));
-                } else if (what < 11) {
-                    (void)run->undo(control_);
-                } else if (what == 11) {
-                    (void)run->redo(control_);
-                } else if (what == 12) {
-                    (void)run->go_to(random.below(2), control_);
-                }
-            }
-            const std::string text = print_session_log(run->log());
-            const auto log = parse_session_log(text);
-            ASSERT_TRUE(log) << log.error().message << "\n" << text;
-            const auto again = played(*log);
-            ASSERT_TRUE(again) << text;
-            EXPECT_EQ(difference(*run, *again), "") << text;
+            change_at_random(*run, changes, 14, 25, random);
+            expect_same_from_log(*run);
         }
     }
 }

@@ -1,16 +1,14 @@
 // Cells that crawl while their run is changed: what they keep, what starts where they are, and that
 // a log gives the same bits again.
-#include "run/session/live_run.h"
+#include "live_run_fixture.h"
 
 #include "run/pictures/drawn_cells.h"
 #include "support/new_seed.h"
-#include "support/random_stream.h"
 #include "tissue/tissue.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,37 +41,12 @@ constexpr const char* growing =
     "stage one: spot { founders: 5; duration: 3 }\n"
     "stage two: spot { c: c; tone: tone; ripe: ripe; mood: mood; duration: 2 }\n";
 
-const SimulationOptions interpreted = {BackendKind::interpreter, 0, 1};
-
-class LiveTissueTest : public ::testing::Test {
+class LiveTissueTest : public LiveRunFixture {
 protected:
-    std::unique_ptr<LiveRun> begun(const std::string& text) {
-        auto run = LiveRun::begin(load_script("test", text, "."), interpreted, control_);
-        EXPECT_TRUE(run) << run.error().messages(false);
-        return run ? std::move(*run) : nullptr;
-    }
-    std::unique_ptr<LiveRun> played(const SessionLog& log) {
-        auto run = LiveRun::play(log, ".", interpreted, control_);
-        EXPECT_TRUE(run) << run.error().messages(false);
-        return run ? std::move(*run) : nullptr;
-    }
-    void advance(LiveRun& run, std::int64_t count) {
-        const auto end = run.advance(count, control_);
-        EXPECT_TRUE(end) << end.error().message;
-    }
     /// Until some cells have divided.
     void grow(LiveRun& run) {
         while (count(run) < 11) advance(run, 1);
         EXPECT_EQ(run.place().stage, 0u);
-    }
-    void apply(LiveRun& run, const Change& change) {
-        const auto made = run.apply(change, control_);
-        EXPECT_TRUE(made) << made.error().messages(false);
-    }
-    std::string refused(LiveRun& run, const Change& change) {
-        const auto made = run.apply(change, control_);
-        EXPECT_FALSE(made);
-        return made ? "" : made.error().messages(false);
     }
     /// Of the cells of the present stage, in the order of their numbers.
     static std::vector<double> values(const LiveRun& run, const std::string& name) {
@@ -85,29 +58,16 @@ protected:
     static std::size_t count(const LiveRun& run) {
         return run.simulation().state(run.place().stage).tissue->count();
     }
-    /// Empty if all stages have the same cells and are equally far.
-    static std::string difference(const LiveRun& first, const LiveRun& second) {
-        if (first.place() != second.place()) return "they are at other places";
-        for (std::uint32_t k = 0; k <= first.place().stage; ++k) {
-            const StageState& a = first.simulation().state(k);
-            const StageState& b = second.simulation().state(k);
-            if (a.t != b.t || a.done != b.done) return "their times differ";
-            const TissueRecord one = a.tissue->record(), other = b.tissue->record();
-            if (one.numbers != other.numbers) return "other cells";
-            if (one.species != other.species) return "other species";
-            if (one.kept != other.kept) return "other parameters";
-            const bool goes_on = k == first.place().stage;
-            if (goes_on && one.time.control.step != other.time.control.step) return "other steps";
-        }
+    std::string difference_of_values(const StageState& one, const StageState& other,
+                                     bool goes_on) const override {
+        const TissueRecord a = one.tissue->record(), b = other.tissue->record();
+        if (a.numbers != b.numbers) return "other cells";
+        if (a.species != b.species) return "other species";
+        if (a.kept != b.kept) return "other parameters";
+        if (goes_on && a.time.control.step != b.time.control.step) return "other steps";
         return "";
     }
-
-    RunControl control_;
 };
-
-std::string with(std::string text, const std::string& old, const std::string& changed) {
-    return text.replace(text.find(old), old.size(), changed);
-}
 
 TEST_F(LiveTissueTest, CellsGrowFromStageToStage) {
     const auto run = begun(growing);
@@ -228,45 +188,24 @@ TEST_F(LiveTissueTest, ALogThatIsPlayedAgainGivesTheSameBits) {
         with(with(growing, "grid: 32, 32; boundary: noflux", "surface: sphere; cells: 100"),
              "  p' += push(hold)\n",
              "  p' += push(hold) + cling(1)\n  turn' += stand(1) + comb(1)\n");
-    const std::array<Change, 9> changes = {
-        SetNumber{"one.side", "0.3"},
-        SetNumber{"one.side", "x"},
-        SetNumber{"spread", "2"},
-        Paint{"c", "c + disc(0.5, 0.5, 0.4)"},
-        Paint{"tone", "mix(tone, 0.7, x)"},
-        Paint{"remove", "age > 0.9 and x > 0.7"},
-        NextStage{},
-        SetText{"again"},  // See below.
-        SetText{"other"},
-    };
     for (const std::string& script : {std::string(growing), on_sphere}) {
+        const std::vector<Change> changes = {
+            SetNumber{"one.side", "0.3"},
+            SetNumber{"one.side", "x"},
+            SetNumber{"spread", "2"},
+            Paint{"c", "c + disc(0.5, 0.5, 0.4)"},
+            Paint{"tone", "mix(tone, 0.7, x)"},
+            Paint{"remove", "age > 0.9 and x > 0.7"},
+            NextStage{},
+            SetText{script},
+            SetText{with(script, "c' = tone", "c' = 2 * tone")},
+        };
         for (int turn = 0; turn < 2; ++turn) {
             RandomStream random(new_seed() + static_cast<std::uint64_t>(turn));
             const auto run = begun(script);
             ASSERT_TRUE(run);
-            run->set_undo_memory(random.chance(50) ? std::size_t{20000} : std::size_t{1} << 24);
-            for (int k = 0; k < 6; ++k) {
-                advance(*run, random.below(15));
-                const std::uint32_t what = random.below(14);
-                if (what < 9) {
-                    Change change = changes[what];
-                    if (what == 7) change = SetText{script};
-                    if (what == 8) change = SetText{with(script, "c' = tone", "c' = 2 * tone")};
-                    (void)run->apply(change, control_, random.chance(30));
-                } else if (what < 11) {
-                    (void)run->undo(control_);
-                } else if (what == 11) {
-                    (void)run->redo(control_);
-                } else if (what == 12) {
-                    (void)run->go_to(random.below(2), control_);
-                }
-            }
-            const std::string text = print_session_log(run->log());
-            const auto log = parse_session_log(text);
-            ASSERT_TRUE(log) << log.error().message << "\n" << text;
-            const auto again = played(*log);
-            ASSERT_TRUE(again) << text;
-            EXPECT_EQ(difference(*run, *again), "") << text;
+            change_at_random(*run, changes, 6, 15, random);
+            expect_same_from_log(*run);
         }
     }
 }
