@@ -63,7 +63,7 @@ double root_of(double first, double last, double width, double other, double els
 
 /// A part of the step at whose beginning no condition of some cells holds and at whose end one
 /// does. It is narrowed from estimates, alternately from both sides, so that it becomes as short as
-/// asked soon after they are good; wherever it lags behind bisection, by bisection (as in the ITP
+/// asked soon after they are good; where that is slower than bisection, by bisection (as in the ITP
 /// method: I. Oliveira, R. Takahashi, "An Enhancement of the Bisection Method Average Performance
 /// Preserving Minmax Optimality", ACM Trans. Math. Software 47(1), 2020).
 class Bracket {

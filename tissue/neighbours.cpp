@@ -1,4 +1,5 @@
-// Cells look for neighbours; larger ones are told of the pairs that smaller cells have found.
+// Each cell searches for neighbours of its own size and larger; a pair of different sizes is then
+// added to the list of the larger cell.
 #include "tissue/neighbours.h"
 
 #include "core/morton.h"

@@ -54,7 +54,7 @@ public:
 
     bool has_heights() const override { return true; }
     void paint(const SampleRow& row) override;
-    /// The mean of what all samples see.
+    /// The sum of the normals at all samples.
     Vector3d raised_normal(std::span<const SurfacePlace> samples, const Vector3d& normal) override;
 
 private:

@@ -111,10 +111,10 @@ CellShapes shapes_of(const ShapeForm& form, std::vector<QuantityValues> values, 
     return shapes;
 }
 
-/// What is said of a cell whose shape cannot be drawn.
-std::string words_on_fault(const ShapeForm& form, const CellShapes& shapes,
-                           std::span<const QuantityValues> values, std::size_t cell,
-                           std::uint32_t number) {
+/// The message about a cell whose shape cannot be drawn.
+std::string fault_message(const ShapeForm& form, const CellShapes& shapes,
+                          std::span<const QuantityValues> values, std::size_t cell,
+                          std::uint32_t number) {
     const std::uint32_t shape = shapes.shared.of_cells[cell];
     std::string with;
     for (const QuantityValues& each : values) {
@@ -238,8 +238,8 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
         const std::uint32_t of_cell = shapes.shared.of_cells[k];
         if (of_cell == SharedShapes::none || !shapes.faults[of_cell].empty()) {
             if (faulty++ == 0) {
-                placed.fault = words_on_fault(placed.form, shapes, values, k,
-                                              tissue.numbers()[tissue.by_number()[k]]);
+                placed.fault = fault_message(placed.form, shapes, values, k,
+                                             tissue.numbers()[tissue.by_number()[k]]);
             }
             continue;
         }

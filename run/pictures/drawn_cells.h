@@ -36,7 +36,7 @@ struct DrawnCells {
     std::shared_ptr<const ModelLook> coat;
     std::shared_ptr<const Image> floor;
     Vector3d extent;    ///< Of the plane, or of the box of space.
-    std::string fault;  ///< What is said of cells whose shape cannot be drawn; "" without such.
+    std::string fault;  ///< The message about cells that cannot be drawn; "" if all can.
 };
 
 /// Places the cells as the settings of the picture block say, of which some may be missing.

@@ -1,4 +1,4 @@
-// Normals change with the inverse of what stretches the mesh.
+// The mesh of the file is scaled along its axes, and its normals by the inverse factors.
 #include "run/pictures/file_shape.h"
 
 #include "mesh/make_mesh.h"

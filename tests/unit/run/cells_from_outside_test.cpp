@@ -1,4 +1,4 @@
-// Maps of what stands on a surface, against shapes whose heights and normals are known.
+// Maps of the cells on a surface, compared with shapes whose heights and normals are known.
 #include "run/pictures/cells_from_outside.h"
 
 #include "export/bake.h"

@@ -88,7 +88,7 @@ TEST(ShapeMeshes, OfTheLibraryAreClosedAndStandOnTheirBase) {
             EXPECT_LT(std::abs(box.low.x + box.high.x), 0.3F) << text.file_name;
             EXPECT_GE(box.low.x, -1.2F) << text.file_name;
             EXPECT_LE(box.high.y, 1.3F) << text.file_name;
-            // It covers what is behind it rather than what is in front.
+            // It reaches at least as far along ez as against it.
             EXPECT_GE(box.high.z, -box.low.z - 1e-5F) << text.file_name;
         }
     }
@@ -143,7 +143,7 @@ TEST(ShapeMeshes, AreSharedByCells) {
         share_shapes(form, std::vector<QuantityValues>{{n, {2.6, 3.4, 7}}}, 3);
     EXPECT_THAT(by_n.of_cells, ::testing::ElementsAre(0, 0, 1));
     EXPECT_EQ(by_n.shapes[0][n.index()], 3);
-    // Without a range sixteenths of what there is.
+    // A quantity without a range is rounded to sixteenths of the range of its values.
     const SharedShapes by_free =
         share_shapes(form, std::vector<QuantityValues>{{free, {100, 260, 109, 101}}}, 4);
     EXPECT_THAT(by_free.of_cells, ::testing::ElementsAre(0, 1, 2, 0));
