@@ -76,17 +76,18 @@ double memory_of_cells(const SurfaceMesh& mesh, const CellOptions& options) {
     return options.kind == CellKind::places ? 900 * count + 300 * triangles : 400 * triangles;
 }
 
+Result<void> check_cells(const SurfaceMesh& mesh, const CellOptions& options) {
+    if (mesh.triangles.empty()) return failure("the surface has no triangles");
+    if (options.kind != CellKind::places) return {};
+    if (Result<void> fine = check_count(mesh, options.count); !fine) return fine;
+    return options.anisotropy ? check_anisotropy(mesh, *options.anisotropy) : Result<void>();
+}
+
 Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& options, Team& team,
                                 const std::atomic<bool>& cancel) {
-    if (mesh.triangles.empty()) return failure("the surface has no triangles");
+    if (Result<void> fine = check_cells(mesh, options); !fine) return tl::unexpected(fine.error());
     if (options.kind == CellKind::faces) return face_cells(mesh);
     if (options.kind == CellKind::vertices) return vertex_cells(mesh);
-    if (Result<void> fine = check_count(mesh, options.count); !fine)
-        return tl::unexpected(fine.error());
-    if (options.anisotropy) {
-        Result<void> fine = check_anisotropy(mesh, *options.anisotropy);
-        if (!fine) return tl::unexpected(fine.error());
-    }
     // A surface that cannot be copied may still be unfolded as it is.
     if (is_fine(mesh, options)) {
         Result<SurfaceCells> cells = cells_by_copy(mesh, options, team, cancel);

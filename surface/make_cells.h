@@ -35,6 +35,9 @@ std::uint64_t count_cells(const SurfaceMesh& mesh, const CellOptions& options);
 /// to refuse impossible requests in advance.
 double memory_of_cells(const SurfaceMesh& mesh, const CellOptions& options);
 
+/// Fails where make_cells() would.
+Result<void> check_cells(const SurfaceMesh& mesh, const CellOptions& options);
+
 /// The cells. Fails if the number of cells is out of range, if there are fewer places than
 /// components of the surface (each needs one to be covered), and if the anisotropy is not one
 /// direction and ratio ≥ 1 for each triangle. Throws std::bad_alloc. Undefined if `cancel` became

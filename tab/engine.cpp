@@ -82,8 +82,7 @@ bool Engine::begin(const std::string& name, const std::string& text, const std::
                bytes && script.program->domain.model) {
         auto model = parse_carried_model(*bytes);
         if (!model) return fail(model.error());
-        Team team(1);
-        options.known_model = link_carried_model(*script.program, *std::move(model), team, control);
+        options.known_model = link_carried_model(*script.program, *std::move(model));
     }
     auto run = LiveRun::begin(std::move(script), options, control);
     if (!run) return refuse(std::move(run.error()));

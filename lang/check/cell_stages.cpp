@@ -3,6 +3,7 @@
 
 #include "lang/check/cell_frame.h"
 #include "lang/check/check_time.h"
+#include "lang/program/stage_kinds.h"
 
 #include <fmt/format.h>
 
@@ -167,14 +168,6 @@ void check_solver(Workspace& work, const StageTime& time) {
 }
 
 }  // namespace
-
-std::optional<std::uint32_t> stage_of_cells_before(const Program& program, std::uint32_t stage) {
-    while (stage-- > 0) {
-        const SystemId system = program.stages[stage].system;
-        if (system != unknown_system && program.systems[system].cells) return stage;
-    }
-    return std::nullopt;
-}
 
 bool knows_cells(Workspace& work, const Scope& scope, StageItem item, Span span) {
     const Program& program = work.program;

@@ -10,10 +10,6 @@
 
 namespace cascade::checking {
 
-/// The last stage of cells before this one, whose cells it goes on with unless it has founders;
-/// nothing if there is none.
-std::optional<std::uint32_t> stage_of_cells_before(const Program& program, std::uint32_t stage);
-
 /// Can the item of an earlier stage of cells be read here? Cells crawl, divide and die, so that
 /// only the stage that goes on with them knows their values. Reports an error and returns false if
 /// not.

@@ -10,6 +10,7 @@
 #include "lang/check/check_time.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"
+#include "lang/program/stage_kinds.h"
 
 #include <algorithm>
 
@@ -77,7 +78,7 @@ Workspace workspace_of(const Program& program, Diagnostics& diagnostics) {
     }
     for (std::uint32_t i = 0; i < program.stages.size(); ++i) {
         work.stages.emplace(program.stages[i].name, i);
-        work.cell_stages.push_back(program.system_of(i).cells.has_value());
+        work.cell_stages.push_back(is_of_cells(program, i));
     }
     return work;
 }
@@ -148,13 +149,6 @@ std::optional<ast::Expression> picture_expression(const ast::Script& script,
                                    statement.name.text == setting && !statement.values.empty();
             if (is_sought) return statement.values[0];
         }
-    }
-    return std::nullopt;
-}
-
-std::optional<std::uint32_t> skin_stage(const Program& program, std::uint32_t stage) {
-    for (std::uint32_t k = stage; k > 0; --k) {
-        if (!program.system_of(k - 1).cells) return k - 1;
     }
     return std::nullopt;
 }

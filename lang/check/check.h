@@ -29,8 +29,4 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
 std::optional<ast::Expression> picture_expression(const ast::Script& script,
                                                   std::string_view setting = "color");
 
-/// The stage whose names the colour of the skin below the cells of a stage reads: the last one of
-/// fields before it; nothing if there is none.
-std::optional<std::uint32_t> skin_stage(const Program& program, std::uint32_t stage);
-
 }  // namespace cascade

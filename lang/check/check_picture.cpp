@@ -3,6 +3,7 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_shape.h"
 #include "lang/check/setting_words.h"
+#include "lang/program/stage_kinds.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -90,7 +91,7 @@ private:
             std::ranges::none_of(work_.program.stages,
                                  [](const Stage& stage) { return stage.system == unknown_system; });
         if (!knows_systems) return;
-        if (const auto stage = skin_stage(work_.program, *scope_.stage)) {
+        if (const auto stage = stage_of_fields_before(work_.program, *scope_.stage)) {
             scope.stage = stage;
             scope.system = work_.program.stages[*stage].system;
         }

@@ -1,5 +1,6 @@
 // Marks the stages that formulas and the picture read, and warns of the others.
 #include "lang/check/unread_stages.h"
+#include "lang/program/stage_kinds.h"
 
 #include <fmt/format.h>
 
@@ -29,8 +30,8 @@ std::vector<std::string> species_of(const System& system) {
 /// A hint how the next stage can continue from a stage.
 std::string how_to_go_on(const Program& program, std::uint32_t stage) {
     const Stage& next = program.stages[stage + 1];
-    const bool has_cells = program.system_of(stage).cells.has_value();
-    if (has_cells != program.system_of(stage + 1).cells.has_value()) {
+    const bool has_cells = is_of_cells(program, stage);
+    if (has_cells != is_of_cells(program, stage + 1)) {
         return has_cells ? ""
                          : fmt::format("cells read fields at their places: {}.{}",
                                        program.stages[stage].name,

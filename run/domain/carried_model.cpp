@@ -103,7 +103,7 @@ std::string print_carried_model(const ModelCells& model) {
     }
     printer.number(model.repairs.size());
     for (const std::string& repair : model.repairs) printer.text(repair);
-    return std::move(printer).bytes() + print_cells(model.cells, {});
+    return std::move(printer).bytes() + print_cells(model.spread().cells, {});
 }
 
 Result<CarriedModel> parse_carried_model(std::string_view bytes) {

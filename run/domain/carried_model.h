@@ -24,7 +24,6 @@ std::string print_carried_model(const ModelCells& model);
 Result<CarriedModel> parse_carried_model(std::string_view bytes);
 
 /// The cells of a program's domain, as make_model_cells() makes them of the same mesh.
-std::shared_ptr<const ModelCells> link_carried_model(const Program& program, CarriedModel model,
-                                                     Team& team, RunControl& control);
+std::shared_ptr<const ModelCells> link_carried_model(const Program& program, CarriedModel model);
 
 }  // namespace cascade

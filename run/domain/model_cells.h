@@ -22,12 +22,8 @@
 
 namespace cascade {
 
-struct ModelCells : ModelFacts {
-    /// The mesh with y upwards, whichever axis points upwards in the file. Only the writers of
-    /// model files need the original coordinates.
-    SurfaceMesh mesh;
-    Axis up = Axis::y;                 ///< Of the model before it was turned.
-    std::vector<std::string> repairs;  ///< What was repaired in the model, one sentence each.
+/// The cells that are spread over a model, as fields on it have them.
+struct SpreadCells : ModelFacts {
     SurfaceCells cells;
     /// Planes and links have the cells in the order in which steps are fastest
     /// (surface/cell_order.h): order[k] is the cell at column k mod W of row k / W. Files and
@@ -37,19 +33,45 @@ struct ModelCells : ModelFacts {
     double unit = 1;            ///< In lengths of the model.
     std::vector<Field> planes;  ///< By ModelPlane.
     Links links;                ///< Without weights of gradients: few scripts need them.
+};
 
+class ModelCells {
+public:
+    using Make = std::function<SpreadCells(const ModelCells&)>;
+
+    /// The mesh with y upwards, whichever axis points upwards in the file. Only the writers of
+    /// model files need the original coordinates.
+    SurfaceMesh mesh;
+    Axis up = Axis::y;                 ///< Of the model before it was turned.
+    std::vector<std::string> repairs;  ///< What was repaired in the model, one sentence each.
+
+    /// `make` is called once, by the first call of spread().
+    ModelCells(SurfaceMesh upright, std::size_t count, Make make);
+
+    /// Known before the cells are made.
+    std::size_t count() const { return count_; }
+    /// The rows in which they lie.
+    const Grid& grid() const { return grid_; }
+    /// Makes the cells if that has not been done yet, because cells that crawl may need none of
+    /// them. Throws std::bad_alloc.
+    const SpreadCells& spread() const;
     /// The links with weights of gradients, which the first call finds. Throws std::bad_alloc.
     const Links& links_with_gradients() const;
+
+    /// The cell at position k of the rows; k is below the number of cells.
+    std::uint32_t cell_at(std::int64_t k) const {
+        return spread().order[static_cast<std::size_t>(k)];
+    }
 
     /// The mesh as it was before it was turned upright, bit for bit.
     SurfaceMesh mesh_of_file() const;
 
-    std::size_t count() const { return cells.places.size(); }
-    /// The cell at position k of the rows; k is below the number of cells.
-    std::uint32_t cell_at(std::int64_t k) const { return order[static_cast<std::size_t>(k)]; }
-
 private:
-    mutable std::once_flag has_gradients_;
+    std::size_t count_;
+    Grid grid_;
+    Make make_;
+    mutable std::once_flag is_spread_, has_gradients_;
+    mutable SpreadCells spread_;
     mutable Links links_with_gradients_;
 };
 
@@ -61,11 +83,13 @@ struct ModelAccess {
     std::filesystem::path cache;  ///< Where spread cells are kept; empty: nowhere.
     /// Refuses a model, upright, before its cells are made; may be empty.
     std::function<Result<void>(const SurfaceMesh&)> check = {};
+    bool is_made_when_read = false;  ///< The cells are made by the first call of spread().
 };
 
 /// Reads or makes the model, spreads its cells and links them. Fails on a file that cannot be used,
 /// on more cells than memory allows and on fewer cells than components. The result is meaningless
-/// if the call was cancelled. The same with any number of threads.
+/// if the call was cancelled. The same with any number of threads. `control` is not kept: what is
+/// made when it is read is neither reported nor cancelled.
 Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& program,
                                                            const ModelAccess& access, Team& team,
                                                            RunControl& control);

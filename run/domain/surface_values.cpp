@@ -58,7 +58,8 @@ std::vector<double> key_values(const ModelCells& model, std::span<const double> 
         keys.push_back(
             {box.in_model({numbers[k], numbers[k + 1], numbers[k + 2]}), numbers[k + 3]});
     }
-    return smoothed(model.cells, nearest_key_values(model.mesh, model.cells, keys, cancel),
+    return smoothed(model.spread().cells,
+                    nearest_key_values(model.mesh, model.spread().cells, keys, cancel),
                     smoothing * box.longest, team, cancel);
 }
 
@@ -101,7 +102,7 @@ struct SurfaceValues::Paths {
 
     Paths(const ModelCells& model, const std::atomic<bool>& cancel)
         : nearest(model.mesh), mesh(std::make_shared<const DistanceMesh>(model.mesh, cancel)) {
-        for (const SurfacePlace& place : model.cells.places) {
+        for (const SurfacePlace& place : model.spread().cells.places) {
             cells.push_back(position_of(model.mesh, place));
         }
     }
@@ -135,7 +136,7 @@ std::vector<double> SurfaceValues::distances(std::span<const double> places, dou
                 return !(length(paths_->cells[cell] - from) > reach);
             });
         const double path = is_far ? std::numeric_limits<double>::infinity()
-                                   : distance.at(model_.cells.places[cell]).distance;
+                                   : distance.at(model_.spread().cells.places[cell]).distance;
         if (path <= reach) found[cell] = std::min(path / box.longest, unreachable_distance);
     }
     return found;
@@ -168,6 +169,8 @@ void SurfaceValues::make(std::span<const Formula* const> formulas,
             if (!node.is<Builtin>()) continue;
             const auto read = model_plane_of(*node.as<Builtin>());
             if (read && is_made_when_read(*read)) (void)plane(*read);
+            // The cells of the model are made before the run if its formulas read them.
+            if (read == ModelPlane::curvature) (void)model_.spread();
         }
     }
     paths_.reset();
@@ -204,7 +207,7 @@ const Field& SurfaceValues::plane(ModelPlane plane) {
 }
 
 Field SurfaceValues::in_cells(const std::vector<double>& of_points, double factor) const {
-    std::vector<double> values = values_at(model_.mesh, of_points, model_.cells.places);
+    std::vector<double> values = values_at(model_.mesh, of_points, model_.spread().cells.places);
     for (double& value : values) value *= factor;
     return field_of_cells(values, model_, program_.domain.precision);
 }
@@ -216,7 +219,7 @@ void SurfaceValues::make_curvatures() {
         mean.push_back(found.mean(point));
         gauss.push_back(found.gaussian(point));
     }
-    const double unit = model_.unit;
+    const double unit = model_.spread().unit;
     planes_[ModelPlane::curvature_mean] = in_cells(mean, unit);
     planes_[ModelPlane::curvature_high] = in_cells(found.high, unit);
     planes_[ModelPlane::curvature_low] = in_cells(found.low, unit);
@@ -240,8 +243,8 @@ Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                               Precision precision) {
     const auto attribute = find_attribute(name, model.mesh);
     if (!attribute) return tl::unexpected(attribute.error());
-    return field_of_cells(values_at(model.mesh, (*attribute)->values, model.cells.places), model,
-                          precision);
+    return field_of_cells(values_at(model.mesh, (*attribute)->values, model.spread().cells.places),
+                          model, precision);
 }
 
 Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
@@ -252,7 +255,7 @@ Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
     }
     std::vector<double> values;
     values.reserve(model.count());
-    for (const SurfacePlace& place : model.cells.places) {
+    for (const SurfacePlace& place : model.spread().cells.places) {
         values.push_back(lightness_at(picture, *texture_place_at(model.mesh, place)));
     }
     return field_of_cells(values, model, precision);

@@ -67,7 +67,7 @@ public:
         : mesh(model.mesh_of_file()), model_(model), team_(hardware_threads()) {
         colours.colour = drawn.skin;
         if (!drawn.coat) return;
-        filter_.emplace(mesh, model.cells, team_);
+        filter_.emplace(mesh, model.spread().cells, team_);
         colours.filter = &*filter_;
         colours.coat = {drawn.coat->channels, drawn.coat->values, drawn.coat->colour, {}};
     }
@@ -75,7 +75,7 @@ public:
     /// Gives the points of the mesh colours; they become more if there is a coat.
     std::vector<Colour> colour_points() {
         if (!filter_) return std::vector<Colour>(mesh.points.size(), colours.colour);
-        RefinedMesh fine = refined_for_colours(mesh, model_.cells);
+        RefinedMesh fine = refined_for_colours(mesh, model_.spread().cells);
         mesh = std::move(fine.mesh);
         return colours_at(fine.places, *filter_, colours.coat, team_);
     }

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "lang/check/check.h"
 #include "lang/check/check_shape.h"
+#include "lang/program/stage_kinds.h"
 #include "picture/srgb.h"
 #include "run/domain/creased_mesh.h"
 #include "run/pictures/model_picture.h"
@@ -68,7 +69,7 @@ void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage
     const auto expression = picture_expression(script.tree, "skin");
     if (!expression) return;
     const Program& program = *script.program;
-    const auto of_fields = skin_stage(program, stage);
+    const auto of_fields = stage_of_fields_before(program, stage);
     const std::uint32_t read = of_fields.value_or(stage);
     Diagnostics unspoken;
     const auto formula =

@@ -70,7 +70,7 @@ ModelFileWriter::ModelFileWriter(const ModelCells& model, const ModelLook& look,
 ModelFileWriter::~ModelFileWriter() = default;
 
 const CellFilter& ModelFileWriter::filter() {
-    if (!filter_) filter_ = std::make_unique<CellFilter>(mesh_, model_.cells, team_);
+    if (!filter_) filter_ = std::make_unique<CellFilter>(mesh_, model_.spread().cells, team_);
     return *filter_;
 }
 
@@ -93,14 +93,14 @@ Result<std::vector<std::filesystem::path>> ModelFileWriter::write(
 Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {
     std::vector<Colour> colours;
     for (std::size_t k = 0; k < model_.count(); ++k) {
-        colours.push_back(look_.colour_of(k, model_.cells.places[k]));
+        colours.push_back(look_.colour_of(k, model_.spread().cells.places[k]));
     }
-    return cascade::write_cells(path, mesh_, model_.cells, {colours, channels_});
+    return cascade::write_cells(path, mesh_, model_.spread().cells, {colours, channels_});
 }
 
 Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
     if (!refined_) {
-        refined_ = std::make_unique<RefinedMesh>(refined_for_colours(mesh_, model_.cells));
+        refined_ = std::make_unique<RefinedMesh>(refined_for_colours(mesh_, model_.spread().cells));
     }
     const PaintedCells painted = {look_.channels, look_.values, look_.colour, {}};
     return write_model(path, refined_->mesh,
@@ -113,7 +113,7 @@ Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
     const std::size_t count = model_.count();
     if (!retiled_) {
         const std::atomic<bool> never = false;
-        auto made = retile(mesh_, model_.cells.places, never);
+        auto made = retile(mesh_, model_.spread().cells.places, never);
         if (!made) return tl::unexpected(made.error());
         retiled_ = std::make_unique<Retiled>(*std::move(made));
     }
@@ -127,8 +127,8 @@ Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
     const std::vector<SurfacePlace> of_points = places_of_points(mesh_);
     std::vector<Colour> colours;
     for (std::size_t p = 0; p < points; ++p) {
-        const SurfacePlace& place =
-            p < count ? model_.cells.places[p] : of_points[retiled_->kept[p - count].old_point];
+        const SurfacePlace& place = p < count ? model_.spread().cells.places[p]
+                                              : of_points[retiled_->kept[p - count].old_point];
         colours.push_back(
             look_.colour(std::span(values).subspan(look_.channels * p, look_.channels), place));
     }

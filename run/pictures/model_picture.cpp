@@ -40,7 +40,7 @@ void ModelLook::raise(const ModelCells& model, const Field& number, ValueRange r
 ModelDrawer::ModelDrawer(std::shared_ptr<const ModelCells> model)
     : model_(std::move(model)),
       team_(hardware_threads()),
-      scene_(model_->mesh, model_->cells, team_) {}
+      scene_(model_->mesh, model_->spread().cells, team_) {}
 
 Image ModelDrawer::draw(const ModelLook& look, const DrawOptions& options,
                         const Instances* copies) {

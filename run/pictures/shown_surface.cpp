@@ -65,17 +65,17 @@ ShownSurface shown_model(const ModelCells& model, Team& team) {
     const SurfaceMesh& mesh = copy ? *copy : model.mesh;
     const CornerNormals corners = corner_normals(mesh);
     const RefinedMesh fine =
-        refined(cut_at_creases(mesh, corners), longest_edge * cell_spacing(model.cells),
+        refined(cut_at_creases(mesh, corners), longest_edge * cell_spacing(model.spread().cells),
                 most_shown_triangles);
-    const CellFilter filter(model.mesh, model.cells, team);
+    const CellFilter filter(model.mesh, model.spread().cells, team);
     std::optional<NearestPlace> nearest;
     if (copy) nearest.emplace(model.mesh);
     std::vector<std::uint32_t> position_of(model.count());
-    for (std::uint32_t k = 0; k < model.count(); ++k) position_of[model.order[k]] = k;
+    for (std::uint32_t k = 0; k < model.count(); ++k) position_of[model.cell_at(k)] = k;
     const ModelBox box(model.mesh);
 
     ShownSurface shown;
-    shown.spacing = cell_spacing(model.cells) / box.longest;
+    shown.spacing = cell_spacing(model.spread().cells) / box.longest;
     shown.triangles = fine.mesh.triangles;
     std::vector<CellShare> shares;
     for (std::size_t v = 0; v < fine.places.size(); ++v) {

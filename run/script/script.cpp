@@ -6,6 +6,7 @@
 #include "lang/check/chance.h"
 #include "lang/check/check.h"
 #include "lang/check/unread_stages.h"
+#include "lang/program/stage_kinds.h"
 #include "lang/syntax/parse.h"
 #include "picture/image.h"
 #include "run/script/embedded_script.h"
@@ -122,7 +123,7 @@ void check_views(Script& script) {
         }
     }
     const auto skin = picture_expression(script.tree, "skin");
-    const auto below = skin_stage(program, stage);
+    const auto below = stage_of_fields_before(program, stage);
     if (skin && below) {
         Diagnostics unspoken;  // The checker of the picture has found its errors.
         views.push_back({*below, check_view(script.tree, *skin, *below, last, program,

@@ -1,6 +1,7 @@
 // Makes everything that stages share, once, before any of them starts.
 #include "run/simulation/environment.h"
 
+#include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
 #include "run/simulation/stage_view.h"
@@ -48,9 +49,10 @@ std::vector<Formula> written_areas(const Program& program) {
 
 /// Computes the memory that the run needs, and fails if that exceeds `limit` bytes (if above 0) or
 /// the free memory.
-Result<void> check_memory_of(Environment& here, std::uint64_t limit) {
+Result<void> check_memory_of(Environment& here, std::uint64_t limit,
+                             const ModelFacts* facts = nullptr) {
     const TimeAccount::Scope spent(here.account, Spent::compiling);
-    here.memory = memory_of(*here.program, *here.plans, here.model.get());
+    here.memory = memory_of(*here.program, *here.plans, facts);
     return check_memory(here.grid, here.memory, limit);
 }
 
@@ -60,7 +62,7 @@ Result<void> make_cells(Environment& here, Script& script, const SimulationOptio
     const TimeAccount::Scope spent(here.account, Spent::cells);
     if (options.known_model) {
         here.model = options.known_model;
-        here.grid = here.model->grid;
+        here.grid = here.model->grid();
         return {};
     }
     Team makers(here.threads);
@@ -71,8 +73,12 @@ Result<void> make_cells(Environment& here, Script& script, const SimulationOptio
         is_refused = !good;
         return good;
     };
-    const ModelAccess access{script.folder, script.overrides.reads,
-                             script.overrides.model_is_asked_for, options.cell_cache, check};
+    const ModelAccess access{script.folder,
+                             script.overrides.reads,
+                             script.overrides.model_is_asked_for,
+                             options.cell_cache,
+                             check,
+                             !has_stage_of_fields(*here.program)};
     auto made = make_model_cells(*here.program, access, makers, control);
     if (control.cancel) return failure("stopped while the cells of the model were made");
     if (is_refused) return tl::unexpected(made.error());
@@ -86,7 +92,7 @@ Result<void> make_cells(Environment& here, Script& script, const SimulationOptio
         for (const std::string& repair : here.model->repairs)
             control.warn("the model was repaired: " + repair);
     }
-    here.grid = here.model->grid;
+    here.grid = here.model->grid();
     return {};
 }
 
@@ -174,7 +180,9 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     if (model) {
         if (auto cells = make_cells(here, script, options, control); !cells)
             return tl::unexpected(cells.error());
-        if (auto fits = check_memory_of(here, options.memory_limit); !fits)
+        // Cells that crawl need none of the model's, which may never be made.
+        const ModelFacts* facts = has_stage_of_fields(*here.program) ? here.model_facts() : nullptr;
+        if (auto fits = check_memory_of(here, options.memory_limit, facts); !fits)
             return tl::unexpected(fits.error());
     }
     auto files = [&] {
@@ -200,15 +208,12 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : here.threads);
     if (auto values = make_surface_values(here, control); !values)
         return tl::unexpected(values.error());
-    const auto is_of_cells = [&](const Stage& stage) {
-        return here.program->systems[stage.system].cells.has_value();
-    };
-    if (std::ranges::any_of(here.program->stages, is_of_cells)) {
+    if (has_stage_of_cells(*here.program)) {
         constexpr std::int64_t usual_cells = 4096;
         here.tissue_kernels =
             std::make_unique<KernelMaker>(rows_of_cells(usual_cells), std::move(stepper),
                                           options.starts_interpreted, here.account);
-        here.ground = std::make_shared<TissueGround>(here.grid, here.model.get(), *here.team);
+        here.ground = std::make_shared<TissueGround>(here.grid, here.model.get());
     }
     warn_of_even_pictures(here, control);
     if (auto found = find_mask(here, script, control); !found) return tl::unexpected(found.error());

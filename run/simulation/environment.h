@@ -50,9 +50,13 @@ struct Environment {
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     Precision precision() const { return program->domain.precision; }
+    /// Of a model, whose cells this makes if they are not yet; null on grids.
+    const ModelFacts* model_facts() const { return model ? &model->spread() : nullptr; }
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
     /// The cells that count, with a mask or on a model.
-    const Mask* counted() const { return mask ? &mask->inside : model ? &model->inside : nullptr; }
+    const Mask* counted() const {
+        return mask ? &mask->inside : model ? &model->spread().inside : nullptr;
+    }
     /// Do the steps of a stage certainly take longer than compiling them?
     bool takes_long(std::uint32_t k) const;
     /// The column and row of a cell, or the number of one of a model.

@@ -152,7 +152,7 @@ std::optional<AstrayReport> find_astray(const EndedStage& ended) {
 std::optional<std::string> find_chequerboard(const StageView& view, bool flickers) {
     const std::vector<Field>& species = view.state().species;
     const Environment& here = view.environment();
-    const Links* links = here.model ? &here.model->links : nullptr;
+    const Links* links = here.model ? &here.model->spread().links : nullptr;
     const StageTime& time = view.stage().time;
     const auto alternates = [&](const Field& field) {
         if (alternating_part(field, here.counted(), links) < chequerboard_threshold) return false;

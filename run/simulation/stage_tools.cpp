@@ -85,7 +85,7 @@ StageTools stage_tools(const StageView& view, Compile steps) {
         return limit ? 2 / *limit : 0;
     };
     tools.inside = here.counted();
-    tools.model = here.model.get();
+    tools.model = here.model_facts();
     return tools;
 }
 

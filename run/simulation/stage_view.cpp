@@ -75,7 +75,7 @@ bool StageView::diffusion_limits() const {
     constexpr double worth_changing = 4;
     const Solver solver = stage().time.solver;
     if (solver == Solver::symplectic || takes_long_steps(solver)) return false;
-    const auto bound = jacobian_bound(program(), number_, environment_->model.get());
+    const auto bound = jacobian_bound(program(), number_, environment_->model_facts());
     if (!bound || bound->jumps) return false;
     const Formula* const formulas[] = {&bound->whole, &bound->reaction};
     const std::vector<Field> bounds = evaluate(formulas);

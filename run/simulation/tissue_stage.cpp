@@ -1,6 +1,7 @@
 // Cells get their places first; all other values are formulas of these and of earlier stages.
 #include "run/simulation/tissue_stage.h"
 
+#include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
 #include "run/domain/free_memory.h"
 #include "run/simulation/stage_start.h"
@@ -21,14 +22,6 @@ namespace cascade {
 
 namespace {
 
-/// The stage of cells before this one; nothing if there is none.
-std::optional<std::uint32_t> stage_before(const Program& program, std::uint32_t stage) {
-    while (stage-- > 0) {
-        if (program.system_of(stage).cells) return stage;
-    }
-    return std::nullopt;
-}
-
 /// Where the cells of a stage are.
 Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
                                                       std::span<const StageState> states,
@@ -36,7 +29,7 @@ Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
     const Stage& stage = here.stage(k);
     if (stage.body.nodes.empty()) {
         if (stage.founders) return here.ground;
-        return states[*stage_before(*here.program, k)].ground;
+        return states[*stage_of_cells_before(*here.program, k)].ground;
     }
     std::uint32_t last = 0;  // Of the stages that the body reads.
     for (const Node& node : stage.body.nodes) {
@@ -154,7 +147,7 @@ private:
 
     /// The same cells in the same order, so that values can be read cell by cell.
     Result<void> go_on() {
-        const auto before = stage_before(view_.program(), k_);
+        const auto before = stage_of_cells_before(view_.program(), k_);
         CHECK(before && states_[*before].tissue, "the checker knows which cells go on");
         const TissueRecord record = states_[*before].tissue->record();
         *states_[*before].tissue = Tissue(record, here_.precision());

@@ -17,8 +17,9 @@ const Field& plane_of(const PlaneSource& source, const BindingContext& context) 
         [&](SurfaceValueId id) { return &context.surface_values->value(id); },
         [&](MetricPlane of) { return &context.metric[static_cast<std::size_t>(of)]; },
         [&](ModelPlane of) {
-            return is_made_when_read(of) ? &context.surface_values->plane(of)
-                                         : &context.model->planes[static_cast<std::size_t>(of)];
+            return is_made_when_read(of)
+                       ? &context.surface_values->plane(of)
+                       : &context.model->spread().planes[static_cast<std::size_t>(of)];
         },
         [&](Neighbourhood) { return &context.mask->neighbourhood; },
         [&](StepInvariantId id) { return &(*context.step_invariants)[id].plane; },
@@ -51,7 +52,7 @@ const Links* links_of(const BindingContext& context, const StepPlan& plan) {
     if (context.tissue) return context.tissue->links;
     if (!context.grid.linked) return nullptr;
     const bool reads = std::any_of(plan.passes.begin(), plan.passes.end(), reads_gradients);
-    return reads ? &context.model->links_with_gradients() : &context.model->links;
+    return reads ? &context.model->links_with_gradients() : &context.model->spread().links;
 }
 
 /// Binds the slots of a plan's passes.
@@ -377,8 +378,11 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         StepProblem part = binders[n].bind(compile);
         if (n == 0) first_passes = part.passes.size();
         // Links with weights of gradients serve the plans that do not read these, too.
-        if (whole.links == nullptr || !context.model || part.links != &context.model->links)
+        const bool is_on_model = context.model && !context.tissue;
+        if (whole.links == nullptr || !is_on_model ||
+            part.links != &context.model->spread().links) {
             whole.links = part.links;
+        }
         whole.temporaries = std::max(whole.temporaries, part.temporaries);
         whole.aggregates = std::max(whole.aggregates, part.aggregates);
         if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;

@@ -68,14 +68,12 @@ bool is_sensed(const PlaneSource& source) {
 
 }  // namespace
 
-TissueGround::TissueGround(const Grid& grid, const ModelCells* model, Team& team)
-    : grid_(grid), model_(model) {
+TissueGround::TissueGround(const Grid& grid, const ModelCells* model) : grid_(grid), model_(model) {
     if (model == nullptr) {
         surroundings_ = box_of(grid);
         return;
     }
     mesh_ = std::make_unique<SurfaceMesh>(in_script_lengths(model->mesh));
-    filter_ = std::make_unique<CellFilter>(model->mesh, model->cells, team);
     surroundings_ = around_surface(*mesh_);
 }
 
@@ -86,6 +84,10 @@ TissueGround::TissueGround(const Grid& grid, SurfaceMesh body)
 
 PlaceValue TissueGround::value_of(const Field& field) const {
     if (model_ == nullptr) return of_grid(field, grid_.boundary);
+    if (!filter_) {
+        Team team(hardware_threads());
+        filter_ = std::make_unique<CellFilter>(model_->mesh, model_->spread().cells, team);
+    }
     const std::vector<double> values = cell_values(field, *model_);
     return of_cells(*filter_, std::vector<float>(values.begin(), values.end()));
 }

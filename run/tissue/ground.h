@@ -14,7 +14,7 @@ namespace cascade {
 class TissueGround {
 public:
     /// `model` is null on grids, else it must outlive the ground. Throws std::bad_alloc.
-    TissueGround(const Grid& grid, const ModelCells* model, Team& team);
+    TissueGround(const Grid& grid, const ModelCells* model);
     /// On the surface of a body in the volume of a grid, in lengths of scripts.
     TissueGround(const Grid& grid, SurfaceMesh body);
 
@@ -32,8 +32,9 @@ private:
 
     Grid grid_;
     const ModelCells* model_;
-    std::unique_ptr<SurfaceMesh> mesh_;   ///< Of a model or a body; else null.
-    std::unique_ptr<CellFilter> filter_;  ///< Of a model.
+    std::unique_ptr<SurfaceMesh> mesh_;  ///< Of a model or a body; else null.
+    /// Of a model, made by the first value that is read in its cells.
+    mutable std::unique_ptr<CellFilter> filter_;
     std::shared_ptr<const Surroundings> surroundings_;
 };
 

@@ -39,9 +39,7 @@ protected:
     const ModelCells& model() { return *run_.simulation().model(); }
     std::string bytes() { return print_carried_model(model()); }
     std::shared_ptr<const ModelCells> linked(CarriedModel carried) {
-        Team team(1);
-        RunControl control;
-        return link_carried_model(*run_.script().program, std::move(carried), team, control);
+        return link_carried_model(*run_.script().program, std::move(carried));
     }
     /// Refused, or cells that can be linked.
     void expect_sound(const std::string& bytes) {
@@ -62,8 +60,8 @@ TEST_F(CarriedModelTest, ComesBackAsItWas) {
     EXPECT_EQ(print_carried_model(*again), bytes());
     EXPECT_EQ(again->count(), 6U);
     EXPECT_EQ(again->mesh.texture.size(), 8U);
-    EXPECT_EQ(again->order, model().order);
-    EXPECT_EQ(again->unit, model().unit);
+    EXPECT_EQ(again->spread().order, model().spread().order);
+    EXPECT_EQ(again->spread().unit, model().spread().unit);
 }
 
 TEST_F(CarriedModelTest, CutModelsAreRefused) {

@@ -37,7 +37,8 @@ public:
 
     bool ok() const { return simulation_ != nullptr; }
     std::optional<JacobianBound> bound() const {
-        return jacobian_bound(*script_.program, 0, simulation_->model().get());
+        const auto model = simulation_->model();
+        return jacobian_bound(*script_.program, 0, model ? &model->spread() : nullptr);
     }
 
     std::pair<double, double> bounds(const JacobianBound& bound) const {

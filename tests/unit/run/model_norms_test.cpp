@@ -59,11 +59,12 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
                  Precision::binary64);
     run.start();
     const ModelCells& model = *run.simulation().model();
-    ASSERT_EQ(model.grid.cell_count(), 1024);
+    ASSERT_EQ(model.grid().cell_count(), 1024);
     // In the order of memory, in which the last cell is the one that is copied.
     const std::vector<double> values = run.values("u");
     std::vector<double> start;
-    for (std::size_t k = 0; k < cells; ++k) start.push_back(values[model.order[k]]);
+    for (std::size_t k = 0; k < cells; ++k)
+        start.push_back(values[model.cell_at(static_cast<std::int64_t>(k))]);
     ASSERT_TRUE(run.steps(steps));
     const double t = run.simulation().state(0).t, expected = time_by_hand(start, 0, steps);
     EXPECT_NEAR(t / expected, 1, 1e-9);

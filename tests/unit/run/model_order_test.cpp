@@ -35,7 +35,7 @@ TEST(ModelOrder, PlanesAreThoseOfTheCellsInTheirOwnOrder) {
     ASSERT_TRUE(simulation);
     const ModelCells& model = *simulation->model();
     ASSERT_EQ(model.count(), some_cells);
-    std::vector<std::uint32_t> sorted = model.order;
+    std::vector<std::uint32_t> sorted = model.spread().order;
     EXPECT_FALSE(std::is_sorted(sorted.begin(), sorted.end())) << "cells lie by their links";
     std::sort(sorted.begin(), sorted.end());
     std::vector<std::uint32_t> all(some_cells);
@@ -43,7 +43,7 @@ TEST(ModelOrder, PlanesAreThoseOfTheCellsInTheirOwnOrder) {
     EXPECT_EQ(sorted, all);
 
     const auto plane = [&](ModelPlane which) -> const Field& {
-        return model.planes[static_cast<std::size_t>(which)];
+        return model.spread().planes[static_cast<std::size_t>(which)];
     };
     const Field numbers = in_one_row(plane(ModelPlane::number), model);
     const auto x = cell_values(plane(ModelPlane::nx), model);
@@ -54,7 +54,7 @@ TEST(ModelOrder, PlanesAreThoseOfTheCellsInTheirOwnOrder) {
         std::memcpy(&number, &as_float, sizeof number);
         EXPECT_EQ(number, k);
         // On a sphere around the origin normals are places.
-        const Vector3d place = unit(position_of(model.mesh, model.cells.places[k]));
+        const Vector3d place = unit(position_of(model.mesh, model.spread().cells.places[k]));
         EXPECT_NEAR(x[k], place.x, 0.02);
         EXPECT_NEAR(y[k], place.y, 0.02);
     }
@@ -67,8 +67,8 @@ TEST(ModelOrder, RowsOfFilesComeBackAsTheyWere) {
     const ModelCells& model = *simulation->model();
     const Field& field = simulation->state(0).species[0];
     const Field back = in_rows(in_one_row(field, model), model);
-    for (std::int64_t row = 0; row < model.grid.height; ++row) {
-        for (std::int64_t i = 0; i < model.grid.width; ++i) {
+    for (std::int64_t row = 0; row < model.grid().height; ++row) {
+        for (std::int64_t i = 0; i < model.grid().width; ++i) {
             EXPECT_EQ(back.number_at(i, row), field.number_at(i, row)) << i << ", " << row;
         }
     }
@@ -80,7 +80,7 @@ TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
     const auto simulation = start(script);
     ASSERT_TRUE(simulation);
     const ModelCells& model = *simulation->model();
-    const SurfaceCells& cells = model.cells;
+    const SurfaceCells& cells = model.spread().cells;
     const auto values = [&] {
         const std::vector<double> found = cell_values(simulation->state(0).species[0], model);
         return std::vector<float>(found.begin(), found.end());
@@ -96,7 +96,7 @@ TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
     for (int step = 0; step < 20; ++step) {
         const std::vector<float> old = expected;
         for (std::size_t cell = 0; cell < some_cells; ++cell) {
-            const double area = cells.areas[cell] / (model.unit * model.unit);
+            const double area = cells.areas[cell] / (model.spread().unit * model.spread().unit);
             float sum = 0;
             for (const VoronoiEdge& edge : cells.edges_of(cell)) {
                 const auto weight = static_cast<float>(edge.length / edge.distance / area);
@@ -118,11 +118,11 @@ TEST(ModelOrder, GradientsAreThoseOfTheCellsInTheirOwnOrder) {
     Team team(1);
     const std::atomic<bool> cancel = false;
     const auto gradients =
-        cell_gradients(model.cells, cell_gradient_weights(model.mesh, model.cells, team, cancel),
-                       f);
+        cell_gradients(model.spread().cells,
+                       cell_gradient_weights(model.mesh, model.spread().cells, team, cancel), f);
     double largest = 0;
     for (std::size_t k = 0; k < some_cells; ++k) {
-        const double expected = (gradients[k].z - 2 * gradients[k].y) * model.unit;
+        const double expected = (gradients[k].z - 2 * gradients[k].y) * model.spread().unit;
         EXPECT_NEAR(r[k], expected, 2e-6) << k;
         largest = std::max(largest, std::abs(expected));
     }
@@ -142,7 +142,7 @@ TEST(ModelOrder, AValueThatIsNotFiniteIsThatOfACell) {
     ASSERT_NE(at, std::string::npos) << message;
     const std::size_t cell = std::stoul(message.substr(at + 8));
     ASSERT_LT(cell, some_cells);
-    EXPECT_GT(position_of(model.mesh, model.cells.places[cell]).y, 0.9) << message;
+    EXPECT_GT(position_of(model.mesh, model.spread().cells.places[cell]).y, 0.9) << message;
 }
 
 }  // namespace

@@ -57,9 +57,9 @@ public:
 
     /// Σ area · item, in square units; of areas alone where no item is named.
     double area_sum(const std::string& name) const {
-        const std::vector<double> areas =
-            cell_values(simulation_->model()->planes[static_cast<std::size_t>(ModelPlane::area)],
-                        *simulation_->model());
+        const std::vector<double> areas = cell_values(
+            simulation_->model()->spread().planes[static_cast<std::size_t>(ModelPlane::area)],
+            *simulation_->model());
         const std::vector<double> of =
             name.empty() ? std::vector<double>(areas.size(), 1) : values(name);
         double sum = 0;

@@ -69,11 +69,11 @@ protected:
         EXPECT_TRUE(end) << (end ? "" : end.error().message);
         const Field& field = simulation.state(0).species[0];
         if (const auto model = simulation.model()) {
-            const double area =
-                std::accumulate(model->cells.areas.begin(), model->cells.areas.end(), 0.0);
-            EXPECT_NEAR(area / model->unit / model->unit / area_in_units, 1, 1e-6)
+            const double area = std::accumulate(model->spread().cells.areas.begin(),
+                                                model->spread().cells.areas.end(), 0.0);
+            EXPECT_NEAR(area / model->spread().unit / model->spread().unit / area_in_units, 1, 1e-6)
                 << "the same surface";
-            return count_spots(model->cells, cell_values(field, *model));
+            return count_spots(model->spread().cells, cell_values(field, *model));
         }
         const measure::Samples samples = to_samples(field, simulation.grid());
         return measure::find_regions(samples, mean_of(samples.values)).above;

@@ -39,7 +39,7 @@ protected:
     /// The place of a cell, 0 … 1.
     Vector3d place(std::size_t cell) const {
         const ModelBox box(model_->mesh);
-        return box.in_script(position_of(model_->mesh, model_->cells.places[cell]));
+        return box.in_script(position_of(model_->mesh, model_->spread().cells.places[cell]));
     }
 
     /// The messages of a script that cannot begin.
@@ -100,9 +100,10 @@ TEST_F(SurfaceValuesTest, APaintedPictureNeedsTextureCoordinates) {
 double speed_along_y(const ModelCells& model) {
     double along = 0, across = 0;
     for (std::size_t cell = 0; cell < model.count(); ++cell) {
-        const Vector3d here = position_of(model.mesh, model.cells.places[cell]);
-        for (const VoronoiEdge& edge : model.cells.edges_of(cell)) {
-            const Vector3d there = position_of(model.mesh, model.cells.places[edge.neighbour]);
+        const Vector3d here = position_of(model.mesh, model.spread().cells.places[cell]);
+        for (const VoronoiEdge& edge : model.spread().cells.edges_of(cell)) {
+            const Vector3d there =
+                position_of(model.mesh, model.spread().cells.places[edge.neighbour]);
             const Vector3d way = there - here;
             along += edge.weight() * way.y * way.y;
             across += edge.weight() * (way.x * way.x + way.z * way.z);
@@ -141,11 +142,11 @@ TEST_F(SurfaceValuesTest, CurvatureSaysADirection) {
         const ModelCells& model = *simulation->model();
         double along = 0, all = 0;
         for (std::size_t cell = 0; cell < model.count(); ++cell) {
-            const Vector3d here = position_of(model.mesh, model.cells.places[cell]);
+            const Vector3d here = position_of(model.mesh, model.spread().cells.places[cell]);
             const Vector3d around = unit(Vector3d{-here.z, 0, here.x});
-            for (const VoronoiEdge& edge : model.cells.edges_of(cell)) {
+            for (const VoronoiEdge& edge : model.spread().cells.edges_of(cell)) {
                 const Vector3d way =
-                    position_of(model.mesh, model.cells.places[edge.neighbour]) - here;
+                    position_of(model.mesh, model.spread().cells.places[edge.neighbour]) - here;
                 along += edge.weight() * dot(way, around) * dot(way, around);
                 all += edge.weight() * dot(way, way);
             }

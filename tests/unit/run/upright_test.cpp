@@ -211,7 +211,7 @@ TEST_F(Upright, ReTiledModelsHaveTheCellsWhereTheyAreInTheFile) {
     const auto written = read_model(path("tiled.ply"));
     ASSERT_TRUE(written);
     for (std::size_t k = 0; k < model.count(); ++k) {
-        const Vector3d place = position_of(mesh, model.cells.places[k]);
+        const Vector3d place = position_of(mesh, model.spread().cells.places[k]);
         EXPECT_LT(length(written->points[k] - place), 1e-5) << k;
     }
 }

@@ -1,0 +1,48 @@
+// Planes with one value for each cell of a model, in the order in which they lie in memory.
+#pragma once
+
+#include "core/plane.h"
+#include "ir/word_format.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+namespace cascade {
+
+/// Calls `write(row, column, cell, is_cell)` for all positions of the rows, where order[k] is the
+/// cell at position k; the padding of the last row repeats the last cell.
+template <typename Write>
+void for_each_place(const Grid& grid, const std::vector<std::uint32_t>& order, const Write& write) {
+    const std::size_t count = order.size();
+    std::size_t k = 0;
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        for (std::int64_t i = 0; i < grid.width; ++i, ++k) {
+            write(row, i, order[std::min(k, count - 1)], k < count);
+        }
+    }
+}
+
+/// A plane of `value(cell, is_cell)`: a number, or an unsigned integer for a plane of words.
+template <typename Value>
+Field plane_of_cells(const Grid& grid, const std::vector<std::uint32_t>& order, Precision precision,
+                     const Value& value) {
+    Field field{PlaneLayout(grid), precision};
+    field.visit([&]<typename Number>(Plane<Number>& cells) {
+        for_each_place(
+            grid, order, [&](std::int64_t row, std::int64_t i, std::size_t cell, bool is_cell) {
+                const auto found = value(cell, is_cell);
+                if constexpr (std::is_same_v<std::remove_const_t<decltype(found)>, std::uint32_t>) {
+                    const WordOf<Number> word = found;
+                    std::memcpy(cells.row(row) + i, &word, sizeof word);
+                } else {
+                    cells.row(row)[i] = static_cast<Number>(found);
+                }
+            });
+    });
+    return field;
+}
+
+}  // namespace cascade

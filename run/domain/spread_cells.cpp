@@ -1,0 +1,251 @@
+// Sizes of cells, weights of links and the planes that formulas read, in units of the domain.
+#include "run/domain/spread_cells.h"
+
+#include "core/check.h"
+#include "core/file.h"
+#include "core/quantities.h"
+#include "core/with_commas.h"
+#include "mesh/normals.h"
+#include "run/domain/cell_planes.h"
+#include "run/domain/free_memory.h"
+#include "run/domain/model_directions.h"
+#include "surface/cell_file.h"
+#include "surface/cell_order.h"
+#include "surface/curvature.h"
+#include "surface/make_cells.h"
+#include "surface/place_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace cascade {
+
+namespace {
+
+// A cell smaller than this part of the mean counts as this large, because steps would have to be
+// just as short.
+constexpr double least_area = 1e-3;
+// A few in some thousand spread cells are so tight that the sum of their links' weights exceeds
+// this over the mean area. They count as larger, so that they do not shorten the steps of all
+// cells. Regular hexagons have 3.46.
+constexpr double most_weight = 7.5;
+
+/// Weights of a Laplacian in units, one for each Voronoi edge.
+std::vector<double> weights_of(const SurfaceCells& cells, ModelLaplacian laplacian,
+                               const std::vector<double>& areas, double unit, double mean_area) {
+    std::vector<double> weights;
+    weights.reserve(cells.edges.size());
+    for (std::size_t cell = 0; cell < cells.places.size(); ++cell) {
+        double lengths = 0;
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) lengths += edge.length;
+        for (const VoronoiEdge& edge : cells.edges_of(cell)) {
+            if (laplacian == ModelLaplacian::turk) {
+                weights.push_back(lengths > 0 ? 4 * edge.length / lengths * unit * unit / mean_area
+                                              : 0);
+            } else {
+                const bool is_sound = edge.distance > 0 && areas[cell] > 0;
+                weights.push_back(is_sound ? edge.length / edge.distance / areas[cell] : 0);
+            }
+        }
+    }
+    return weights;
+}
+
+CellKind kind_of(ModelCellKind kind) {
+    switch (kind) {
+        case ModelCellKind::spread: return CellKind::places;
+        case ModelCellKind::faces: return CellKind::faces;
+        case ModelCellKind::vertices: return CellKind::vertices;
+    }
+    CHECK(false, "a kind of cells");
+}
+
+CellOptions options_of(const CellRequest& request) {
+    CellOptions options;
+    options.kind = kind_of(request.settings.cells);
+    options.count = static_cast<std::uint64_t>(request.settings.count);
+    options.seed = request.seed;
+    return options;
+}
+
+void report(const RunControl& control, std::string what) {
+    if (!control.report) return;
+    Progress progress;
+    progress.doing = std::move(what);
+    control.report(progress);
+}
+
+/// Reads the cells from a file in the folder, or makes them and writes the file. Results are
+/// the same either way, so a file that cannot be written is no reason to stop.
+Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache, const SurfaceMesh& mesh,
+                                   const CellOptions& options, Team& team,
+                                   const RunControl& control) {
+    const auto path = cache / (key_of(mesh, options).text() + ".cells");
+    const auto folder = make_folder(cache);
+    auto kept = kept_cells(path, mesh, options, team, control.cancel);
+    if (!kept) return tl::unexpected(kept.error());
+    if (control.cancel) return std::move(kept->cells);
+    const std::string why = folder ? kept->not_kept : folder.error().message;
+    if (kept->were_kept) {
+        if (control.note) control.note("took the cells from " + path.string());
+    } else if (why.empty()) {
+        if (control.note) control.note("kept the cells in " + path.string());
+    } else if (control.warn) {
+        control.warn("the cells are not kept: " + why);
+    }
+    return std::move(kept->cells);
+}
+
+class CellLinker {
+public:
+    CellLinker(const CellRequest& request, const SurfaceMesh& mesh, SurfaceCells cells)
+        : settings_(request.settings), precision_(request.precision), mesh_(mesh) {
+        made_.cells = std::move(cells);
+        made_.grid = rows_of_cells(static_cast<std::int64_t>(count()));
+    }
+
+    SpreadCells link() {
+        const SurfaceCells& cells = made_.cells;
+        const double total = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
+        const double mean = total / static_cast<double>(count());
+        made_.unit = settings_.unit.value_or(std::sqrt(mean));
+        std::vector<double> areas = cells.areas;  // In square units.
+        for (double& area : areas) {
+            area = std::max(area, least_area * mean) / (made_.unit * made_.unit);
+        }
+        if (settings_.cells == ModelCellKind::spread) widen_tight_cells(areas);
+        link_cells(weights_of(cells, settings_.laplacian, areas, made_.unit, mean));
+        make_planes(areas);
+        return std::move(made_);
+    }
+
+private:
+    std::size_t count() const { return made_.cells.places.size(); }
+
+    void widen_tight_cells(std::vector<double>& areas) const {
+        const double mean =
+            std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
+        for (std::size_t cell = 0; cell < areas.size(); ++cell) {
+            double sum = 0;
+            for (const VoronoiEdge& edge : made_.cells.edges_of(cell)) sum += edge.weight();
+            areas[cell] = std::max(areas[cell], sum * mean / most_weight);
+        }
+    }
+
+    void link_cells(std::vector<double> weights) {
+        const SurfaceCells& cells = made_.cells;
+        LinkList list;
+        list.ends = cells.ends;
+        list.neighbours.reserve(cells.edges.size());
+        std::size_t edge = 0;
+        for (std::size_t cell = 0; cell < count(); ++cell) {
+            double sum = 0;
+            for (; edge < cells.ends[cell]; ++edge) {
+                list.neighbours.push_back(cells.edges[edge].neighbour);
+                sum += weights[edge];
+            }
+            made_.largest_weight = std::max(made_.largest_weight, sum);
+        }
+        list.weights = std::move(weights);
+        made_.order = order_for_steps(list);
+        made_.links = Links(list, PlaneLayout(made_.grid), precision_, made_.order);
+    }
+
+    /// A plane of `value(k)` in cell k: a number, or an unsigned integer for words.
+    template <typename Value>
+    void put(ModelPlane plane, const Value& value) {
+        made_.planes[static_cast<std::size_t>(plane)] =
+            plane_of_cells(made_.grid, made_.order, precision_,
+                           [&](std::size_t cell, bool) { return value(cell); });
+    }
+
+    void make_planes(const std::vector<double>& areas) {
+        made_.inside = Mask(PlaneLayout(made_.grid));
+        for_each_place(made_.grid, made_.order,
+                       [&](std::int64_t row, std::int64_t i, std::size_t, bool is_cell) {
+                           made_.inside.row(row)[i] = is_cell ? 1 : 0;
+                       });
+        made_.planes.resize(model_plane_count);
+        const SurfaceCells& cells = made_.cells;
+        put(ModelPlane::number, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
+        // The padding of the last row does not count in sums by area.
+        made_.planes[static_cast<std::size_t>(ModelPlane::area)] = plane_of_cells(
+            made_.grid, made_.order, precision_,
+            [&](std::size_t cell, bool is_cell) { return is_cell ? areas[cell] : 0.0; });
+        const MeshFacts facts = facts_of(mesh_);
+        const Vector3d size = facts.high - facts.low;
+        const double longest = std::max({size.x, size.y, size.z});
+        std::vector<Vector3d> places;
+        for (const SurfacePlace& place : cells.places)
+            places.push_back(position_of(mesh_, place) - facts.low);
+        const auto part = [](double of, double side) { return side > 0 ? of / side : 0.5; };
+        put(ModelPlane::x, [&](std::size_t k) { return part(places[k].x, longest); });
+        put(ModelPlane::y, [&](std::size_t k) { return part(places[k].y, longest); });
+        put(ModelPlane::z, [&](std::size_t k) { return part(places[k].z, longest); });
+        put(ModelPlane::sx, [&](std::size_t k) { return part(places[k].x, size.x); });
+        put(ModelPlane::sy, [&](std::size_t k) { return part(places[k].y, size.y); });
+        put(ModelPlane::sz, [&](std::size_t k) { return part(places[k].z, size.z); });
+        const std::vector<Vector3d> of_points = sphere_normals(mesh_);
+        std::vector<Vector3d> normals;
+        for (const SurfacePlace& place : cells.places) {
+            normals.push_back(normal_at(mesh_, of_points, place));
+        }
+        put(ModelPlane::nx, [&](std::size_t k) { return normals[k].x; });
+        put(ModelPlane::ny, [&](std::size_t k) { return normals[k].y; });
+        put(ModelPlane::nz, [&](std::size_t k) { return normals[k].z; });
+        // Turk's estimate, as a curvature in 1 / unit.
+        std::vector<double> bends = turk_radii(mesh_);
+        for (double& radius : bends) radius = radius > 0 ? made_.unit / radius : 0;
+        put(ModelPlane::curvature,
+            [&](std::size_t k) { return value_at(mesh_, bends, cells.places[k]); });
+    }
+
+    const ModelSettings& settings_;
+    const Precision precision_;
+    const SurfaceMesh& mesh_;
+    SpreadCells made_;
+};
+
+}  // namespace
+
+std::size_t CellRequest::count(const SurfaceMesh& mesh) const {
+    return static_cast<std::size_t>(count_cells(mesh, options_of(*this)));
+}
+
+Result<void> CellRequest::check(const SurfaceMesh& mesh) const {
+    const CellOptions options = options_of(*this);
+    const double bytes = memory_of_cells(mesh, options);
+    if (bytes > static_cast<double>(available_memory())) {
+        return failure(fmt::format("making these cells takes {}, more than is free",
+                                   with_unit(bytes, "B")),
+                       "fewer cells: --cells");
+    }
+    return check_cells(mesh, options);
+}
+
+Result<SurfaceCells> CellRequest::make(const SurfaceMesh& mesh, Team& team,
+                                       const RunControl& control) const {
+    CellOptions options = options_of(*this);
+    std::optional<Anisotropy> anisotropy;
+    if (settings.directions) {
+        anisotropy =
+            anisotropy_of(*settings.directions, settings.stretch, mesh, team, control.cancel);
+        if (control.cancel) return SurfaceCells();
+        options.anisotropy = &*anisotropy;
+    }
+    report(control,
+           fmt::format("spreading {} cells", with_commas(static_cast<std::int64_t>(count(mesh)))));
+    const bool is_kept = !cache.empty() && options.kind == CellKind::places;
+    return is_kept ? cells_kept_in(cache, mesh, options, team, control)
+                   : make_cells(mesh, options, team, control.cancel);
+}
+
+SpreadCells CellRequest::linked(const SurfaceMesh& mesh, SurfaceCells cells) const {
+    return CellLinker(*this, mesh, std::move(cells)).link();
+}
+
+}  // namespace cascade

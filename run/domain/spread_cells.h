@@ -1,0 +1,37 @@
+// How the cells of a model are made from its mesh: spread or taken from its faces and points, then
+// linked and laid out in the order of memory.
+#pragma once
+
+#include "run/domain/model_cells.h"
+
+#include <atomic>
+#include <filesystem>
+
+namespace cascade {
+
+/// What determines the cells besides the mesh.
+struct CellRequest {
+    ModelSettings settings;
+    std::uint32_t seed = 1;
+    Precision precision = Precision::single;
+    std::filesystem::path cache;  ///< Where spread cells are kept; empty: nowhere.
+
+    explicit CellRequest(const Program& program, std::filesystem::path kept_in = {})
+        : settings(*program.domain.model),
+          seed(program.domain.seed),
+          precision(program.domain.precision),
+          cache(std::move(kept_in)) {}
+
+    /// The number of cells of an upright mesh.
+    std::size_t count(const SurfaceMesh& mesh) const;
+    /// Fails if there is not enough memory for them, or if a component of the surface would have
+    /// none.
+    Result<void> check(const SurfaceMesh& mesh) const;
+    /// The cells, read from the cache if they are there. Fails as make_cells() does, so never if
+    /// check() passed and cells are not stretched; meaningless if `control` cancels.
+    Result<SurfaceCells> make(const SurfaceMesh& mesh, Team& team, const RunControl& control) const;
+    /// With planes and links.
+    SpreadCells linked(const SurfaceMesh& mesh, SurfaceCells cells) const;
+};
+
+}  // namespace cascade
