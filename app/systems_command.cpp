@@ -183,7 +183,8 @@ int systems_command(const Options& options, Console& console) {
 
 int new_command(const Options& options, Console& console) {
     const std::string& name = options.words.front();
-    const LibraryText* const text = find_library_text(name);
+    const LibraryText* text = find_library_text(name);
+    if (text == nullptr) text = find_shape_text(name);
     if (text == nullptr) {
         console.fail(unknown_system(name));
         return exit_status::wrong_use;

@@ -27,6 +27,25 @@ std::string_view said_in(std::string_view comment) {
     return comment;
 }
 
+/// What a text without a stage needs besides its first block to be run and drawn.
+std::string rest_of_script(const ast::Block& block, std::string_view name) {
+    if (block.kind == ast::BlockKind::shape) {
+        return fmt::format(
+            "\ncells herd {{ p' += cling(1) + push(1) }}\n"
+            "domain {{ surface: sphere }}\n"
+            "stage stand: herd {{ founders: 100; r: 0.06; duration: 2 }}\n"
+            "picture {{ shape: {}; height: 2 * r; color: rgb(0.5, 0.6, 0.35) }}\n",
+            name);
+    }
+    if (block.is_cells) {
+        return fmt::format(
+            "\ndomain {{ surface: sphere }}\n"
+            "stage first: {} {{ founders: 400; duration: 10 }}\n",
+            name);
+    }
+    return fmt::format("\nstage first: {} {{ }}\n", name);
+}
+
 }  // namespace
 
 bool LibraryNote::mentions(std::string_view word) const {
@@ -64,7 +83,7 @@ std::string starting_script(const LibraryText& text) {
         std::any_of(script.blocks.begin(), script.blocks.end(),
                     [](const ast::Block& block) { return block.kind == ast::BlockKind::stage; });
     std::string result(text.text);
-    if (!has_stage) result += fmt::format("\nstage first: {} {{ }}\n", text.system_name());
+    if (!has_stage) result += rest_of_script(script.blocks.back(), text.system_name());
     return result;
 }
 

@@ -21,7 +21,8 @@ struct LibraryNote {
 /// Reads the description of a text; its head is the comment at its top.
 LibraryNote note_of(const LibraryText& text);
 
-/// A script to start from: the library's text of a system, with a stage if the text has none.
+/// A script to start from: the library's text of a system, of cells or of a shape, with what it
+/// needs to be run if it has no stage.
 std::string starting_script(const LibraryText& text);
 
 }  // namespace cascade
