@@ -26,6 +26,9 @@ struct Progress {
     std::string when_met;        ///< then the word to print, such as "settled".
 };
 
+/// For what takes long and is not to be cancelled.
+inline const std::atomic<bool> never_cancelled{false};
+
 /// Shared between a run and its observer. `cancel` may be set from a signal handler or from another
 /// thread; the run then ends at the next complete step.
 struct RunControl {

@@ -31,13 +31,17 @@ double component(const Quaternion& q, std::size_t c) {
     return c == 0 ? q.x : c == 1 ? q.y : c == 2 ? q.z : q.w;
 }
 
+bool has_triangles(const InstancedModel& model) {
+    return (model.body && !model.body->triangles.empty()) || model.copies.triangle_count() > 0;
+}
+
 /// Where the coordinates of body and copies begin.
 Result<Vector3d> origin_of(const InstancedModel& model) {
+    CHECK(has_triangles(model), "there is a body or a copy");
     const std::vector<Placement>& placements = model.copies.placements;
-    CHECK(!placements.empty(), "something was copied");
     std::vector<Vector3d> points;
     if (model.body) points = model.body->points;
-    Vector3d low = placements[0].place, high = low;
+    Vector3d low = points.empty() ? placements[0].place : points[0], high = low;
     const auto reach = [&](Vector3d p) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -130,6 +134,7 @@ void add_copies(const Instances& copies, GlbFile& file) {
     std::uint32_t mesh_of_primitive = 0;
     for (const auto& [key, placements] : nodes) {
         const auto [mesh, group] = key;
+        if (copies.meshes[mesh].triangles.empty()) continue;
         if (primitive.empty() || mesh != mesh_of_primitive) {
             primitive = primitive_of(copies.meshes[mesh], file);
             mesh_of_primitive = mesh;
@@ -173,9 +178,11 @@ Result<std::string> encode_instanced_glb(const InstancedModel& model) {
     const Result<Vector3d> origin = origin_of(model);
     if (!origin) return tl::unexpected(origin.error());
     GlbFile file(*origin);
-    file.require("EXT_mesh_gpu_instancing");
     add_body(model, file);
-    add_copies(model.copies, file);
+    if (model.copies.triangle_count() > 0) {
+        file.require("EXT_mesh_gpu_instancing");
+        add_copies(model.copies, file);
+    }
     return file.pack();
 }
 
@@ -220,7 +227,7 @@ Result<std::string> encode_merged_glb(const InstancedModel& model) {
     if (!merged) return tl::unexpected(merged.error());
     GlbFile file(*origin);
     add_body(model, file);
-    add_merged(*merged, file);
+    if (!merged->triangles.empty()) add_merged(*merged, file);
     return file.pack();
 }
 
@@ -232,8 +239,10 @@ Result<std::string> encode_merged_obj(const InstancedModel& model) {
         file.begin("body");
         file.add(*model.body, {model.colours, {}});
     }
-    file.begin("copies");
-    file.add(*merged);
+    if (!merged->triangles.empty()) {
+        file.begin("copies");
+        file.add(*merged);
+    }
     return file.text();
 }
 
@@ -245,6 +254,10 @@ Result<void> write_instanced(const std::filesystem::path& path, const InstancedM
             fmt::format("cannot write '{}': copies on a model go into files whose name "
                         "ends in .glb or .obj",
                         path.string()));
+    }
+    if (!has_triangles(model)) {
+        return failure(fmt::format("cannot write '{}': there is nothing to be seen", path.string()),
+                       "no cell is drawn, and there is no surface below them");
     }
     return write_encoded(path, [&] {
         if (ending == ".obj") return encode_merged_obj(model);

@@ -18,7 +18,7 @@ namespace cascade {
 struct InstancedModel {
     const SurfaceMesh* body = nullptr;  ///< May be absent.
     std::span<const Colour> colours;    ///< Of the body, sRGB, one per point; empty: none.
-    const Instances& copies;            ///< At least one.
+    const Instances& copies;            ///< May be none if there is a body.
 };
 
 /// A GLB file in which each mesh is stored once, by the extension EXT_mesh_gpu_instancing (Khronos
@@ -57,7 +57,7 @@ Result<std::string> encode_merged_glb(const InstancedModel& model);
 Result<std::string> encode_merged_obj(const InstancedModel& model);
 
 /// Writes a file of the extension .glb or .obj, atomically. OBJ files are always merged. Fails on
-/// other extensions, and as the encoders and write_file do.
+/// other extensions, if there are no triangles at all, and as the encoders and write_file do.
 Result<void> write_instanced(const std::filesystem::path& path, const InstancedModel& model,
                              bool is_merged);
 

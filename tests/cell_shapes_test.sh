@@ -91,6 +91,36 @@ coat wrong 'rgb(r, 0, 1 - coat.u)' 'surface: sphere; cells: 900'
 "$CASCADE" run -q wrong.cascade -o wrong.png 2>err && fail "the skin reads cells"
 grep -q "'r' is not a parameter of bands" err || fail "the skin reads cells: $(cat err)"
 
+# So does a body that grew in a volume, in the coordinates of scripts: a ball around (0.5, 0.5, 0.5).
+cat >body.cascade <<'END'
+system ball { u: 0.3 - sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2); u' = 0 }
+cells still { p' += cling(1) }
+domain { grid: 24, 24, 24; boundary: noflux }
+stage grown: ball { iterations: 1 }
+stage stand: still { founders: 6; body: grown.u; duration: 0.1; r: 0.02 }
+picture { color: rgb(0, 1, 0); skin: rgb(x > 0.5, 0, x < 0.5) }
+END
+"$CASCADE" run -q body.cascade -o body.obj -o body.glb --save grown || fail "a body in files"
+awk '/^o / { name = $2 }
+     name == "body" && $1 == "v" {
+         away = sqrt(($2 - 0.5)^2 + ($3 - 0.5)^2 + ($4 - 0.5)^2); ++count
+         if (away < 0.295 || away > 0.301) exit 1
+         if ($2 > 0.53 && ($5 != 1 || $7 != 0) || $2 < 0.47 && ($5 != 0 || $7 != 1)) exit 1
+     }
+     END { exit !(count > 500) }' body.obj || fail "the body in body.obj"
+"$CASCADE" run -q --resume grown -o again.obj || fail "a body that is resumed"
+cmp -s body.obj again.obj || fail "a body that is resumed is another one"
+
+# Without any cell that is drawn, files hold the surface alone; and without a surface there are none.
+draw bare 'picture { width: 0; color: rgb(1, 0, 0) }' -o bare.glb
+grep -q "^o copies" bare.obj && fail "copies of nothing"
+grep -q gpu_instancing bare.glb && fail "instances of nothing"
+sed 's/surface: sphere/grid: 8, 8, 8/' bare.cascade >nothing.cascade
+for name in nothing.obj nothing.glb; do
+    "$CASCADE" run -q nothing.cascade -o $name 2>err && fail "$name holds nothing"
+    grep -q "there is nothing to be seen" err || fail "$name: $(cat err)"
+done
+
 # A model with texture coordinates gets maps that show what stands on it.
 cat >square.obj <<'END'
 v 0 0 0

@@ -107,7 +107,7 @@ Result<void> Runner::prepare() {
     }
     keep_while_running();
     if (request_.resume.empty()) return {};
-    return restore_run(request_.resume, script_, *simulation_);
+    return restore_run(request_.resume, script_, *simulation_, control_.cancel);
 }
 
 /// Checks all places to which the run will write.
@@ -183,7 +183,8 @@ Result<void> Runner::make_simulation() {
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
     if (played) {
-        const auto restored = go_on(*simulation_, nullptr, played->values(), Continuation::same);
+        const auto restored =
+            go_on(*simulation_, nullptr, played->values(), Continuation::same, control_.cancel);
         if (!restored) return tl::unexpected(restored.error());
     }
     return check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
@@ -193,7 +194,8 @@ Result<void> Runner::make_simulation() {
 Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     const Stage& stage = script_.program->stages[k];
     if (!simulation_->state(k).started) {
-        if (auto started = simulation_->start_stage(k); !started) {
+        if (auto started = simulation_->start_stage(k, control_.cancel); !started) {
+            if (control_.cancel) return StageEnd::cancelled;
             return tl::unexpected(started.error());
         }
         // Until a later stage takes a step, pictures show the stage before, which has its frame.

@@ -82,7 +82,7 @@ Result<void> check_savable(const std::filesystem::path& folder, const Script& sc
 /// Starts the stages of a saved run again and restores their species. The script must be the one
 /// that was saved (load it with load_saved_script).
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
-                         Simulation& simulation);
+                         Simulation& simulation, const std::atomic<bool>& cancel = never_cancelled);
 
 /// The script and overrides of a saved run. `changes` may lift or set `steps` and `until_stage`,
 /// grant reads and name the place of the model. Files of the script are looked up in

@@ -238,7 +238,7 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
 }
 
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
-                         Simulation& simulation) {
+                         Simulation& simulation, const std::atomic<bool>& cancel) {
     // A run in progress may be replacing this one.
     const FolderLock lock(folder, true);
     auto json = read_saved_manifest(folder);
@@ -269,7 +269,7 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
                 return tl::unexpected(
                     damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
             }
-            if (auto started = simulation.start_stage(k); !started) return started;
+            if (auto started = simulation.start_stage(k, cancel); !started) return started;
             if (script.program->system_of(k).cells) {
                 auto cells = read_cells(folder, *json, stages[k].at("cells"), simulation, k);
                 if (!cells) return tl::unexpected(damaged(folder, cells.error().message));

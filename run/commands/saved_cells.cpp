@@ -231,11 +231,13 @@ Result<TissueRecord> read_cells(const std::filesystem::path& folder, const nlohm
         return failure("the numbers of its cells are not in order");
     }
     const auto model = simulation.model();
-    const std::size_t triangles = model ? model->mesh.triangles.size() : 0;
+    const auto body = simulation.body(stage);
+    const SurfaceMesh* const surface = model ? &model->mesh : body.get();
+    const std::size_t triangles = surface != nullptr ? surface->triangles.size() : 0;
     if (!std::all_of(record.triangles.begin(), record.triangles.end(), [&](std::uint32_t triangle) {
             return triangle < triangles || triangle == Tissue::no_triangle;
         })) {
-        return failure("its cells are on triangles that the model does not have");
+        return failure("its cells are on triangles that their surface does not have");
     }
     if (!makes_sense(record.time)) return failure("the time of its cells makes no sense");
     return record;

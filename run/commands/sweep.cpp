@@ -196,7 +196,9 @@ Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
 Result<void> Sweeper::run_stages(Script& script, Simulation& simulation, RunControl& control,
                                  SweepResult& result) {
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        if (auto started = simulation.start_stage(k); !started) return started;
+        if (auto started = simulation.start_stage(k, control.cancel); !started) {
+            return control.cancel ? Result<void>() : started;
+        }
         auto end = simulation.advance_stage(k, script.program->stages[k].iterations, control, {});
         result.steps += simulation.state(k).steps;
         if (!end) return tl::unexpected(end.error());

@@ -94,9 +94,12 @@ private:
 Result<void> write_things(const std::filesystem::path& path, const GrownCells& cells,
                           bool is_merged) {
     const Instances copies = things_in_file(cells);
+    const DrawnCells& drawn = cells.drawn;
     const auto model = cells.simulation.model();
-    if (!model) return write_instanced(path, {nullptr, {}, copies}, is_merged);
-    Skin skin(*model, cells.drawn);
+    if (!model) {
+        return write_instanced(path, {drawn.body.get(), drawn.body_colours, copies}, is_merged);
+    }
+    Skin skin(*model, drawn);
     const std::vector<Colour> colours = skin.colour_points();
     return write_instanced(path, {&skin.mesh, colours, copies}, is_merged);
 }

@@ -6,9 +6,8 @@
 #include "lang/check/check.h"
 #include "lang/check/check_shape.h"
 #include "lang/program/stage_kinds.h"
-#include "picture/srgb.h"
-#include "run/domain/creased_mesh.h"
 #include "run/pictures/model_picture.h"
+#include "tissue/sense_kernel.h"
 #include "tissue/tissue.h"
 
 #include <fmt/format.h>
@@ -63,6 +62,26 @@ std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& si
     return numbers;
 }
 
+/// The colours of a body's points; those of a canvas are in the cells of its grid.
+std::vector<Colour> colours_on(const SurfaceMesh& body, const Canvas& canvas, Boundaries boundary) {
+    std::array<PlaceValue, 3> channels;
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        channels[k] = of_grid(canvas.fields[k], boundary);
+    }
+    std::vector<Colour> colours;
+    NearPlace near;
+    for (const Vector3d& point : body.points) {
+        near.position = point;
+        Colour& colour = colours.emplace_back();
+        for (std::size_t k = 0; k < channels.size(); ++k) {
+            colour[k] = static_cast<float>(std::clamp(channels[k](near), 0.0, 1.0));
+        }
+        const auto is_nan = [](float part) { return std::isnan(part); };
+        if (std::ranges::any_of(colour, is_nan)) colour = colour_of_nan;
+    }
+    return colours;
+}
+
 /// The colours of the surface below the cells, where the script says them.
 void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage,
                DrawnCells& drawn) {
@@ -86,6 +105,8 @@ void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage
         }
         drawn.floor = std::make_shared<const Image>(
             paint(canvas.fields[0], canvas.fields[1], canvas.fields[2]));
+    } else if (of_fields && drawn.body) {
+        drawn.body_colours = colours_on(*drawn.body, canvas, grid.boundary);
     }
     for (std::size_t k = 0; k < drawn.skin.size(); ++k) {
         drawn.skin[k] = static_cast<float>(std::clamp(canvas.fields[k].number_at(0, 0), 0.0, 1.0));
@@ -219,7 +240,11 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     placed.extent = {static_cast<double>(grid.width) / longest,
                      static_cast<double>(grid.height) / longest,
                      grid.depth > 1 ? static_cast<double>(grid.depth) / longest : 0};
+    placed.body = simulation.body(stage);
     take_skin(script, simulation, stage, placed);
+    if (placed.body && placed.body_colours.empty()) {
+        placed.body_colours.assign(placed.body->points.size(), placed.skin);
+    }
     for (std::size_t k = 0; k < tissue.count(); ++k) {
         Placement placement;
         const double wide = measure(width, k, 2 * frames.radii[k]);
@@ -303,80 +328,6 @@ Instances instances_of(const DrawnCells& cells, double pixels, double detail) {
         }
     });
     return instances;
-}
-
-void lay_flat(Instances& copies) {
-    const auto swapped = [](Vector3d v) { return Vector3d{v.x, v.z, v.y}; };
-    for (Placement& each : copies.placements) {
-        each.place = swapped(each.place);
-        each.turn = quaternion_of(swapped(turned(each.turn, {-1, 0, 0})),
-                                  swapped(turned(each.turn, {0, 1, 0})),
-                                  swapped(turned(each.turn, {0, 0, 1})));
-    }
-}
-
-namespace {
-
-/// The corners of the floor are those of the plane, (0, 0), (0, 1), (1, 1) and (1, 0).
-TriangleMesh floor_of(Vector3d extent) {
-    const auto point = [](double x, double z) {
-        return Vector3{static_cast<float>(x), 0, static_cast<float>(z)};
-    };
-    TriangleMesh mesh;
-    mesh.positions = {point(0, 0), point(0, extent.y), point(extent.x, extent.y),
-                      point(extent.x, 0)};
-    mesh.normals.assign(4, {0, 1, 0});
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
-
-/// The colour of the floor where it is hit.
-Colour light_of_floor(const Image& colours, const Hit& hit) {
-    const std::array<float, 3> weights = hit.weights();
-    const float x = hit.triangle == 0 ? weights[2] : weights[1] + weights[2];
-    const float y = hit.triangle == 0 ? weights[1] + weights[2] : weights[1];
-    const auto cell = [](float part, std::int64_t count) {
-        const auto place = static_cast<std::int64_t>(part * static_cast<float>(count));
-        return std::clamp<std::int64_t>(place, 0, count - 1);
-    };
-    return light_of(colours.at(cell(x, colours.width), cell(y, colours.height)));
-}
-
-}  // namespace
-
-Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
-                 ModelDrawer* drawer, const DrawOptions& options) {
-    Instances copies = instances_of(cells, static_cast<double>(options.height), cells.detail);
-    for (std::size_t k = 0; k < copies.placements.size(); ++k) {
-        copies.placements[k].colour = colours[cells.cells[k]];
-    }
-    DrawOptions used = options;
-    TriangleMesh body;
-    if (model != nullptr) {
-        const ModelBox box(model->mesh);
-        const auto stand_on = [&](const DrawnMesh& drawn) {
-            move_instances(copies, box.in_script(drawn.middle), box.longest * drawn.scale);
-        };
-        if (cells.coat) {
-            stand_on(drawer->drawn());
-            return drawer->draw(*cells.coat, options, &copies);
-        }
-        DrawnMesh drawn = creased_mesh(model->mesh);
-        stand_on(drawn);
-        body = std::move(drawn.mesh);
-        used.round_shadows = true;
-    } else {
-        lay_flat(copies);
-        if (cells.extent.z == 0) body = floor_of(cells.extent);
-    }
-    const bool has_body = !body.triangles.empty();
-    Team team(hardware_threads());
-    const Scene scene(has_body ? &body : nullptr, &copies);
-    const Look skin{light_of(cells.skin), {}};
-    const SurfaceLook look = [&](const Sight& sight) {
-        return cells.floor ? Look{light_of_floor(*cells.floor, sight.hit), {}} : skin;
-    };
-    return draw(RayCaster(scene), look, used, team);
 }
 
 }  // namespace cascade

@@ -3,7 +3,6 @@
 
 #include "mesh/instances.h"
 #include "picture/image.h"
-#include "render/draw.h"
 #include "run/domain/model_cells.h"
 #include "run/pictures/file_shape.h"
 #include "run/pictures/shape_meshes.h"
@@ -18,7 +17,6 @@
 namespace cascade {
 
 class Tissue;
-class ModelDrawer;
 struct ModelLook;
 
 /// The cells of a stage that have a size, in ascending order of their numbers. Lengths are those of
@@ -32,6 +30,10 @@ struct DrawnCells {
     std::vector<std::size_t> cells;    ///< By placement: the place of its cell in number_order().
     std::size_t count = 0;             ///< Of all cells, also of those without a size.
     Colour skin{0.25F, 0.24F, 0.23F};  ///< Of the surface below them, sRGB, unless it has a coat.
+    /// The grown body that they are on, in lengths of scripts, and the colours of its points
+    /// (sRGB); null elsewhere.
+    std::shared_ptr<const SurfaceMesh> body;
+    std::vector<Colour> body_colours;
     /// Colours of the skin at the cells of a model, or of a plane, that fields have; else null.
     std::shared_ptr<const ModelLook> coat;
     std::shared_ptr<const Image> floor;
@@ -63,18 +65,8 @@ struct PlacedFrames {
 };
 PlacedFrames frames_of(const Simulation& simulation, std::uint32_t stage);
 
-/// Draws the cells with their colours (sRGB, in the order of numbers) on their model, or over their
-/// plane if `model` is null. A coat is drawn by `drawer`. Throws std::bad_alloc.
-Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
-                 ModelDrawer* drawer, const DrawOptions& options);
-
 /// Meshes whose facets are at most `detail` pixels from their shapes, if a length of 1 has
 /// `pixels`. Throws std::bad_alloc.
 Instances instances_of(const DrawnCells& cells, double pixels, double detail);
-
-/// Lays copies flat that stand on a plane or in a box, with the plane's normal upwards: y of
-/// scripts, which points downwards in pictures, comes towards the viewer. That swaps left and
-/// right, so shapes are mirrored, too, in which they are symmetric.
-void lay_flat(Instances& copies);
 
 }  // namespace cascade

@@ -9,6 +9,7 @@
 #include "run/pictures/model_picture.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/surface_picture.h"
+#include "run/pictures/tissue_picture.h"
 
 #include <fmt/format.h>
 

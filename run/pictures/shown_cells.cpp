@@ -1,6 +1,8 @@
 // Many cells have few facets each: what is seen of one is small then.
 #include "run/pictures/shown_cells.h"
 
+#include "run/pictures/tissue_picture.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

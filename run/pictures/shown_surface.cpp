@@ -6,6 +6,7 @@
 #include "mesh/normals.h"
 #include "run/domain/metric_planes.h"
 #include "run/pictures/surface_lattice.h"
+#include "run/pictures/tissue_picture.h"
 #include "surface/blur_cells.h"
 #include "surface/nearest_place.h"
 
@@ -140,18 +141,21 @@ ShownSurface shown_function(const SurfaceSettings& settings, const Grid& grid) {
     return shown;
 }
 
-/// Laid flat, y and z are swapped, and with them left and right.
 ShownSurface shown_body(const SurfaceMesh& body) {
     const std::optional<SurfaceMesh> copy = reduced(body);
     const SurfaceMesh& mesh = copy ? *copy : body;
     const CornerNormals corners = corner_normals(mesh);
-    const auto flat = [](Vector3d v) { return single({v.x, v.z, v.y}); };
-    ShownSurface shown;
+    TriangleMesh flat;
     for (std::size_t k = 0; k < corners.points.size(); ++k) {
-        shown.positions.push_back(flat(mesh.points[corners.points[k]]));
-        shown.normals.push_back(flat(corners.normals[k]));
+        flat.positions.push_back(single(mesh.points[corners.points[k]]));
+        flat.normals.push_back(single(corners.normals[k]));
     }
-    for (const auto& [a, b, c] : corners.numbers) shown.triangles.push_back({a, c, b});
+    flat.triangles = corners.numbers;
+    lay_flat(flat);
+    ShownSurface shown;
+    shown.positions = std::move(flat.positions);
+    shown.normals = std::move(flat.normals);
+    shown.triangles = std::move(flat.triangles);
     shown.ends.resize(shown.positions.size());
     return shown;
 }

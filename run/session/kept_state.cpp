@@ -145,13 +145,13 @@ KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& pa
 
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
                                         const KeptState& state, Continuation how,
-                                        std::size_t count) {
+                                        const std::atomic<bool>& cancel, std::size_t count) {
     const Program& program = simulation.program();
     std::vector<PaintedNames> painted;
     for (std::uint32_t k = 0; k < std::min(count, program.stages.size()); ++k) {
         const KeptStage* const kept = counterpart(program, k, state);
         if (kept == nullptr) break;
-        if (auto started = simulation.start_stage(k); !started) {
+        if (auto started = simulation.start_stage(k, cancel); !started) {
             return tl::unexpected(started.error());
         }
         const System& system = program.system_of(k);

@@ -53,9 +53,11 @@ enum class Continuation {
 /// step, but for what was painted. At most `count` stages are started. Returns what is painted, for
 /// each stage that was started. Cells that crawl go on with their own values of parameters, too,
 /// unless their start would give them others than in `before`, whose state was kept (null: none
-/// was). Fails if a stage cannot be started, or if cells have no value to go on with.
+/// was). Fails if a stage cannot be started, if cells have no value to go on with, and when
+/// `cancel` becomes true while a stage is started.
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
                                         const KeptState& state, Continuation how,
+                                        const std::atomic<bool>& cancel,
                                         std::size_t count = SIZE_MAX);
 
 /// The item of a system with this name.

@@ -129,7 +129,7 @@ Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuat
     auto script = std::make_unique<Script>(std::move(changed));
     auto simulation = simulate(*script, control);
     if (!simulation) return tl::unexpected(std::move(simulation.error()));
-    auto painted = go_on(**simulation, simulation_.get(), values, how, stages);
+    auto painted = go_on(**simulation, simulation_.get(), values, how, control.cancel, stages);
     if (painted && painted->empty()) {
         if (auto started = (*simulation)->start_stage(0); !started) {
             painted = tl::unexpected(started.error());
@@ -213,8 +213,10 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::play(const SessionLog& log,
 
 bool LiveRun::is_over() const { return state().done && stage_ + 1 == script_->stage_count(); }
 
-Accepted<void> LiveRun::start_stage(std::uint32_t stage) {
-    if (auto started = simulation_->start_stage(stage); !started) return refuse(started.error());
+Accepted<void> LiveRun::start_stage(std::uint32_t stage, const std::atomic<bool>& cancel) {
+    if (auto started = simulation_->start_stage(stage, cancel); !started) {
+        return refuse(started.error());
+    }
     painted_[stage].clear();
     stage_ = stage;
     return {};
@@ -236,7 +238,8 @@ Result<StageEnd> LiveRun::advance(std::int64_t count, RunControl& control,
         }
         if (is_over()) return StageEnd::finished;
         if (count <= 0 && !watching.begins_next) return StageEnd::stopped;
-        if (auto started = start_stage(stage_ + 1); !started) {
+        if (auto started = start_stage(stage_ + 1, control.cancel); !started) {
+            if (control.cancel) return StageEnd::cancelled;
             return tl::unexpected(*started.error().failure);
         }
     }
@@ -263,7 +266,7 @@ Accepted<void> LiveRun::run_to(RunPlace place, RunControl& control) {
         if (is_there && state().steps == place.steps) return {};
         if (!is_there && state().done) {
             if (stage_ + 1 >= script_->stage_count()) return does_not_fit();
-            if (auto started = start_stage(stage_ + 1); !started) return started;
+            if (auto started = start_stage(stage_ + 1, control.cancel); !started) return started;
             continue;
         }
         const std::int64_t iterations = script_->program->stages[stage_].iterations;
@@ -279,7 +282,7 @@ Accepted<void> LiveRun::make(const Change& change, const KeptState& values, RunC
     if (const auto* text = std::get_if<SetText>(&change)) return make(*text, values, control);
     if (const auto* number = std::get_if<SetNumber>(&change)) return make(*number, values, control);
     if (const auto* paint = std::get_if<Paint>(&change)) return make(*paint);
-    return make(std::get<NextStage>(change));
+    return make(std::get<NextStage>(change), control);
 }
 
 Accepted<void> LiveRun::make(const SetText& change, const KeptState& values, RunControl& control) {
@@ -351,13 +354,13 @@ std::optional<Formula> LiveRun::number(const std::string& name, const std::strin
     return errors.has_errors() ? std::nullopt : formula;
 }
 
-Accepted<void> LiveRun::make(const NextStage&) {
+Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
     if (stage_ + 1 >= script_->stage_count()) {
         return refuse(
             fmt::format("stage '{}' is the last one", script_->program->stages[stage_].name));
     }
     const std::uint32_t ended = stage_;
-    if (auto started = start_stage(ended + 1); !started) return started;
+    if (auto started = start_stage(ended + 1, control.cancel); !started) return started;
     simulation_->end_stage(ended);
     return {};
 }
@@ -430,7 +433,8 @@ Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
     auto adopted = adopt(std::move(script), *before.values, Continuation::changed, control, stage);
     if (!adopted) return adopted;
     if (stage > 0) {
-        if (auto started = start_stage(stage); !started) {
+        // It is not cancelled, because going back would be cancelled, too.
+        if (auto started = start_stage(stage, never_cancelled); !started) {
             // The values of the stage before are as they were.
             const auto back = return_to(before, control);
             return back ? started : back;

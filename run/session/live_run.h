@@ -134,8 +134,8 @@ private:
     Accepted<void> make(const SetText& change, const KeptState& values, RunControl& control);
     Accepted<void> make(const SetNumber& change, const KeptState& values, RunControl& control);
     Accepted<void> make(const Paint& change);
-    Accepted<void> make(const NextStage& change);
-    Accepted<void> start_stage(std::uint32_t stage);
+    Accepted<void> make(const NextStage& change, RunControl& control);
+    Accepted<void> start_stage(std::uint32_t stage, const std::atomic<bool>& cancel);
     Accepted<void> run_to(RunPlace place, RunControl& control);
     Accepted<void> return_to(Moment& moment, RunControl& control);
     Accepted<void> step_through(std::vector<Moment>& from, std::vector<Moment>& to,

@@ -119,10 +119,12 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     return simulation;
 }
 
-Result<void> Simulation::start_stage(std::uint32_t k) {
+Result<void> Simulation::start_stage(std::uint32_t k, const std::atomic<bool>& cancel) {
     self_->end_run();
-    const auto start = program().system_of(k).cells ? start_tissue : cascade::start_stage;
-    return start(*self_->environment, self_->states, k);
+    if (!program().system_of(k).cells) {
+        return cascade::start_stage(*self_->environment, self_->states, k);
+    }
+    return start_tissue(*self_->environment, self_->states, k, cancel);
 }
 
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,

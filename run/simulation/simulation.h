@@ -96,8 +96,10 @@ public:
     ~Simulation();
 
     /// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0
-    /// or a starting value is not finite.
-    Result<void> start_stage(std::uint32_t stage);
+    /// or a starting value is not finite. Making a grown body takes long: if `cancel` becomes true,
+    /// it fails, and the stage has not started.
+    Result<void> start_stage(std::uint32_t stage,
+                             const std::atomic<bool>& cancel = never_cancelled);
 
     /// Takes steps until `last_step` are complete. The first call allocates what steps need and
     /// keeps it for further calls, until the stage ends or states are changed. A stage with a

@@ -25,7 +25,8 @@ namespace {
 /// Where the cells of a stage are.
 Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
                                                       std::span<const StageState> states,
-                                                      std::uint32_t k) {
+                                                      std::uint32_t k,
+                                                      const std::atomic<bool>& cancel) {
     const Stage& stage = here.stage(k);
     if (stage.body.nodes.empty()) {
         if (stage.founders) return here.ground;
@@ -41,10 +42,13 @@ Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
                                    stage.name, most),
                        "cells are on its surface where it becomes larger than 0");
     }
-    auto body = grown_body(values[0], here.grid.boundary);
+    auto body = grown_body(values[0], here.grid.boundary, cancel);
+    if (cancel) {
+        return failure(fmt::format("stopped while the body of stage '{}' was made", stage.name));
+    }
     if (!body) {
         return failure(fmt::format("the body of stage '{}': {}", stage.name, body.error().message),
-                       body.error().hint);
+                       "its triangles are as large as the cells of the grid");
     }
     return std::make_shared<TissueGround>(here.grid, *std::move(body));
 }
@@ -281,9 +285,9 @@ std::string remark_on_cells(const StageView& view) {
 }
 
 Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
-                          std::uint32_t stage) {
+                          std::uint32_t stage, const std::atomic<bool>& cancel) {
     const TimeAccount::Scope spent(environment.account, Spent::starting, stage);
-    auto ground = ground_of(environment, states, stage);
+    auto ground = ground_of(environment, states, stage, cancel);
     if (!ground) return tl::unexpected(ground.error());
     states[stage].ground = std::move(*ground);
     auto started = TissueStart(environment, states, stage).run();

@@ -33,8 +33,9 @@ std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan
 std::string remark_on_cells(const StageView& view);
 
 /// Makes the cells of a stage from its founders, or from those of the stage of cells before it, and
-/// computes their values. Fails if no cell is left, or if there are too many.
+/// computes their values. Fails if no cell is left, if there are too many, and when `cancel`
+/// becomes true while a body is made.
 Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
-                          std::uint32_t stage);
+                          std::uint32_t stage, const std::atomic<bool>& cancel);
 
 }  // namespace cascade

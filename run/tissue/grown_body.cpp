@@ -5,11 +5,11 @@
 #include "tissue/sense_kernel.h"
 
 #include <algorithm>
-#include <atomic>
 
 namespace cascade {
 
-Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary) {
+Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary,
+                               const std::atomic<bool>& cancel) {
     const PlaneLayout& layout = values.layout();
     const double cell =
         1.0 / static_cast<double>(std::max({layout.width, layout.height, layout.depth}));
@@ -32,8 +32,7 @@ Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary) {
     const Vector3d margin{2 * cell, 2 * cell, 2 * cell};
     request.low = Vector3d{} - margin;
     request.high = extent + margin;
-    const std::atomic<bool> never = false;
-    return implicit_surface(inside, request, never);
+    return implicit_surface(inside, request, cancel);
 }
 
 }  // namespace cascade

@@ -6,13 +6,16 @@
 #include "core/side.h"
 #include "mesh/surface_mesh.h"
 
+#include <atomic>
+
 namespace cascade {
 
 /// The closed surface around the cells of a grid with slices whose values are above 0, in lengths
 /// of scripts: the level set of the values interpolated linearly between the centres of cells, and
 /// the sides of the box where the body reaches them. Its triangles are about as large as the cells;
-/// thinner parts may be lost (see implicit_surface()). Fails if a value is not finite, and if the
-/// grid is too large. Throws std::bad_alloc.
-Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary);
+/// thinner parts may be lost (see implicit_surface()). Fails if a value is not finite, if the grid
+/// is too large, and when `cancel` becomes true. Throws std::bad_alloc.
+Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary,
+                               const std::atomic<bool>& cancel);
 
 }  // namespace cascade
