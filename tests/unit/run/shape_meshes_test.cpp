@@ -3,7 +3,10 @@
 
 #include "lang/check/check_shape.h"
 #include "lang/library/library.h"
+#include "picture/srgb.h"
+#include "run/pictures/cells_from_outside.h"
 #include "run/script/script.h"
+#include "unit/export/example_surfaces.h"
 #include "unit/mesh/closed.h"
 
 #include <gmock/gmock.h>
@@ -158,6 +161,72 @@ TEST(ShapeMeshes, AreSharedByCells) {
     const SharedShapes usual = share_shapes(form, {}, 3);
     EXPECT_THAT(usual.of_cells, ::testing::ElementsAre(0, 0, 0));
     EXPECT_EQ(usual.shapes.front(), form.usual);
+}
+
+/// A place on the square of test::flat_square(1).
+SurfacePlace place_on(const SurfaceMesh& square, double x, double y) {
+    for (std::uint32_t t = 0; t < square.triangles.size(); ++t) {
+        const auto corner = [&](std::size_t k) { return square.points[square.triangles[t][k]]; };
+        const auto doubled_area = [](Vector3d a, Vector3d b, Vector3d c) {
+            return cross(b - a, c - a).z;
+        };
+        const Vector3d p{x, y, 0};
+        const double whole = doubled_area(corner(0), corner(1), corner(2));
+        const double a = doubled_area(p, corner(1), corner(2)) / whole;
+        const double b = doubled_area(corner(0), p, corner(2)) / whole;
+        if (a >= 0 && b >= 0 && a + b <= 1) return {t, {a, b, 1 - a - b}};
+    }
+    ADD_FAILURE() << "the place is not on the square";
+    return {};
+}
+
+TEST(ShapeMeshes, PlatesOverlapLikeRoofTiles) {
+    // Cells that touch, six around each, combed in any direction, with the measures of a picture
+    // that says none.
+    constexpr double r = 0.04;
+    const ShapeForm form = library_shape("plate");
+    const SurfaceMesh square = test::flat_square(1);
+    for (const double angle : {0.0, pi / 12, pi / 6}) {
+        Instances plates;
+        auto mesh = mesh_of(parts_of(form, form.usual), {10, 0.01});
+        ASSERT_TRUE(mesh);
+        plates.meshes = {*std::move(mesh)};
+        const Vector3d along{std::cos(angle), std::sin(angle), 0}, normal{0, 0, 1};
+        const auto number_of = [](double x, double y) {
+            return static_cast<float>(std::fmod(17 * x + 29 * y, 1));
+        };
+        for (int row = -30; row < 30; ++row) {
+            for (int column = -30; column < 30; ++column) {
+                const double x = 0.5 + (2 * column + row % 2) * r;
+                const double y = 0.5 + std::sqrt(3.0) * row * r;
+                if (std::min(x, y) < 0.1 || std::max(x, y) > 0.9) continue;
+                Placement each;
+                each.place = {x, y, 0};
+                each.turn = quaternion_of(cross(normal, along), normal, along);
+                each.scale = {r, r, r};
+                each.colour = {1, number_of(x, y), 0};
+                plates.placements.push_back(each);
+            }
+        }
+        const CellsFromOutside seen(square, plates);
+        for (double x = 0.3; x < 0.7; x += 0.01) {
+            for (double y = 0.3; y < 0.7; y += 0.01) {
+                EXPECT_TRUE(seen.above(place_on(square, x, y))) << "a gap at " << x << ' ' << y;
+            }
+        }
+        int tips = 0;
+        for (const Placement& each : plates.placements) {
+            const Vector3d tip = each.place + along * (1.7 * r);
+            if (std::min(tip.x, tip.y) < 0.3 || std::max(tip.x, tip.y) > 0.7) continue;
+            const auto top = seen.above(place_on(square, tip.x, tip.y));
+            ASSERT_TRUE(top);
+            const Colour light = light_of(each.colour);
+            EXPECT_NEAR(top->light[1] / top->light[0], light[1] / light[0], 1e-3)
+                << "another scale lies over the free end";
+            ++tips;
+        }
+        EXPECT_GT(tips, 20);
+    }
 }
 
 }  // namespace
