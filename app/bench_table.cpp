@@ -16,7 +16,12 @@ namespace cascade {
 
 namespace {
 
-std::string sides_of(const Grid& grid) {
+std::string sides_of(const StageBench& bench) {
+    const Grid& grid = bench.grid;
+    if (bench.is_of_cells()) {
+        return counted(static_cast<std::int64_t>(std::round(bench.mean_cells)), "cell") +
+               " that crawl on average";
+    }
     if (grid.linked) return fmt::format("{} cells of a model", with_commas(grid.cell_count()));
     return describe_sides(grid) + " cells";
 }
@@ -128,7 +133,7 @@ std::string bound_sentence(const StageBench& bench) {
     if (bench.threads < bench.most_threads) {
         text +=
             fmt::format("; {} of {} threads took the steps: {}", bench.threads, bench.most_threads,
-                        bench.cells() < 65536 ? sides_of(bench.grid) + " are few"
+                        bench.cells() < 65536 ? sides_of(bench) + " are few"
                                               : "the machine is busy, or more are no faster");
     }
     if (!bench.is_native) {
@@ -143,22 +148,24 @@ std::string bound_sentence(const StageBench& bench) {
 std::string bench_table(const std::string& script, const StageBench& bench) {
     std::string text =
         fmt::format("{}, stage '{}': {}, {}, {}, {}{}\n", script, bench.stage, bench.solver,
-                    sides_of(bench.grid), name_of(bench.precision), bench.fast ? "fast, " : "",
+                    sides_of(bench), name_of(bench.precision), bench.fast ? "fast, " : "",
                     bench.is_native ? "native code" : "interpreted");
     if (!bench.nothing.empty()) return text + line("nothing", bench.nothing) + "\n";
     text += line("speed", fmt::format("{} cell-steps/s, {} a step",
                                       with_prefix(bench.cell_steps_per_second()),
                                       with_unit(bench.step, "s")));
     const auto batches = static_cast<std::int64_t>(bench.batches);
-    text +=
-        line("measured", fmt::format("{} steps, the median of {}, {}; {}", with_commas(bench.steps),
-                                     counted(batches, "batch", "batches"),
-                                     counted(bench.threads, "thread"), bench.stepping.in_words()));
+    const std::string how =
+        bench.is_of_cells()
+            ? fmt::format("the mean, {}", counted(bench.threads, "thread"))
+            : fmt::format("the median of {}, {}; {}", counted(batches, "batch", "batches"),
+                          counted(bench.threads, "thread"), bench.stepping.in_words());
+    text += line("measured", fmt::format("{} steps, {}", with_commas(bench.steps), how));
     text +=
         line("before", fmt::format("starting values {}, first step {}, compiling {} in all",
                                    with_unit(bench.starting, "s"), with_unit(bench.first_step, "s"),
                                    with_unit(bench.compiling, "s")));
-    text += work_lines(bench);
+    if (!bench.is_of_cells()) text += work_lines(bench);
     if (bench.limits) {
         text += limit_lines(bench);
         text += line("bound by", bound_sentence(bench));
@@ -180,9 +187,11 @@ std::string bench_csv_row(const std::string& script, const StageBench& bench) {
     for (char& c : name) {
         if (c == ',' || c == '"' || c == '\n') c = '_';
     }
+    const Grid row_of_cells{static_cast<std::int64_t>(std::round(bench.mean_cells)), 1};
+    const Grid& grid = bench.is_of_cells() ? row_of_cells : bench.grid;
     std::string row = fmt::format("{},{},{},{},{},{},{},{}", name, bench.stage, bench.solver,
-                                  bench.grid.width, bench.grid.height, bench.grid.depth,
-                                  name_of(bench.precision), bench.is_native ? "jit" : "interp");
+                                  grid.width, grid.height, grid.depth, name_of(bench.precision),
+                                  bench.is_native ? "jit" : "interp");
     if (!bench.nothing.empty()) return row + fmt::format(",,0,,,,,,,,,,{:d}\n", bench.fast);
     const StepWork& work = bench.work;
     return row + fmt::format(

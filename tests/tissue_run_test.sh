@@ -102,8 +102,10 @@ refused "neighbours each" "cells c: scales { n: 0; n' = sum(1 over near(5)) - n 
 $sphere
 stage a: c { founders: 100000; r: 0.006; duration: 1 }"
 refused "have no rows and columns" "$(cat cover.cascade)" --features
-"$CASCADE" bench cover.cascade 2>err && fail "bench measures cells"
-grep -q "cells that crawl" err || fail "bench: $(cat err)"
+"$CASCADE" bench cover.cascade --seconds 0.05 >out || fail "bench of cells"
+grep -q "cells that crawl on average" out && grep -q "cell-steps/s" out || fail "bench: $(cat out)"
+"$CASCADE" compile cover.cascade 2>err && fail "cells become C"
+grep -q "cells that crawl" err || fail "compile: $(cat err)"
 
 command -v python3 >/dev/null || exit 0
 python3 -c 'import numpy' 2>/dev/null || exit 0

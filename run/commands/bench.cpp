@@ -1,9 +1,12 @@
 // Warms up with growing numbers of steps, then times batches of whole tiles; the time of a step is
-// the median over the batches. A stage that ends too soon is started again.
+// the median over the batches. Cells that crawl become more, so each step of theirs is timed, and
+// the time of a step is the mean. A stage that ends too soon is started again.
 #include "run/commands/bench.h"
 
 #include "ir/solver.h"
+#include "lang/program/stage_kinds.h"
 #include "run/stage/stage_time.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
@@ -72,6 +75,7 @@ public:
         const double batch = std::clamp(seconds_ / batches_wanted, 1e-4, 0.25);
         std::int64_t every =
             static_cast<std::int64_t>(std::clamp(batch / std::max(step_seconds_, 1e-9), 1.0, 1e9));
+        if (tissue() != nullptr) every = 1;
         every = (every + steps_of_tile - 1) / steps_of_tile * steps_of_tile;
         while (!is_enough() && !control_.cancel) {
             if (auto ready = begin_again_where_done(); !ready) return ready;
@@ -89,6 +93,9 @@ public:
         bench.step = median(batches_);
         bench.batches = batches_.size();
         bench.steps = steps_;
+        if (tissue() == nullptr) return {};
+        bench.step = measured_ / static_cast<double>(steps_);
+        bench.mean_cells = std::max(1.0, cell_steps_ / static_cast<double>(steps_));
         return {};
     }
 
@@ -100,7 +107,13 @@ private:
         return !batches_.empty() && seconds_since(begin_) > 4 * seconds_ + 1;
     }
 
+    /// Null in a stage of fields.
+    const Tissue* tissue() const { return simulation_.state(k_).tissue.get(); }
+
     void add_batch(double seconds, std::int64_t steps) {
+        if (tissue() != nullptr) {
+            cell_steps_ += static_cast<double>(tissue()->count()) * static_cast<double>(steps);
+        }
         batches_.push_back(seconds / static_cast<double>(steps));
         measured_ += seconds;
         steps_ += steps;
@@ -155,6 +168,7 @@ private:
     std::vector<double> batches_;  ///< Seconds per step.
     double measured_ = 0;
     std::int64_t steps_ = 0;
+    double cell_steps_ = 0;  ///< Of cells that crawl.
 };
 
 class ScriptBench {
@@ -215,7 +229,8 @@ private:
         bench.starting = spent(k, Spent::starting);
         StageMeter meter(*simulation_, k, request_.seconds, control_, said_);
         if (auto warm = meter.warm_up(bench); !warm) return tl::unexpected(warm.error());
-        if (!control_.cancel && account_.stage(k).steps == 0) {
+        const bool has_cells = is_of_cells(*script_.program, k);
+        if (!control_.cancel && !has_cells && account_.stage(k).steps == 0) {
             bench.nothing = "nothing moves in it";
             return bench;
         }
@@ -228,6 +243,10 @@ private:
         if (control_.cancel) return bench;
         if (bench.step <= 0) {
             bench.nothing = "it ends before it takes a step";
+            return bench;
+        }
+        if (has_cells) {
+            bench.threads = bench.most_threads;
             return bench;
         }
         bench.threads = account_.stage(k).threads;
@@ -280,7 +299,6 @@ private:
 
 Result<void> bench(Script& script, const BenchRequest& request, RunControl& control,
                    const std::function<void(const StageBench&)>& tell) {
-    if (auto good = check_for_fields(script, "'cascade bench' measures"); !good) return good;
     return ScriptBench(script, request, control).run(tell);
 }
 

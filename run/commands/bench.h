@@ -27,12 +27,13 @@ struct StageBench {
     std::string stage;
     std::string solver;
     Grid grid;
+    double mean_cells = 0;  ///< In a stage of cells that crawl: the mean number over its steps.
     Precision precision = Precision::single;
     bool fast = false;      ///< With --fast.
     bool is_native = true;  ///< False if steps were interpreted.
     std::string nothing;    ///< Why there is nothing to measure; all other members are then empty.
 
-    double step = 0;  ///< Seconds: the median over the batches.
+    double step = 0;  ///< Seconds: the median over the batches; of cells that crawl the mean.
     std::size_t batches = 0;
     std::int64_t steps = 0;  ///< Steps that were measured.
     int threads = 1;         ///< Threads that took the last of these steps.
@@ -44,7 +45,10 @@ struct StageBench {
     StepWork work;
     std::optional<MachineLimits> limits;
 
-    double cells() const { return static_cast<double>(grid.cell_count()); }
+    bool is_of_cells() const { return mean_cells > 0; }
+    double cells() const {
+        return is_of_cells() ? mean_cells : static_cast<double>(grid.cell_count());
+    }
     double cell_steps_per_second() const { return cells() / step; }
 };
 

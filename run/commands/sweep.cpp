@@ -11,6 +11,7 @@
 #include "run/pictures/picture_remarks.h"
 #include "run/script/embedded_script.h"
 #include "run/stage/memory.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,11 @@ std::string one_line(std::string text) {
 void add_remark(SweepResult& result, const std::string& words) {
     if (words.empty()) return;
     result.remark += (result.remark.empty() ? "" : "; ") + one_line(words);
+}
+
+/// The cells that a picture shows; null if it is one of fields.
+const Tissue* shown_tissue(const Simulation& simulation) {
+    return simulation.state(simulation.shown_stage().value_or(0)).tissue.get();
 }
 
 struct Run {
@@ -231,7 +237,14 @@ void Sweeper::take(std::size_t number, RunControl& control) {
     }
     add_remark(result, remark_on_picture(*painter, **simulation));
     result.features = measure_shown(*painter, **simulation);
-    result.tile = shrink(painter->canvas(**simulation), request_.tile_side);
+    if (const Tissue* tissue = shown_tissue(**simulation)) {
+        result.cells = {static_cast<std::int64_t>(tissue->count()), tissue->births, tissue->deaths};
+    }
+    Canvas canvas = painter->canvas(**simulation);
+    // Without rows and columns a tile is a picture.
+    painter->set_width(request_.tile_side);
+    if (canvas.cells || (*simulation)->model()) canvas = canvas_of(painter->image(canvas));
+    result.tile = shrink(canvas, request_.tile_side);
     if (request_.fields) {
         const auto folder = folder_ / "fields" / folder_name(request_.varied, run.values);
         if (auto saved = save_run(folder, script, **simulation); !saved) {
@@ -364,14 +377,6 @@ Result<void> Sweeper::write_outputs() {
 
 tl::expected<SweepReport, SweepError> Sweeper::run() {
     const auto failed = [](const Failure& why) { return tl::unexpected(SweepError{why}); };
-    // Tiles and features need rows and columns.
-    if (auto good = check_for_fields(script_, "a sweep has a sheet for"); !good) {
-        return failed(good.error());
-    }
-    if (script_.program->domain.model) {
-        return failed({"a sweep has no sheet for the cells of a model",
-                       "run it once for each value, with --set"});
-    }
     if (auto planned = plan(); !planned) return tl::unexpected(std::move(planned.error()));
     if (auto ready = prepare_folders(); !ready) return failed(ready.error());
     std::vector<std::size_t> waiting;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace cascade {
 
 namespace {
@@ -70,6 +72,9 @@ std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
     std::vector<std::string> row;
     for (const Variation& variation : varied) row.push_back(variation.name);
     for (const std::string_view name : measure::feature_names()) row.emplace_back(name);
+    const bool has_cells =
+        std::ranges::any_of(results, [](const auto& result) { return result && result->cells; });
+    if (has_cells) row.insert(row.end(), {"cells", "births", "deaths"});
     row.emplace_back("steps");
     row.emplace_back("remark");
     std::string table = csv_row(row);
@@ -79,6 +84,15 @@ std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
         const bool measured = result && !result->failed();
         for (std::size_t k = 0; k < measure::feature_count; ++k) {
             row.push_back(measured ? csv_number(measure::to_array(*result->features)[k]) : "");
+        }
+        if (has_cells) {
+            const auto cells = result ? result->cells : std::nullopt;
+            const auto add = [&](std::int64_t SweepResult::Cells::*which) {
+                row.push_back(cells ? fmt::format("{}", (*cells).*which) : "");
+            };
+            add(&SweepResult::Cells::count);
+            add(&SweepResult::Cells::births);
+            add(&SweepResult::Cells::deaths);
         }
         row.push_back(result ? fmt::format("{}", result->steps) : "");
         row.push_back(result ? result->remark : "not run");

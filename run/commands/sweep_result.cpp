@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/version.h"
+#include "lang/program/stage_kinds.h"
 #include "lang/syntax/token.h"
 #include "picture/npy.h"
 #include "run/script/embedded_script.h"
@@ -57,12 +58,13 @@ std::uint64_t add_files(std::uint64_t hash, const Script& script) {
 }
 
 nlohmann::json json_of(const SweepResult& result) {
-    nlohmann::json json = {{"cascade", version()},
-                           {"planes", result.tile.fields.size()},
-                           {"steps", result.steps},
-                           {"remark", result.remark},
-                           {"features", nullptr}};
+    nlohmann::json json = {{"cascade", version()},  {"planes", result.tile.fields.size()},
+                           {"steps", result.steps}, {"remark", result.remark},
+                           {"features", nullptr},   {"cells", nullptr}};
     if (result.failed()) return json;
+    if (const auto& cells = result.cells) {
+        json["cells"] = {cells->count, cells->births, cells->deaths};
+    }
     json["features"] = nlohmann::json::object();
     const auto values = measure::to_array(*result.features);
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -149,12 +151,15 @@ Field average(const Field& field, std::int64_t factor) {
 }  // namespace
 
 std::string key_of_run(const Script& script, const PictureRequest& picture, int tile_side) {
-    std::uint64_t hash = add_line(fnv1a("sweep 1"), version());
+    std::uint64_t hash = add_line(fnv1a("sweep 2"), version());
     hash = add_files(add_words(hash, script), script);
     hash = add_line(hash, overrides_to_json(script.overrides));
     PictureRequest shown;  // Colours and their range are chosen when the sheet is drawn.
     shown.show = picture.show;
     shown.slice = picture.slice;
+    if (script.program->domain.model || has_stage_of_cells(*script.program)) {
+        shown = picture;  // Tiles are pictures.
+    }
     hash = add_line(add_line(hash, to_json(shown)), fmt::format("{}", tile_side));
     return fmt::format("{:016x}", hash);
 }
@@ -182,6 +187,10 @@ std::optional<SweepResult> read_result(const std::filesystem::path& folder,
         result.remark = json.at("remark").get<std::string>();
         if (json.at("features").is_null()) return result;
         result.features = features_of(json.at("features"));
+        if (const auto& cells = json.at("cells"); !cells.is_null()) {
+            result.cells = {cells.at(0).get<std::int64_t>(), cells.at(1).get<std::int64_t>(),
+                            cells.at(2).get<std::int64_t>()};
+        }
         auto tile = unstacked(folder / (key + ".npy"), json.at("planes").get<std::size_t>());
         if (!tile) return std::nullopt;
         result.tile = std::move(*tile);
@@ -189,6 +198,20 @@ std::optional<SweepResult> read_result(const std::filesystem::path& folder,
     } catch (const nlohmann::json::exception&) {
         return std::nullopt;
     }
+}
+
+Canvas canvas_of(const Image& image) {
+    Canvas canvas;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        Field field{PlaneLayout(flat_grid(image.width, image.height))};
+        for (std::int64_t j = 0; j < image.height; ++j) {
+            for (std::int64_t i = 0; i < image.width; ++i) {
+                field.at(i, j) = image.at(i, j)[channel];
+            }
+        }
+        canvas.fields.push_back(std::move(field));
+    }
+    return canvas;
 }
 
 Canvas shrink(const Canvas& canvas, int side) {

@@ -16,7 +16,12 @@ namespace cascade {
 
 struct SweepResult {
     std::optional<measure::Features> features;  ///< Empty if the run failed.
-    Canvas tile;             ///< The picture's values, averaged down; no fields if the run failed.
+    Canvas tile;  ///< The picture's values, averaged down; no fields if the run failed.
+    /// Of the stage that is shown, if it is one of cells that crawl.
+    struct Cells {
+        std::int64_t count = 0, births = 0, deaths = 0;
+    };
+    std::optional<Cells> cells;
     std::int64_t steps = 0;  ///< Of all stages.
     std::string remark;      ///< The error or warnings of the run; one line, usually empty.
 
@@ -36,6 +41,9 @@ Result<void> write_result(const std::filesystem::path& folder, const std::string
 
 /// Nothing if there is no result of that key, or it is damaged.
 std::optional<SweepResult> read_result(const std::filesystem::path& folder, const std::string& key);
+
+/// An image, as a canvas of its colours that shrink() makes smaller.
+Canvas canvas_of(const Image& image);
 
 /// Every plane of a canvas, averaged over squares of cells so that no side is longer than `side`.
 Canvas shrink(const Canvas& canvas, int side);

@@ -2,7 +2,34 @@
 // measured.
 #include "run/pictures/measured.h"
 
+#include "core/spread.h"
+#include "run/pictures/drawn_cells.h"
+#include "tissue/tissue.h"
+
+#include <array>
+#include <limits>
+#include <vector>
+
 namespace cascade {
+
+namespace {
+
+measure::Features without_places(const std::vector<double>& values) {
+    std::array<double, measure::feature_count> unknown{};
+    unknown.fill(std::numeric_limits<double>::quiet_NaN());
+    measure::Features features = measure::from_array(unknown);
+    const Spread spread = spread_of([&](const auto& take) {
+        for (const double value : values) take(value);
+    });
+    if (spread.count == 0) return features;
+    features.mean = spread.mean;
+    features.deviation = spread.deviation();
+    features.smallest = spread.smallest;
+    features.largest = spread.largest;
+    return features;
+}
+
+}  // namespace
 
 measure::Samples to_samples(const Field& field, const Grid& grid) {
     measure::Samples samples;
@@ -30,7 +57,11 @@ Field shown_number(Painter& painter, const Simulation& simulation) {
 }
 
 measure::Features measure_shown(Painter& painter, const Simulation& simulation) {
-    return measure::measure(to_samples(shown_number(painter, simulation), simulation.grid()));
+    const Field shown = shown_number(painter, simulation);
+    const auto& tissue = simulation.state(simulation.shown_stage().value_or(0)).tissue;
+    if (tissue) return without_places(number_order(shown, *tissue));
+    if (const auto model = simulation.model()) return without_places(cell_values(shown, *model));
+    return measure::measure(to_samples(shown, simulation.grid()));
 }
 
 }  // namespace cascade

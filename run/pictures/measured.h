@@ -14,7 +14,8 @@ measure::Samples to_samples(const Field& field, const Grid& grid);
 /// that the stage shows by default (its `show`, or its last species).
 Field shown_number(Painter& painter, const Simulation& simulation);
 
-/// The features of shown_number().
+/// The features of shown_number(). Where cells have no rows and columns, on a model and where they
+/// crawl, only mean, deviation, smallest and largest are numbers.
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

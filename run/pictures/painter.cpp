@@ -129,12 +129,21 @@ ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) c
     return look;
 }
 
-Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
-    if (!drawer_) drawer_ = std::make_shared<ModelDrawer>(model_);
+DrawOptions Painter::draw_options() const {
     DrawOptions options;
+    if (width_) {
+        options.height = std::max<std::int64_t>(1, *width_ * options.height / options.width);
+        options.width = *width_;
+    }
     options.width *= request_.scale;
     options.height *= request_.scale;
     options.view = request_.view;
+    return options;
+}
+
+Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
+    if (!drawer_) drawer_ = std::make_shared<ModelDrawer>(model_);
+    DrawOptions options = draw_options();
     options.view.up = {0, 1, 0};  // Models are turned upright when they are read.
     return drawer_->draw(look(canvas, range), options);
 }
@@ -170,10 +179,7 @@ std::vector<Colour> Painter::colours_of_cells(const Canvas& canvas,
 }
 
 Image Painter::with_cells(const Canvas& canvas, std::optional<ValueRange> range) {
-    DrawOptions options;
-    options.width *= request_.scale;
-    options.height *= request_.scale;
-    options.view = request_.view;
+    DrawOptions options = draw_options();
     options.view.up = {0, 1, 0};
     if (canvas.cells->coat && !drawer_) drawer_ = std::make_shared<ModelDrawer>(model_);
     return draw_cells(*canvas.cells, colours_of_cells(canvas, range), model_.get(), drawer_.get(),
@@ -186,10 +192,7 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
     Image flat = texture(canvas, range);
     if (is_flat()) return enlarge(std::move(flat), request_.scale);
     const DomainSettings& domain = script_->program->domain;
-    DrawOptions options;
-    options.width *= request_.scale;
-    options.height *= request_.scale;
-    options.view = request_.view;
+    const DrawOptions options = draw_options();
     const Boundaries& sides = domain.grid.boundary;
     Team team(hardware_threads());
     return draw_on_surface(function_of(*domain.surface), flat, sides.x == Boundary::periodic,

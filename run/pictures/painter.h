@@ -3,6 +3,7 @@
 
 #include "core/result.h"
 #include "picture/image.h"
+#include "render/draw.h"
 #include "run/script/picture_request.h"
 #include "run/simulation/simulation.h"
 
@@ -51,6 +52,8 @@ public:
     const PictureRequest& request() const { return request_; }
     /// Sets the view of later pictures.
     void set_view(const View& view) { request_.view = view; }
+    /// Later pictures of surfaces and of cells that crawl are this wide, in pixels.
+    void set_width(std::int64_t width) { width_ = width; }
     /// Sets the slice of later canvases.
     void set_slice(const Slice& slice) { request_.slice = slice; }
     /// The colours of a canvas of cells that crawl, in the order of their numbers.
@@ -62,6 +65,7 @@ public:
 private:
     Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
     ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range) const;
+    DrawOptions draw_options() const;
     Image on_model(const Canvas& canvas, std::optional<ValueRange> range);
     Canvas canvas_of_cells(const Simulation& simulation, Canvas values);
     Image with_cells(const Canvas& canvas, std::optional<ValueRange> range);
@@ -75,6 +79,7 @@ private:
     std::shared_ptr<const FileShape> file_shape_;  ///< That the picture block names; else null.
     std::shared_ptr<const ModelCells> model_;      ///< Of the last canvas; null on grids.
     std::shared_ptr<ModelDrawer> drawer_;          ///< Made with the first picture.
+    std::optional<std::int64_t> width_;            ///< Else the usual one.
     bool shows_cells_ = false;                     ///< The last canvas was of cells that crawl.
     Field outside_;  ///< Of the last canvas: NaN outside of the domain; empty without a mask.
 };

@@ -99,6 +99,33 @@ TEST_F(BenchTest, AllStagesAreMeasured) {
     EXPECT_FALSE(bench(script, request, control, [](const StageBench&) {}));
 }
 
+TEST_F(BenchTest, CellsThatCrawlAreCountedWhileTheyGrow) {
+    Script script = load(R"(
+cells dot: covering, solid { r: 0.1 }
+domain { grid: 16, 16; boundary: noflux }
+stage s: dot { founders: 4; duration: 8 }
+stage rest: dot { iterations: 50 }
+)");
+    BenchRequest request;
+    request.simulation.backend = BackendKind::interpreter;
+    request.simulation.threads = 1;
+    request.seconds = 0.02;
+    RunControl control;
+    std::vector<StageBench> stages;
+    const auto done =
+        bench(script, request, control, [&](const StageBench& stage) { stages.push_back(stage); });
+    ASSERT_TRUE(done) << done.error().message;
+    ASSERT_EQ(stages.size(), 2u);
+    for (const StageBench& stage : stages) {
+        EXPECT_EQ(stage.nothing, "");
+        EXPECT_TRUE(stage.is_of_cells());
+        EXPECT_GT(stage.cells(), 4);
+        EXPECT_GT(stage.steps, 0);
+        EXPECT_NEAR(stage.cell_steps_per_second() * stage.step, stage.mean_cells, 1e-6);
+        EXPECT_FALSE(stage.limits);
+    }
+}
+
 TEST_F(BenchTest, ACancelEndsItWithoutATable) {
     Script script = load(two_stages);
     BenchRequest request;

@@ -220,6 +220,68 @@ TEST_F(SweepTest, LimitsAreKept) {
     EXPECT_THAT(sweep(script, huge, control).error().failure.message, HasSubstr("too large"));
 }
 
+TEST_F(SweepTest, CellsThatCrawlHavePicturesAndNumbers) {
+    const Script script = load(R"(
+cells dot: covering, solid { r: 0.1; glow: random(0.5, 0.4) after divide }
+domain { grid: 16, 16; boundary: noflux }
+stage s: dot { founders: 3; duration: 12; show: glow }
+)");
+    SweepRequest wanted = request({"s.r=0.3,0.1", "dot.full=2,4"});
+    wanted.tile_side = 40;
+    const SweepReport report = sweep_well(script, wanted);
+    EXPECT_EQ(report.runs, 4u);
+    EXPECT_EQ(report.failed, 0u);
+    const auto lines = table();
+    ASSERT_EQ(lines.size(), 5u);
+    EXPECT_THAT(lines[0], HasSubstr(",mean,deviation,smallest,largest,cells,births,deaths,steps,"));
+    std::vector<double> counts;
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+        std::vector<std::string> row(1);
+        for (const char c : lines[k]) {
+            if (c == ',') row.emplace_back();
+            else row.back() += c;
+        }
+        EXPECT_EQ(row[2], "") << "a wavelength takes rows and columns";
+        const auto number = [&](std::size_t column) { return std::stod(row[column]); };
+        EXPECT_GT(number(10), 0.1);                          // The least glow,
+        EXPECT_LT(number(8), number(11));                    // the mean, and the largest.
+        EXPECT_EQ(number(12), 3 + number(13) - number(14));  // Cells are born and die.
+        counts.push_back(number(12));
+    }
+    EXPECT_GT(counts[1], 2 * counts[0]) << "smaller cells are more";
+    const auto read = [&](const std::filesystem::directory_entry& entry) {
+        return read_result(path("sweep/runs"), entry.path().stem().string());
+    };
+    std::size_t tiles = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path("sweep/runs"))) {
+        if (entry.path().extension() != ".json") continue;
+        const auto kept = read(entry);
+        ASSERT_TRUE(kept && kept->cells);
+        ASSERT_TRUE(kept->tile.is_colour());
+        EXPECT_EQ(kept->tile.fields[0].layout().width, 40);
+        EXPECT_FALSE(spread_of(kept->tile.fields[0]).is_even()) << "something is drawn";
+        ++tiles;
+    }
+    EXPECT_EQ(tiles, 4u);
+    EXPECT_EQ(sweep_well(script, wanted).done_before, 4u);
+    wanted.picture.view.azimuth += 90;
+    EXPECT_EQ(sweep_well(script, wanted).done_before, 0u) << "the tiles are other pictures";
+}
+
+TEST_F(SweepTest, ModelsHavePictures) {
+    const Script script = load(R"(
+domain { surface: sphere; cells: 300 }
+stage s: turing_spots { iterations: 20; ka: 1/20 }
+)");
+    SweepRequest wanted = request({"ka=1/20,1/10"});
+    wanted.tile_side = 32;
+    EXPECT_EQ(sweep_well(script, wanted).failed, 0u);
+    const auto lines = table();
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_THAT(lines[0], Not(HasSubstr("births")));
+    EXPECT_THAT(lines[1], StartsWith("1/20,,,,,,,"));
+}
+
 TEST_F(SweepTest, LargePicturesAreAveraged) {
     Grid grid;
     grid.width = 5;
