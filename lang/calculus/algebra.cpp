@@ -67,4 +67,19 @@ NodeId Algebra::call(Function function, std::initializer_list<NodeId> operands, 
     return ExpressionGraph::call(function, operands, type);
 }
 
+Formula without_definitions(const System& system, const Formula& formula) {
+    FlatRates flat(system);
+    return flat.algebra.formula(flat.flattening.add(formula));
+}
+
+std::vector<Formula> near_distances(const Formula& formula) {
+    std::vector<Formula> distances;
+    for (const Node& node : formula.nodes) {
+        const bool is_near =
+            node.is<Call>() && is_over_neighbours(node.function) && node.operand_count == 2;
+        if (is_near) distances.push_back(formula_of(formula.nodes, node.operands[1]));
+    }
+    return distances;
+}
+
 }  // namespace cascade

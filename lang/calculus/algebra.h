@@ -43,4 +43,9 @@ struct FlatRates {
     NodeId rate(ItemId species) const { return flattening.rate(species); }
 };
 
+/// What a formula reads of definitions and rates becomes part of it. The system must be sound.
+Formula without_definitions(const System& system, const Formula& formula);
+/// The distances of a formula's sums `over near(d)`.
+std::vector<Formula> near_distances(const Formula& formula);
+
 }  // namespace cascade

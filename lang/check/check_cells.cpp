@@ -39,12 +39,6 @@ Formula component(DefinitionId vector, std::size_t k) {
     return {{of_vector, Node{static_cast<double>(k)}, call}};
 }
 
-/// What a formula reads of definitions and rates becomes part of it. The system must be sound.
-Formula without_definitions(const System& system, const Formula& formula) {
-    FlatRates flat(system);
-    return flat.algebra.formula(flat.flattening.add(formula));
-}
-
 bool is_same(const Formula& a, const Formula& b) {
     return std::ranges::equal(a.nodes, b.nodes, [](const Node& one, const Node& other) {
         return one.is(other.kind) && one.function == other.function && one.type == other.type &&
@@ -257,12 +251,8 @@ void SystemChecker::check_rules_of_cells() {
 void SystemChecker::find_near() {
     CellRules& rules = *system().cells;
     const auto collect = [&](const Formula& formula) {
-        for (const Node& node : formula.nodes) {
-            const bool is_near =
-                node.is<Call>() && is_over_neighbours(node.function) && node.operand_count == 2;
-            if (!is_near) continue;
-            Formula found =
-                without_definitions(system(), formula_of(formula.nodes, node.operands[1]));
+        for (const Formula& distance : near_distances(formula)) {
+            Formula found = without_definitions(system(), distance);
             const auto is_found = [&](const Formula& each) { return is_same(each, found); };
             if (std::ranges::none_of(rules.near, is_found)) rules.near.push_back(std::move(found));
         }

@@ -1,7 +1,11 @@
 // Checks one expression: each node of the syntax tree becomes a node of a formula, in order.
 #include "lang/check/expression_checker.h"
 
+#include "lang/calculus/algebra.h"
+
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace cascade::checking {
 
@@ -24,8 +28,33 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     if (has_error) return std::nullopt;
     CheckedExpression checked;
     checked.formula = expanded_ != nullptr ? formula_of(formula_.nodes, root) : std::move(formula_);
+    if (scope_.context == Context::picture && !put_definitions_in(checked.formula)) {
+        return std::nullopt;
+    }
     if (parts_[root].constant) checked.constant = parts_[root].value;
     return checked;
+}
+
+/// A picture of cells computes the definitions that it reads. Returns false, without a message, if
+/// errors have left the system incomplete.
+bool ExpressionChecker::put_definitions_in(Formula& formula) {
+    const auto is_definition = [](const Node& node) { return node.is<DefinitionId>(); };
+    if (std::ranges::none_of(formula.nodes, is_definition)) return true;
+    const System& system = work_.program.systems[scope_.system];
+    const auto is_missing = [&](ItemId item) { return system.rates[item].nodes.empty(); };
+    const auto is_empty = [](const Definition& each) { return each.formula.nodes.empty(); };
+    if (std::ranges::any_of(system.rate_order, is_missing) ||
+        std::ranges::any_of(system.definitions, is_empty)) {
+        return false;
+    }
+    if (scope_.system < work_.definitions_read.next()) {
+        for (const Node& node : formula.nodes) {
+            const auto* id = node.as<DefinitionId>();
+            if (id != nullptr) work_.definitions_read[scope_.system][*id] = true;
+        }
+    }
+    formula = without_definitions(system, formula);
+    return true;
 }
 
 /// Finds the operands that must be strings, the names of palettes and files. A bare word there is a
@@ -70,7 +99,7 @@ void ExpressionChecker::visit(const ast::Name& name) {
         return error(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
     }
     // In a function's body; a parameter of the system that calls it is not meant.
-    if (work_.call && cell_value_named(name.name) && !in_cells()) {
+    if (work_.call && is_of_each_cell(name.name) && !in_cells()) {
         return error(span, fmt::format("'{}' is known to cells that crawl only", name.name));
     }
     take(resolve_bare(work_, scope_, name.name, span));

@@ -34,6 +34,10 @@ bool is_of_cells(const Workspace& work, const Scope& scope) {
     return scope.system < systems.next() && systems[scope.system].cells;
 }
 
+bool is_of_each_cell(std::string_view name) {
+    return cell_value_named(name) || name == "p" || name == "r" || name == "age";
+}
+
 std::optional<Node> resolve_cell_value(Workspace& work, const Scope& scope, CellValue value,
                                        Span span) {
     Diagnostic diagnostic;

@@ -154,6 +154,12 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     report(work, span, not_a_parameter(name, system), std::move(hint), std::move(note));
 }
 
+/// Rates have the values of definitions, and pictures of cells that crawl compute them.
+bool reads_definitions(const Workspace& work, const Scope& scope) {
+    return scope.context == Context::rate ||
+           (scope.context == Context::picture && is_of_cells(work, scope));
+}
+
 /// Resolves a name of the system itself, or of the stage that is being set or shown.
 std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string_view name,
                                 Span span) {
@@ -167,11 +173,12 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
     }
     if (meaning->has_error) return std::nullopt;
     if (meaning->is_definition()) {
-        if (scope.context == Context::rate) {
+        if (reads_definitions(work, scope)) {
             return Node{std::get<DefinitionId>(meaning->id), span, meaning->type};
         }
         report(work, span, fmt::format("'{}' is a definition and cannot be read here", name),
-               "definitions can be read in rates and other definitions");
+               is_of_cells(work, scope) ? "it has no value when a stage starts"
+                                        : "definitions can be read in rates and other definitions");
         return std::nullopt;
     }
     if (scope.context == Context::bound &&

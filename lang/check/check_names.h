@@ -69,6 +69,10 @@ struct Workspace {
     const ast::Script* cell_functions = nullptr;
 };
 
+/// Is it a name of which every cell that crawls has a value? A function of a script with such cells
+/// can read it.
+bool is_of_each_cell(std::string_view name);
+
 /// Where an expression stands; decides which names and functions it may read.
 enum class Context : std::uint8_t {
     value,     ///< name: e

@@ -55,6 +55,7 @@ private:
     /// In a system of cells that crawl, whose vectors are three numbers?
     bool in_cells() const { return is_of_cells(work_, scope_); }
 
+    bool put_definitions_in(Formula& formula);
     void find_text_places();
     void visit(const ast::Number& number);
     void visit(const ast::Text& text);

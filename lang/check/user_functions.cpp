@@ -126,6 +126,7 @@ void FunctionTableMaker::check_name(UserFunction& function, std::string_view nam
     if (function.parameters.contains(name)) return;
     const Reserved kind = reserved(name);
     if (kind == Reserved::builtin || cell_value_named(name)) return;
+    if (work_.cell_functions != nullptr && is_of_each_cell(name)) return;
     std::vector<std::string> names;
     for (const ast::Word& each : function.definition->parameters) names.emplace_back(each.text);
     std::string hint = did_you_mean(work_, name, names);

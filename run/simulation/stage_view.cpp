@@ -25,13 +25,15 @@ std::vector<Field> StageView::evaluate(const StepPlan& plan) const {
 
 std::vector<Field> StageView::evaluate(std::span<const Formula* const> formulas) const {
     if (environment_->surface_values) environment_->surface_values->prepare(formulas);
-    return evaluate(plan_view(program(), formulas, number_));
+    const StepPlan plan = plan_view(program(), formulas, number_);
+    return state().tissue ? evaluate_in_cells(*this, plan, formulas) : evaluate(plan);
 }
 
 std::vector<Field> StageView::evaluate(const Formula& formula) const {
     const Formula* const formulas[] = {&formula};
     if (environment_->surface_values) environment_->surface_values->prepare(formulas);
-    return evaluate(plan_view(program(), formula, number_));
+    const StepPlan plan = plan_view(program(), formula, number_);
+    return state().tissue ? evaluate_in_cells(*this, plan, formulas) : evaluate(plan);
 }
 
 std::vector<Field> StageView::rates() const { return evaluate(plan_rates(program(), number_)); }

@@ -1,6 +1,7 @@
 // Cells get their places first; all other values are formulas of these and of earlier stages.
 #include "run/simulation/tissue_stage.h"
 
+#include "lang/calculus/algebra.h"
 #include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
 #include "run/domain/free_memory.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -238,9 +240,13 @@ std::size_t most_cells_in_memory(const System& system, Precision precision) {
     return free > 0 ? std::min(most, free / each) : most;
 }
 
-double widest_near(const StageView& view) {
+double widest_near(const StageView& view, std::span<const Formula* const> others) {
     double widest = 0;
-    for (const Formula& distance : view.system().cells->near) {
+    std::vector<Formula> distances = view.system().cells->near;
+    for (const Formula* other : others) {
+        std::ranges::move(near_distances(*other), std::back_inserter(distances));
+    }
+    for (const Formula& distance : distances) {
         const Formula* const formulas[] = {&distance};
         const Grid one{1, 1, Boundary::periodic};
         const Environment& here = view.environment();
@@ -252,11 +258,13 @@ double widest_near(const StageView& view) {
     return widest;
 }
 
-std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan) {
+std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan,
+                                     std::span<const Formula* const> formulas) {
     const Environment& here = view.environment();
     const Tissue& tissue = *view.state().tissue;
     const TissueStage stage{view.program(), view.number(), *view.state().ground, view.context()};
-    auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, widest_near(view)),
+    const double widest = widest_near(view, formulas);
+    auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, widest),
                               here.tissue_kernels->once(), *here.team);
     if (values) return std::move(*values);
     std::vector<Field> undefined;

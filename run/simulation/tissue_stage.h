@@ -22,12 +22,15 @@ TissueStage tissue_stage(const Environment& environment, std::span<const StageSt
 /// The number of cells of a system for which there is memory.
 std::size_t most_cells_in_memory(const System& system, Precision precision);
 
-/// The largest distance of `over near(d)` in a stage's formulas; 0 without any.
-double widest_near(const StageView& view);
+/// The largest distance of `over near(d)` in the formulas of a stage's system and in `others`; 0
+/// without any.
+double widest_near(const StageView& view, std::span<const Formula* const> others = {});
 
-/// The values of a plan in the cells of a stage, at the present state. NaN if there are too many
+/// The values of a plan in the cells of a stage, at the present state; of `formulas` if these are
+/// not the system's own. NaN if there are too many
 /// neighbours, which a run of the stage would have refused.
-std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan);
+std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan,
+                                     std::span<const Formula* const> formulas = {});
 
 /// A remark on a stage of cells that has ended, or nothing.
 std::string remark_on_cells(const StageView& view);
