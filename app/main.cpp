@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
         return console.finish(run_chosen(options, console));
     } catch (const std::bad_alloc&) {
         console.fail({"there is not enough memory",
-                      "a smaller grid needs less; --limit-memory may allow more"});
+                      "a smaller grid, or fewer cells, need less; --limit-memory may allow more"});
         return cascade::exit_status::failed_run;
     } catch (const std::exception& error) {
         console.fail({std::string("this should not have happened: ") + error.what(),

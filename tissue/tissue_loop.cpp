@@ -261,6 +261,7 @@ private:
             Turnover turnover;
             if (compare_turnover(tissue_, turnover) && !outcome_.turnover) {
                 outcome_.turnover = turnover;
+                if (schedule_.turns_over) std::exchange(schedule_.turns_over, {})(turnover);
             }
         } else if (schedule_.steady > 0 && time().steps > 0 &&
                    is_at_rest(time(), now_, schedule_.steady)) {

@@ -47,6 +47,8 @@ struct TissueSchedule {
     /// them.
     std::function<bool()> keep_is_due = {};
     std::function<void(const Tissue& tissue)> keep = {};
+    /// Called once, when cells are first seen to do nothing but replace each other.
+    std::function<void(const Turnover& turnover)> turns_over = {};
 };
 
 /// Why a tissue cannot go on. It is left as the last complete step left it.

@@ -160,6 +160,38 @@ void report(Workspace& work, Span span, std::string message, std::string hint) {
     work.diagnostics.add(std::move(diagnostic));
 }
 
+/// Have the cells of a stage a surface: a model, or a body that they or those before them have?
+bool has_surface(const Program& program, std::uint32_t stage) {
+    if (program.domain.model || program.domain.surface) return true;
+    std::optional<std::uint32_t> of = stage;
+    while (of && program.stages[*of].body.nodes.empty() && !program.stages[*of].founders) {
+        of = stage_of_cells_before(program, *of);
+    }
+    return !of || !program.stages[*of].body.nodes.empty();
+}
+
+/// What the rates and rules of cells read of a surface; empty for nothing. A plane has a normal.
+std::string_view read_of_surface(const System& system, bool is_plane) {
+    std::string_view found;
+    const auto look = [&](const Formula& formula) {
+        for (const Node& node : formula.nodes) {
+            const auto* value = node.as<CellValue>();
+            const auto* builtin = node.as<Builtin>();
+            if (value != nullptr &&
+                (*value == CellValue::feature ||
+                 (!is_plane && (*value == CellValue::off || *value == CellValue::normal)))) {
+                found = cell_value_names[static_cast<std::size_t>(*value)];
+            } else if (builtin != nullptr && *builtin >= Builtin::curvature) {
+                found = builtin_names[static_cast<std::size_t>(*builtin)];
+            }
+        }
+    };
+    for (const Definition& definition : system.definitions) look(definition.formula);
+    for (const Formula& rate : system.rates) look(rate);
+    for (const Formula* rule : rules_of(*system.cells)) look(*rule);
+    return found;
+}
+
 void check_solver(Workspace& work, const StageTime& time) {
     if (time.solver != Solver::symplectic && !is_semi_implicit(time.solver)) return;
     work.diagnostics.error(time.solver_span,
@@ -314,6 +346,17 @@ void check_cell_stage(Workspace& work, std::uint32_t index) {
         work.diagnostics.error(stage.body.nodes.front().span, "a body is one of a grid with slices",
                                domain.model ? "on a model cells are on its surface"
                                             : "as in domain { grid: 64, 64, 64 }");
+    }
+    if (!has_surface(work.program, index)) {
+        const std::string_view name = read_of_surface(system, domain.grid.depth == 1);
+        if (!name.empty()) {
+            work.diagnostics.warning(
+                stage.span,
+                fmt::format("the cells of stage '{}' have no surface, and read '{}'", stage.name,
+                            name),
+                domain.grid.depth == 1 ? "domain { surface: sphere } has one"
+                                       : "domain { surface: sphere } or body: … gives them one");
+        }
     }
     for (const Formula& distance : system.cells->near) {
         const auto varies = std::ranges::find_if(distance.nodes, [&](const Node& node) {

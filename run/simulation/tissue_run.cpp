@@ -2,6 +2,7 @@
 // went.
 #include "run/simulation/tissue_run.h"
 
+#include "core/with_commas.h"
 #include "run/domain/free_memory.h"
 #include "run/simulation/tissue_stage.h"
 #include "solvers/schedule.h"
@@ -76,21 +77,43 @@ TissueSchedule TissueRun::schedule(const Keeping& keeping) {
     const TissueStage stage = tissue_stage(environment_, states_, stage_);
     schedule.neighbours = neighbours_of(stage, widest_near(view));
     schedule.threads = environment_.threads;
+    reaches_all_ = schedule.neighbours.near >= length(state_.ground->surroundings()->extent());
     schedule.most_cells = most_cells_in_memory(view.system(), environment_.precision());
     schedule.most_list_bytes = static_cast<double>(available_memory()) / 4;
     if (time.until) {
         schedule.check = time.steps_between_looks();
         schedule.ends = [this](const Tissue& tissue) {
             follow(tissue);
-            return condition_holds();
+            const bool holds = condition_holds();
+            if (!holds) warn_of_waiting(tissue);
+            return holds;
         };
     }
+    schedule.turns_over = [this](const Turnover& turnover) {
+        if (control_->warn) control_->warn(describe(turnover, environment_.stage(stage_)));
+    };
     schedule.keep_is_due = keeping.is_due;
     schedule.keep = [this, &keeping](const Tissue& tissue) {
         follow(tissue);
         keeping.keep();
     };
     return schedule;
+}
+
+/// Says once that a stage has stopped growing and still waits for its condition.
+void TissueRun::warn_of_waiting(const Tissue& tissue) {
+    constexpr double times_of_growth = 4;
+    constexpr std::int64_t fewest_steps = 1000;
+    const Stage& stage = environment_.stage(stage_);
+    const double last = tissue.time.last_event;
+    const bool waits = !stage.time.duration && tissue.births > 0 && state_.steps >= fewest_steps &&
+                       state_.t > times_of_growth * last;
+    if (!waits || is_waiting_ || !control_->warn) return;
+    is_waiting_ = true;
+    control_->warn(fmt::format(
+        "stage '{}': no cell has divided or died since t = {:.4g}, and 'until' is not true at "
+        "t = {:.4g}; it may never be",
+        stage.name, last, state_.t));
 }
 
 /// The condition is the same for all cells: the first one decides.
@@ -109,6 +132,12 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
                                     const std::function<void()>& observe, std::int64_t every) {
     const Stage& stage = environment_.stage(stage_);
     control_ = &control;
+    if (std::exchange(reaches_all_, false) && control.warn) {
+        control.warn(
+            fmt::format("stage '{}': 'near' reaches all cells, so that a step takes time "
+                        "as the square of their number",
+                        stage.name));
+    }
     can_go_on_ = false;
     // Without an interval, frames are drawn at tenths of the duration.
     const std::int64_t interval = every > 0 ? every : stage.interval;
@@ -127,12 +156,12 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     state_.t = outcome.t;
     kernels_.warn_of_refused(control);
     if (outcome.failure)
-        return tl::unexpected(explain(*outcome.failure, *environment_.program, stage_));
+        return tl::unexpected(
+            explain(*outcome.failure, *environment_.program, stage_, outcome.steps + 1));
     if (outcome.cancelled) {
         environment_.tissue_kernels->stepper()->abandon();
         return StageEnd::cancelled;
     }
-    if (outcome.turnover && control.warn) control.warn(describe(*outcome.turnover, stage));
     state_.done = outcome.ended || state_.steps >= stage.iterations;
     const bool in_time = !stage.time.duration || outcome.t < *stage.time.duration;
     state_.condition_met = outcome.ended && in_time && state_.tissue->count() > 0;
@@ -141,11 +170,13 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     return state_.done ? StageEnd::finished : StageEnd::stopped;
 }
 
-Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t k) {
+Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t k,
+                std::int64_t step) {
     using Kind = TissueFailure::Kind;
     const Stage& stage = program.stages[k];
     const System& system = program.system_of(k);
-    const std::string where = fmt::format("stage '{}' ({})", stage.name, system.name);
+    const std::string where =
+        fmt::format("stage '{}' ({}), step {}", stage.name, system.name, with_commas(step));
     const std::string what(system.item_name(system.species()[SpeciesId(failure.species)]));
     switch (failure.kind) {
         case Kind::not_finite:

@@ -32,6 +32,7 @@ public:
 private:
     TissueSchedule schedule(const Keeping& keeping);
     bool condition_holds();
+    void warn_of_waiting(const Tissue& tissue);
     void follow(const Tissue& tissue);
 
     const Environment& environment_;
@@ -44,9 +45,12 @@ private:
     ScriptRules rules_;
     std::optional<TissueLoop> loop_;
     bool can_go_on_ = true;
+    bool is_waiting_ = false;   ///< That 'until' may never come true has been said.
+    bool reaches_all_ = false;  ///< Are all cells neighbours? False as soon as it has been said.
 };
 
-/// What a failure of a tissue means in the words of its script.
-Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t stage);
+/// What a failure of a tissue in a step, counted from 1, means in the words of its script.
+Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t stage,
+                std::int64_t step);
 
 }  // namespace cascade
