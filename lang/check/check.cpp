@@ -112,9 +112,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
                 checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
             }
             checking::check_coarse_starts(program, own);
-            for (const Formula* formula : formulas_of(program)) {
-                (void)has_meaning_on_domain(program, *formula, own);
-            }
+            (void)has_meaning_on_domain(program, own);
         }
     }
     for (Diagnostic& diagnostic : own.sorted()) diagnostics.add(std::move(diagnostic));
@@ -136,7 +134,10 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     scope.last_stage = last_stage;
     auto checked = checking::check_expression(work, script, expression, scope);
     if (!checked) return std::nullopt;
-    if (!has_meaning_on_domain(program, checked->formula, diagnostics)) return std::nullopt;
+    if (!has_meaning_on_domain(program, checked->formula, is_of_cells(program, stage),
+                               diagnostics)) {
+        return std::nullopt;
+    }
     return std::move(checked->formula);
 }
 

@@ -50,7 +50,7 @@ void report_unknown_system(Workspace& work, const ast::Word& name);
 /// are blocks of cells.
 void add_stages(Workspace& work, const ast::Script& script,
                 const std::function<bool(std::string_view)>& has_cells);
-/// The stage blocks of a script, as many as it may have.
+/// The stage blocks of a script, up to the largest number that it may have.
 std::vector<const ast::Block*> stage_blocks(const ast::Script& script);
 /// Gives stages their systems, where these are known by now. If all are, reports the unknown ones.
 void find_systems_of_stages(Workspace& work, const ast::Script& script, bool all_are_known);

@@ -42,19 +42,7 @@ std::optional<Function> of_model_only(const Program& program, const Node& node) 
     return std::nullopt;
 }
 
-/// Is it a formula of cells that crawl? In one of fields a vector is a flux, which is no value by
-/// itself, and only div makes a number of it.
-bool is_of_cells(const Formula& formula) {
-    return formula.nodes.back().type == ValueType::vector ||
-           std::ranges::any_of(formula.nodes, [](const Node& node) {
-               return node.is<CellValue>() ||
-                      (node.is<Call>() && info(node.function).domains == Domains::crawling);
-           });
-}
-
 bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
-    // Functions that cells do not have are refused where they are written.
-    if (is_of_cells(formula)) return true;
     bool has_meaning = true;
     for (const Node& node : formula.nodes) {
         if (!node.is<Call>()) continue;
@@ -80,6 +68,37 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula,
                           "domain { mesh: \"horse.ply\" } or { surface: creature } is one");
     }
     return has_meaning;
+}
+
+/// Calls `take(formula, is_of_cells)` for every formula that the stages compute; for those of a
+/// system once.
+template <typename Take>
+void for_each_formula(const Program& program, const Take& take) {
+    IdVector<SystemId, bool> used(program.systems.size());
+    for (const Stage& stage : program.stages) {
+        const bool is_of_cells = program.systems[stage.system].cells.has_value();
+        const auto add = [&](const Formula& formula) {
+            if (!formula.nodes.empty()) take(formula, is_of_cells);
+        };
+        if (!used[stage.system]) {
+            used[stage.system] = true;
+            const System& system = program.systems[stage.system];
+            for (const Formula& rate : system.rates) add(rate);
+            for (const Definition& definition : system.definitions) add(definition.formula);
+            if (system.cells) {
+                for (const Formula* rule : rules_of(*system.cells)) add(*rule);
+            }
+        }
+        add(stage.remove);
+        add(stage.body);
+        if (stage.founders) add(stage.founders->chance);
+        for (const Formula& formula : stage.items) add(formula);
+        add(stage.show);
+        if (stage.time.until) add(*stage.time.until);
+        for (const auto& sides : stage.sides) {
+            for (const SideSetting& side : sides) add(side.value);
+        }
+    }
 }
 
 }  // namespace
@@ -136,38 +155,24 @@ std::optional<ModelPlane> model_plane_of(Builtin builtin) {
     return std::nullopt;
 }
 
-bool has_meaning_on_domain(const Program& program, const Formula& formula,
+bool has_meaning_on_domain(const Program& program, const Formula& formula, bool is_of_cells,
                            Diagnostics& diagnostics) {
-    if (program.domain.model) return has_meaning_on_model(formula, diagnostics);
+    // Functions that cells do not have are refused where they are written.
+    if (program.domain.model) return is_of_cells || has_meaning_on_model(formula, diagnostics);
     return has_meaning_on_plane(program, formula, diagnostics);
+}
+
+bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics) {
+    bool has_meaning = true;
+    for_each_formula(program, [&](const Formula& formula, bool is_of_cells) {
+        has_meaning &= has_meaning_on_domain(program, formula, is_of_cells, diagnostics);
+    });
+    return has_meaning;
 }
 
 std::vector<const Formula*> formulas_of(const Program& program) {
     std::vector<const Formula*> formulas;
-    const auto add = [&](const Formula& formula) {
-        if (!formula.nodes.empty()) formulas.push_back(&formula);
-    };
-    IdVector<SystemId, bool> used(program.systems.size());
-    for (const Stage& stage : program.stages) {
-        if (!used[stage.system]) {
-            used[stage.system] = true;
-            const System& system = program.systems[stage.system];
-            for (const Formula& rate : system.rates) add(rate);
-            for (const Definition& definition : system.definitions) add(definition.formula);
-            if (system.cells) {
-                for (const Formula* rule : rules_of(*system.cells)) add(*rule);
-            }
-        }
-        add(stage.remove);
-        add(stage.body);
-        if (stage.founders) add(stage.founders->chance);
-        for (const Formula& formula : stage.items) add(formula);
-        add(stage.show);
-        if (stage.time.until) add(*stage.time.until);
-        for (const auto& sides : stage.sides) {
-            for (const SideSetting& side : sides) add(side.value);
-        }
-    }
+    for_each_formula(program, [&](const Formula& formula, bool) { formulas.push_back(&formula); });
     return formulas;
 }
 

@@ -29,11 +29,13 @@ std::string_view word_of(ModelShape shape);
 /// The plane that holds a built-in value on a model; nothing for t and step.
 std::optional<ModelPlane> model_plane_of(Builtin builtin);
 
-/// Adds an error for every function of a formula that has no meaning on the domain, such as second
-/// derivatives by name on a model or distances along the surface on a plane. Returns true if there
-/// is none.
-bool has_meaning_on_domain(const Program& program, const Formula& formula,
+/// Adds an error for every function of a formula, of fields or of cells that crawl, that has no
+/// meaning on the domain, such as second derivatives by name on a model or distances along the
+/// surface on a plane. Returns true if there is none.
+bool has_meaning_on_domain(const Program& program, const Formula& formula, bool is_of_cells,
                            Diagnostics& diagnostics);
+/// The same for all formulas that the stages of the program compute.
+bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics);
 
 /// Every formula that the stages of a program compute; those of a system only once.
 std::vector<const Formula*> formulas_of(const Program& program);
