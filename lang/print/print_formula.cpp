@@ -116,7 +116,10 @@ private:
             [](double number) { return fmt::format("{}", number); },
             [&](TextId id) { return fmt::format("\"{}\"", program_.literals->text(id)); },
             [&](ItemId item) {
-                return fmt::format(fmt::runtime(stage_ ? "[{}]" : "{}"), system_.item_name(item));
+                // The place is the only vector among the items.
+                const std::string_view name =
+                    node.type == ValueType::vector ? "p" : system_.item_name(item);
+                return fmt::format(fmt::runtime(stage_ ? "[{}]" : "{}"), name);
             },
             [&](StageItem each) { return of_stage(each); },
             [&](SensedItem each) { return of_stage(each.item); },

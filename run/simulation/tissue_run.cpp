@@ -4,6 +4,7 @@
 
 #include "core/with_commas.h"
 #include "run/domain/free_memory.h"
+#include "run/simulation/largest_term.h"
 #include "run/simulation/tissue_stage.h"
 #include "solvers/schedule.h"
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace cascade {
@@ -31,6 +33,12 @@ TissueSpecies species_of(const TissueStage& stage) {
     species.radius = stage.species_of(stage.rules().radius).index();
     species.restless = {stage.species_of(stage.rules().age).index()};
     return species;
+}
+
+/// A species in words: scripts have no names for the components of places and frames.
+std::string name_of(const System& system, ItemId item) {
+    if (!system.cells->has_component(item)) return std::string(system.item_name(item));
+    return item < system.cells->frame ? "the place" : "the axes";
 }
 
 /// A remark on a tissue whose cells only replace each other.
@@ -157,7 +165,7 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     kernels_.warn_of_refused(control);
     if (outcome.failure)
         return tl::unexpected(
-            explain(*outcome.failure, *environment_.program, stage_, outcome.steps + 1));
+            explain(*outcome.failure, StageView(environment_, states_, stage_), outcome.steps + 1));
     if (outcome.cancelled) {
         environment_.tissue_kernels->stepper()->abandon();
         return StageEnd::cancelled;
@@ -170,29 +178,33 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
     return state_.done ? StageEnd::finished : StageEnd::stopped;
 }
 
-Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t k,
-                std::int64_t step) {
+Failure explain(const TissueFailure& failure, const StageView& view, std::int64_t step) {
     using Kind = TissueFailure::Kind;
-    const Stage& stage = program.stages[k];
-    const System& system = program.system_of(k);
+    const System& system = view.system();
     const std::string where =
-        fmt::format("stage '{}' ({}), step {}", stage.name, system.name, with_commas(step));
-    const std::string what(system.item_name(system.species()[SpeciesId(failure.species)]));
+        fmt::format("stage '{}' ({}), step {}", view.stage().name, system.name, with_commas(step));
+    const SpeciesId species(failure.species);
+    const std::string what = name_of(system, system.species()[species]);
+    const auto term_or = [&](std::string_view otherwise) {
+        const std::string term = largest_term(view, species, failure.number);
+        return term.empty() ? std::string(otherwise) : term;
+    };
     switch (failure.kind) {
         case Kind::not_finite:
             return {fmt::format("{}: {} of cell {} is not finite after t = {:.6g}, in a step of "
                                 "{:.3g}",
                                 where, what, failure.number, failure.t, failure.step),
-                    "a term of its rate divides by 0 or grows without bound"};
+                    term_or("its rate divides by 0 or grows without bound")};
         case Kind::rate_not_finite:
             return {fmt::format("{}: the rate of {} of cell {} is not finite at t = {:.6g}", where,
                                 what, failure.number, failure.t),
-                    "a term of it divides by 0 or grows without bound"};
+                    term_or("it divides by 0 or grows without bound")};
         case Kind::too_short:
             return {fmt::format("{}: steps shrink to nothing: at t = {:.6g} one of {:.2g} is too "
                                 "long still, for {} of cell {}",
                                 where, failure.t, failure.step, what, failure.number),
-                    "something jumps or grows without bound there; a larger tolerance may pass it"};
+                    term_or("something jumps or grows without bound there") +
+                        "; a larger tolerance may pass it"};
         case Kind::too_far:
             return {fmt::format("{}: a step of {:.3g} from t = {:.6g} moves cell {} too far", where,
                                 failure.step, failure.t, failure.number),

@@ -5,6 +5,7 @@
 #include "core/run_control.h"
 #include "run/simulation/environment.h"
 #include "run/simulation/running_stage.h"
+#include "run/simulation/stage_view.h"
 #include "run/stage/step_kernels.h"
 #include "run/tissue/script_rules.h"
 #include "tissue/tissue_loop.h"
@@ -49,8 +50,8 @@ private:
     bool reaches_all_ = false;  ///< Are all cells neighbours? False as soon as it has been said.
 };
 
-/// What a failure of a tissue in a step, counted from 1, means in the words of its script.
-Failure explain(const TissueFailure& failure, const Program& program, std::uint32_t stage,
-                std::int64_t step);
+/// What a failure of a tissue in a step, counted from 1, means in the words of its script. The view
+/// shows the cells before that step.
+Failure explain(const TissueFailure& failure, const StageView& view, std::int64_t step);
 
 }  // namespace cascade

@@ -14,21 +14,6 @@ namespace cascade {
 
 namespace {
 
-/// One component of a vector.
-Formula component_of(const Formula& vector, int number) {
-    Formula component = vector;
-    const NodeId whole(component.nodes.size() - 1);
-    Node node;
-    node.kind = static_cast<double>(number);
-    component.nodes.push_back(node);
-    node.kind = Call{};
-    node.function = Function::component;
-    node.operand_count = 2;
-    node.operands = {whole, NodeId(component.nodes.size() - 1)};
-    component.nodes.push_back(node);
-    return component;
-}
-
 /// Do the passes read the time, the number of steps, or sums over all cells?
 bool changes(const StepProblem& problem) {
     return std::any_of(problem.passes.begin(), problem.passes.end(),
@@ -49,6 +34,20 @@ bool reads_others_values(const StepPlan& plan) {
 bool is_written(const Formula& formula) { return !formula.nodes.empty(); }
 
 }  // namespace
+
+Formula component_of(const Formula& vector, int number) {
+    Formula component = vector;
+    const NodeId whole(component.nodes.size() - 1);
+    Node node;
+    node.kind = static_cast<double>(number);
+    component.nodes.push_back(node);
+    node.kind = Call{};
+    node.function = Function::component;
+    node.operand_count = 2;
+    node.operands = {whole, NodeId(component.nodes.size() - 1)};
+    component.nodes.push_back(node);
+    return component;
+}
 
 ScriptRules::ScriptRules(TissueStage stage, Makers makers, std::shared_ptr<NearTriangles> near)
     : stage_(std::move(stage)), makers_(std::move(makers)), near_(std::move(near)) {

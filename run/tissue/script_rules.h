@@ -12,6 +12,9 @@
 
 namespace cascade {
 
+/// One component, 0 to 2, of a vector.
+Formula component_of(const Formula& vector, int number);
+
 /// Binds the plans of a stage to the planes of its tissue.
 class ScriptRules : public TissueRules {
 public:
