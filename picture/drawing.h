@@ -1,0 +1,69 @@
+// Drawings of lines, areas and texts, for diagrams: as SVG, or as an image of pixels.
+#pragma once
+
+#include "core/palette.h"
+#include "picture/image.h"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cascade {
+
+/// A place of a drawing: to the right and down, in units of which a text line is 14 high.
+using DrawnPoint = std::array<double, 2>;
+
+struct DrawnLine {
+    std::vector<DrawnPoint> points;  ///< Joined in their order.
+    Colour colour{0, 0, 0};
+    double width = 1;
+    bool dashed = false;
+};
+
+struct DrawnArea {
+    DrawnPoint corner{};  ///< The upper left one.
+    double width = 0, height = 0;
+    Colour colour{1, 1, 1};
+};
+
+struct DrawnDisc {
+    DrawnPoint centre{};
+    double radius = 1;
+    Colour colour{0, 0, 0};
+};
+
+/// A line of text, in the colour of sheets.
+struct DrawnText {
+    enum class Anchor { start, middle, end };
+    DrawnPoint place{};  ///< Of the anchor, on the line's half height.
+    std::string text;
+    Anchor anchor = Anchor::start;
+};
+
+/// An image that fills an area, without smoothing.
+struct DrawnImage {
+    DrawnPoint corner{};
+    double width = 0, height = 0;
+    Image image;
+};
+
+/// Later shapes cover earlier ones.
+struct Drawing {
+    double width = 0, height = 0;
+    std::vector<std::variant<DrawnLine, DrawnArea, DrawnDisc, DrawnText, DrawnImage>> shapes;
+
+    template <typename Shape>
+    void add(Shape shape) {
+        shapes.emplace_back(std::in_place_type<Shape>, std::move(shape));
+    }
+};
+
+/// An SVG file. Fails if an image of the drawing cannot be encoded.
+Result<std::string> as_svg(const Drawing& drawing);
+
+/// `scale` pixels for each unit, from 1 to 8.
+Image as_image(const Drawing& drawing, int scale);
+
+}  // namespace cascade

@@ -1,0 +1,91 @@
+// A drawing as SVG: every shape is one element.
+#include "picture/drawing.h"
+
+#include "core/base64.h"
+#include "picture/xml_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+std::string hex(const Colour& colour) {
+    const auto part = [](float value) {
+        return static_cast<int>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", part(colour[0]), part(colour[1]), part(colour[2]));
+}
+
+class Writer {
+public:
+    Result<std::string> write(const Drawing& drawing) {
+        text_ = fmt::format(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.5g}\" height=\"{1:.5g}\" "
+            "viewBox=\"0 0 {0:.5g} {1:.5g}\" font-family=\"sans-serif\" font-size=\"13\">\n",
+            drawing.width, drawing.height);
+        for (const auto& shape : drawing.shapes) {
+            if (auto done = std::visit([&](const auto& each) { return add(each); }, shape); !done) {
+                return tl::unexpected(done.error());
+            }
+        }
+        return text_ + "</svg>\n";
+    }
+
+private:
+    Result<void> add(const DrawnLine& line) {
+        std::string points;
+        for (const DrawnPoint& point : line.points) {
+            points += fmt::format("{}{:.2f},{:.2f}", points.empty() ? "" : " ", point[0], point[1]);
+        }
+        text_ += fmt::format(
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3g}\"{}/>\n",
+            points, hex(line.colour), line.width, line.dashed ? " stroke-dasharray=\"5 4\"" : "");
+        return {};
+    }
+
+    Result<void> add(const DrawnArea& area) {
+        text_ += fmt::format(
+            "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+            area.corner[0], area.corner[1], area.width, area.height, hex(area.colour));
+        return {};
+    }
+
+    Result<void> add(const DrawnDisc& disc) {
+        text_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\"/>\n",
+                             disc.centre[0], disc.centre[1], disc.radius, hex(disc.colour));
+        return {};
+    }
+
+    Result<void> add(const DrawnText& text) {
+        const char* const anchor = text.anchor == DrawnText::Anchor::start    ? "start"
+                                   : text.anchor == DrawnText::Anchor::middle ? "middle"
+                                                                              : "end";
+        text_ += fmt::format(
+            "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" fill=\"#29292b\">{}</text>\n",
+            text.place[0], text.place[1] + 4.5, anchor, xml_escaped(text.text));
+        return {};
+    }
+
+    Result<void> add(const DrawnImage& image) {
+        const auto bytes = encode_png(image.image, PngDepth::eight, {});
+        if (!bytes) return tl::unexpected(bytes.error());
+        text_ += fmt::format(
+            "<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+            "preserveAspectRatio=\"none\" image-rendering=\"pixelated\" "
+            "href=\"data:image/png;base64,{}\"/>\n",
+            image.corner[0], image.corner[1], image.width, image.height, base64(*bytes));
+        return {};
+    }
+
+    std::string text_;
+};
+
+}  // namespace
+
+Result<std::string> as_svg(const Drawing& drawing) { return Writer().write(drawing); }
+
+}  // namespace cascade
