@@ -7,10 +7,11 @@ namespace cascade {
 
 std::span<const CommandEntry> command_table() {
     using enum AtPrompt;
-    static constexpr std::array<CommandEntry, 12> all = {{
+    static constexpr std::array<CommandEntry, 13> all = {{
         {Command::run, "run", run_command, absent},
         {Command::sweep, "sweep", sweep_command, of_script},
         {Command::check, "check", check_command, of_script},
+        {Command::analyze, "analyze", analyze_command, of_script},
         {Command::bench, "bench", bench_command, of_script},
         {Command::compile, "compile", compile_command, of_script},
         {Command::systems, "systems", systems_command, plain},

@@ -16,6 +16,7 @@ namespace cascade {
 int run_command(const Options& options, Console& console);
 int sweep_command(const Options& options, Console& console);
 int check_command(const Options& options, Console& console);
+int analyze_command(const Options& options, Console& console);
 int bench_command(const Options& options, Console& console);
 int compile_command(const Options& options, Console& console);
 int systems_command(const Options& options, Console& console);

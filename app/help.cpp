@@ -62,6 +62,14 @@ const std::string_view check_examples = R"(Examples:
   cascade check *.cascade
   cascade check leopard.cascade --dump ir            what a cell computes in a step)";
 
+const std::string_view analyze =
+    "Says what will grow from a script's equations: flat states, waves, stable steps. Runs nothing.";
+const std::string_view analyze_examples = R"(Examples:
+  cascade analyze spots.cascade                      the first stage
+  cascade analyze leopard.cascade --stage small --set small.ka=0.01
+  cascade analyze spots.cascade -o spots.svg         the dispersion relation
+  cascade analyze spots.cascade --vary decay=4..12 --vary feed=2..6 -o map.png)";
+
 const std::string_view bench =
     "Measures the steps of scripts and says what limits their speed. Writes no file.";
 const std::string_view bench_examples = R"(Examples:

@@ -49,6 +49,7 @@ struct Parser {
     CLI::App* run = nullptr;
     CLI::App* sweep = nullptr;
     CLI::App* check = nullptr;
+    CLI::App* analyze = nullptr;
     CLI::App* bench = nullptr;
     CLI::App* compile = nullptr;
     CLI::App* systems = nullptr;
@@ -141,6 +142,11 @@ void Parser::add_all() {
     groups::add_overrides(*check, options.overrides);
     groups::add_dump(*check, options);
 
+    analyze = command("analyze", help::analyze, help::analyze_examples);
+    groups::add_script(*analyze, options, "A script, or a picture that Cascade drew");
+    groups::add_analyze(*analyze, options);
+    groups::add_overrides(*analyze, options.overrides);
+
     bench = command("bench", help::bench, help::bench_examples);
     bench->add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
         ->type_name("");
@@ -200,8 +206,8 @@ void Parser::add_all() {
     groups::add_overrides(*view, options.overrides);
     groups::add_simulation(*view, options, "Threads; without it all cores");
 
-    for (CLI::App* sub : {run, sweep, check, bench, compile, systems, new_script, format, mesh,
-                          repl, view, export_page}) {
+    for (CLI::App* sub : {run, sweep, check, analyze, bench, compile, systems, new_script, format,
+                          mesh, repl, view, export_page}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
@@ -275,8 +281,9 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
 std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::check ||
-        options.command == Command::bench || options.command == Command::compile ||
-        options.command == Command::format || options.command == Command::export_page ||
+        options.command == Command::analyze || options.command == Command::bench ||
+        options.command == Command::compile || options.command == Command::format ||
+        options.command == Command::export_page ||
         (options.command == Command::run && options.run.resume.empty());
     if (needs_script && options.scripts.empty()) return "a script is missing";
     if (options.command == Command::mesh && options.models.empty()) return "a model is missing";

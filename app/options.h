@@ -2,6 +2,7 @@
 // seconds to compile.
 #pragma once
 
+#include "run/commands/analyze.h"
 #include "run/commands/bench.h"
 #include "run/commands/run.h"
 #include "run/commands/sweep.h"
@@ -23,6 +24,7 @@ enum class Command {
     run,
     sweep,
     check,
+    analyze,
     bench,
     compile,
     systems,
@@ -77,8 +79,9 @@ struct Options {
     std::vector<std::string> models;         ///< Arguments of `mesh`.
     std::optional<CellOptions> cells;        ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;  ///< `mesh --seed`.
-    BenchRequest bench;                      ///< Its `simulation` keeps the defaults.
-    bool csv = false;                        ///< `bench --csv`
+    AnalyzeRequest analyze;
+    BenchRequest bench;  ///< Its `simulation` keeps the defaults.
+    bool csv = false;    ///< `bench --csv`
     CompileRequest compile;
     bool no_browser = false;       ///< `view --no-browser`
     std::filesystem::path object;  ///< `compile -o`

@@ -115,6 +115,26 @@ Result<Variation> parse_variation(std::string_view text) {
     return variation;
 }
 
+Result<VariedRange> parse_varied_range(std::string_view text) {
+    const auto wrong_range = [&](std::string_view why) {
+        return failure(fmt::format("'{}' does not say what to vary: {}", text, why),
+                       "write NAME=LOW..HIGH, as in feed=0.02..0.06");
+    };
+    const std::size_t equals = text.find('=');
+    const std::string name(trimmed(text.substr(0, equals)));
+    if (equals == std::string_view::npos || name.empty()) return wrong_range("there is no name");
+    const std::string_view range = trimmed(text.substr(equals + 1));
+    const std::size_t dots = range.find("..");
+    if (dots == std::string_view::npos) return wrong_range("there is no range");
+    const auto low = read_number(trimmed(range.substr(0, dots)));
+    const auto high = read_number(trimmed(range.substr(dots + 2)));
+    if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) {
+        return wrong_range("the ends of a range are numbers");
+    }
+    if (!(*low < *high)) return wrong_range("its first end is not the smaller one");
+    return VariedRange{name, *low, *high};
+}
+
 std::string text_of(const Variation& variation) {
     return fmt::format("{}={}", variation.name, fmt::join(variation.values, ","));
 }

@@ -27,6 +27,15 @@ inline constexpr std::size_t most_runs = 10000;
 /// is a list. The ends of a range are numbers or fractions of two numbers. Fails on anything else.
 Result<Variation> parse_variation(std::string_view text);
 
+/// A name and the ends of its range.
+struct VariedRange {
+    std::string name;
+    double low = 0, high = 1;  ///< low < high.
+};
+
+/// "gray_scott.feed=0.02..0.06", without a number of values. The ends are numbers or fractions.
+Result<VariedRange> parse_varied_range(std::string_view text);
+
 /// The inverse of parse_variation(), with a list: "ka=1/400,1/200".
 std::string text_of(const Variation& variation);
 

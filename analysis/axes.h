@@ -1,0 +1,44 @@
+// The frame of a diagram: a box with ticks and numbers, and the places of values in it.
+#pragma once
+
+#include "picture/drawing.h"
+
+#include <string>
+#include <vector>
+
+namespace cascade::analysis {
+
+struct AxisRange {
+    double low = 0, high = 1;
+    std::string name;
+};
+
+/// Round numbers inside of a range, about `count` of them.
+std::vector<double> ticks_of(const AxisRange& range, int count);
+
+class Axes {
+public:
+    /// The box lies with these margins in a drawing of this size.
+    Axes(AxisRange across, AxisRange up, double width, double height);
+
+    DrawnPoint place(double across, double up) const;
+    double left() const { return left_; }
+    double right() const { return right_; }
+    double top() const { return top_; }
+    double bottom() const { return bottom_; }
+
+    /// Adds ticks, numbers, names and the box.
+    void draw(Drawing& drawing) const;
+    /// Adds a curve, without the parts of it that lie above or below the box.
+    void draw_curve(Drawing& drawing, const std::vector<double>& across,
+                    const std::vector<double>& up, DrawnLine style) const;
+
+private:
+    AxisRange across_, up_;
+    double left_, right_, top_, bottom_;
+};
+
+inline constexpr Colour axis_ink{0.16F, 0.16F, 0.17F};
+inline constexpr Colour axis_faint{0.86F, 0.86F, 0.86F};
+
+}  // namespace cascade::analysis

@@ -1,0 +1,216 @@
+// Newton's method with shortened steps and deflation. What the reaction keeps is added as
+// equations, since the Jacobian alone is singular then.
+#include "analysis/flat_states.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace cascade::analysis {
+
+namespace {
+
+/// A number from 0 to 1 that depends on its two numbers alone.
+double scattered(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t bits = a * 0x9E3779B9U ^ (b + 1) * 0x85EBCA6BU;
+    bits ^= bits >> 15;
+    bits *= 0x2C1B3C6DU;
+    bits ^= bits >> 12;
+    bits *= 0x297A2D39U;
+    bits ^= bits >> 15;
+    return (bits + 0.5) / 4294967296.0;
+}
+
+/// The size of values of each species, to compare changes with.
+Vector sizes_of(const LocalRates& rates) {
+    const Vector start = rates.start();
+    const double largest = start.cwiseAbs().maxCoeff();
+    const double least = std::isfinite(largest) && largest > 0 ? 0.1 * largest : 1.0;
+    return start.cwiseAbs().cwiseMax(least);
+}
+
+class Newton {
+public:
+    Newton(const LocalRates& rates, const Matrix& conserved, const Vector& totals_of)
+        : rates_(rates),
+          conserved_(conserved),
+          totals_(conserved * totals_of),
+          sizes_(sizes_of(rates)) {}
+
+    void repel(const Vector& state) { known_.push_back(state); }
+
+    std::optional<Vector> from(Vector x) const {
+        Vector residual = residual_of(x);
+        if (!residual.allFinite()) return std::nullopt;
+        for (int round = 0; round < most_rounds; ++round) {
+            if (residual.cwiseAbs().maxCoeff() == 0) return accepted(x);
+            const Vector step = step_of(x, residual);
+            if (!step.allFinite()) return std::nullopt;
+            double part = 1;
+            Vector next;
+            bool is_better = false;
+            for (int halving = 0; halving < 12 && !is_better; ++halving, part /= 2) {
+                next = x + part * step;
+                const Vector there = residual_of(next);
+                if (!there.allFinite()) continue;
+                // Deflated residuals may rise, so a small rise of a whole step is admitted.
+                is_better = deflation(next) * there.norm() <
+                            (known_.empty() ? 1.0 : 2.0) * deflation(x) * residual.norm();
+                if (is_better) residual = there;
+            }
+            const double change = (part * 2 * step).cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
+            if (is_better) x = next;
+            if (change < 1e-13) return accepted(x);
+            if (!is_better) return change < 1e-9 ? accepted(x) : std::nullopt;
+        }
+        return std::nullopt;
+    }
+
+private:
+    static constexpr int most_rounds = 60;
+
+    Vector residual_of(const Vector& x) const {
+        const Vector rates = rates_.rates(x);
+        Vector all(rates.size() + conserved_.rows());
+        all << rates, conserved_ * x - totals_;
+        return all;
+    }
+
+    double deflation(const Vector& x) const {
+        double product = 1;
+        for (const Vector& state : known_) {
+            product *= 1 / (x - state).cwiseQuotient(sizes_).squaredNorm() + 1;
+        }
+        return product;
+    }
+
+    /// Of the residual times the deflation m: its Jacobian is m J + residual · (grad m), so by
+    /// Sherman and Morrison's formula its step is the undeflated one times a number.
+    Vector step_of(const Vector& x, const Vector& residual) const {
+        Matrix all(residual.size(), x.size());
+        all << rates_.jacobian(x), conserved_;
+        const Vector step = -all.completeOrthogonalDecomposition().solve(residual);
+        double slope = 0;  // Of log m along the step.
+        for (const Vector& state : known_) {
+            const Vector apart = (x - state).cwiseQuotient(sizes_);
+            const double square = apart.squaredNorm();
+            slope += -2 * apart.dot(step.cwiseQuotient(sizes_)) / (square * (1 + square));
+        }
+        const double factor = 1 - slope;
+        return std::abs(factor) > 1e-12 ? Vector(step / factor) : step;
+    }
+
+public:
+    /// Do flat states lie beside this one, such as every number of healthy people without disease?
+    bool is_in_family(const Vector& x) const {
+        Matrix all(x.size() + conserved_.rows(), x.size());
+        all << rates_.jacobian(x), conserved_;
+        const Vector values = all.jacobiSvd().singularValues();
+        return values[values.size() - 1] < 1e-9 * values[0];
+    }
+
+private:
+    std::optional<Vector> accepted(const Vector& x) const {
+        const Vector rates = rates_.rates(x);
+        const Matrix jacobian = rates_.jacobian(x);
+        if (!rates.allFinite() || !jacobian.allFinite()) return std::nullopt;
+        // As small as rounding of the values makes it.
+        const Vector rounding = jacobian.cwiseAbs() * x.cwiseAbs().cwiseMax(sizes_);
+        const double most = std::max(rounding.maxCoeff(), 1e-300);
+        if (rates.cwiseAbs().maxCoeff() > 1e-9 * most && rates.cwiseAbs().maxCoeff() > 1e-12) {
+            return std::nullopt;
+        }
+        return x;
+    }
+
+    const LocalRates& rates_;
+    Matrix conserved_;
+    Vector totals_, sizes_;
+    std::vector<Vector> known_;
+};
+
+/// Does a rule such as `b >= 0` exclude it?
+bool is_admitted(const LinearModel& model, const Vector& state) {
+    for (const Invariant& rule : model.system().invariants) {
+        const auto found = std::find(model.species.begin(), model.species.end(), rule.species);
+        const auto* bound = rule.bound.nodes.back().as<double>();
+        if (found == model.species.end() || bound == nullptr) continue;
+        const double value = state[found - model.species.begin()];
+        const double slack = 1e-9 * (1 + std::abs(*bound));
+        if (rule.at_least ? value < *bound - slack : value > *bound + slack) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Matrix conserved_totals(const LocalRates& rates) {
+    const Eigen::Index count = rates.species_count();
+    const Vector sizes = sizes_of(rates);
+    constexpr std::uint32_t samples = 4;
+    Matrix changes(count, 0);
+    for (std::uint32_t sample = 0; sample < samples; ++sample) {
+        Vector x(count);
+        for (Eigen::Index k = 0; k < count; ++k) {
+            x[k] = sizes[k] * (0.2 + scattered(sample, static_cast<std::uint32_t>(k)));
+        }
+        const Matrix jacobian = rates.jacobian(x);
+        const Vector rate = rates.rates(x);
+        if (!jacobian.allFinite() || !rate.allFinite()) continue;
+        const Eigen::Index before = changes.cols();
+        changes.conservativeResize(Eigen::NoChange, before + count + 1);
+        changes.middleCols(before, count) = jacobian;
+        changes.col(before + count) = rate;
+    }
+    if (changes.cols() == 0) return Matrix(0, count);
+    if (changes.cwiseAbs().maxCoeff() == 0) return Matrix::Identity(count, count);
+    const Eigen::JacobiSVD<Matrix> svd(changes, Eigen::ComputeFullU);
+    const Vector values = svd.singularValues();
+    Eigen::Index rank = 0;
+    while (rank < std::min(values.size(), count) && values[rank] > 1e-11 * values[0]) ++rank;
+    return svd.matrixU().rightCols(count - rank).transpose();
+}
+
+std::optional<Vector> flat_state_near(const LocalRates& rates, const Vector& species,
+                                      const Matrix& conserved) {
+    return Newton(rates, conserved, species).from(species);
+}
+
+FlatStates flat_states(const LocalRates& rates) {
+    FlatStates states;
+    states.conserved = conserved_totals(rates);
+    const Vector start = rates.start();
+    if (!start.allFinite()) return states;
+    Newton newton(rates, states.conserved, start);
+    const Vector sizes = sizes_of(rates);
+    const auto keep = [&](const Vector& state, bool is_from_start) {
+        const auto is_same = [&](const FlatState& known) {
+            return (state - known.species).cwiseQuotient(sizes).norm() < 1e-6;
+        };
+        if (std::any_of(states.found.begin(), states.found.end(), is_same)) return;
+        newton.repel(state);
+        if (!is_from_start && newton.is_in_family(state)) return;
+        if (is_admitted(rates.model(), state)) states.found.push_back({state, is_from_start});
+    };
+    if (const auto state = newton.from(start)) keep(*state, true);
+    if (states.conserved.rows() == rates.species_count()) return states;  // Every state is flat.
+    constexpr std::uint32_t tries = 40;
+    constexpr std::size_t most_states = 12;
+    for (std::uint32_t k = 0; k < tries && states.found.size() < most_states; ++k) {
+        Vector guess(start.size());
+        for (Eigen::Index s = 0; s < guess.size(); ++s) {
+            const double at = scattered(k + 100, static_cast<std::uint32_t>(s));
+            // From 0 and small values to some times larger ones, and of both signs.
+            guess[s] = k % 3 == 0   ? start[s] + sizes[s] * (at - 0.5)
+                       : k % 3 == 1 ? sizes[s] * std::exp(8 * (at - 0.7))
+                                    : sizes[s] * 6 * (at - 0.5);
+        }
+        if (const auto state = newton.from(guess)) keep(*state, false);
+    }
+    return states;
+}
+
+}  // namespace cascade::analysis

@@ -1,0 +1,415 @@
+// Values and slopes of all parts of the rates. Vectors have slopes at the faces across each axis.
+#include "analysis/linear_model.h"
+
+#include "lang/calculus/derivative_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace cascade::analysis {
+
+namespace {
+
+using Kind = WaveOperator::Kind;
+
+/// The coefficients of products of operators.
+using Slope = std::map<OperatorProduct, NodeId>;
+using Slopes = std::vector<Slope>;  ///< By species.
+
+struct Part {
+    /// Of a number the first; the components of a vector; the entries 11, 12 and 22 of a tensor.
+    std::array<NodeId, 3> value{};
+    Slopes slopes;  ///< Of a number.
+    /// Of a vector, by the axis across which faces lie, and by component.
+    std::array<std::array<Slopes, 3>, 3> at_faces;
+};
+
+bool is_flat(const Slopes& slopes) {
+    return std::all_of(slopes.begin(), slopes.end(),
+                       [](const Slope& slope) { return slope.empty(); });
+}
+
+class Lineariser {
+public:
+    explicit Lineariser(LinearModel& model)
+        : model_(model),
+          algebra_(model.algebra),
+          zero_(algebra_.number(0)),
+          one_(algebra_.number(1)),
+          flat_(model.species_count()),
+          axes_(lattice_of(*model.program).has_axis) {}
+
+    /// Adds a part; fails with words for the user.
+    Result<void> add(const Node& node) {
+        if (algebra_.size() > most_calculus_nodes) return failure("its rates are too large");
+        parts_.push_back(nothing());
+        Part& part = parts_.back();
+        if (const auto* number = node.as<double>()) {
+            part.value[0] = algebra_.number(*number);
+            return {};
+        }
+        if (const auto* item = node.as<ItemId>()) return add_item(*item, part);
+        if (const auto* builtin = node.as<Builtin>()) return add_builtin(*builtin);
+        if (!node.is<Call>()) {
+            return failure("its rates read earlier stages or places, so that no state is flat");
+        }
+        if (node.type == ValueType::tensor) return add_tensor(node, part);
+        if (node.type == ValueType::vector) return add_vector(node, part);
+        return add_call(node, part);
+    }
+
+    const Part& operator[](NodeId id) const { return parts_[id]; }
+
+private:
+    Part nothing() const {
+        Part part;
+        part.value.fill(zero_);
+        part.slopes = flat_;
+        for (auto& faces : part.at_faces) faces.fill(flat_);
+        return part;
+    }
+    const Part& part(const Node& node, std::size_t n) const { return parts_[node.operands[n]]; }
+
+    void add(Slopes& sum, const Slopes& slopes, NodeId factor) {
+        if (algebra_.is_number(factor, 0)) return;
+        for (std::size_t s = 0; s < sum.size(); ++s) {
+            for (const auto& [operators, coefficient] : slopes[s]) {
+                const auto [known, is_new] = sum[s].try_emplace(operators, zero_);
+                known->second = algebra_.sum(known->second, algebra_.product(factor, coefficient));
+                if (algebra_.is_number(known->second, 0)) sum[s].erase(known);
+            }
+        }
+    }
+    Slopes through(const Slopes& slopes, Kind kind, std::size_t axis = 0) const {
+        Slopes result(slopes.size());
+        for (std::size_t s = 0; s < slopes.size(); ++s) {
+            for (const auto& [operators, coefficient] : slopes[s]) {
+                result[s][followed_by(operators, {kind, static_cast<std::uint8_t>(axis)})] =
+                    coefficient;
+            }
+        }
+        return result;
+    }
+
+    Result<void> add_item(ItemId item, Part& part) {
+        const auto found = std::find(model_.species.begin(), model_.species.end(), item);
+        if (found != model_.species.end()) {
+            part.value[0] = algebra_.leaf(item);
+            part.slopes[static_cast<std::size_t>(found - model_.species.begin())][{}] = one_;
+            return {};
+        }
+        const StartValue& start = model_.starts[item];
+        if (start.is_unknown) {
+            return failure(fmt::format("'{}' comes from a file, so that no state is flat",
+                                       model_.system().item_name(item)),
+                           fmt::format("give it a number, as in --set {}=…",
+                                       model_.system().item_name(item)));
+        }
+        auto& read = model_.parameters;
+        if (std::find(read.begin(), read.end(), item) == read.end()) read.push_back(item);
+        part.value[0] = start.value;
+        return {};
+    }
+
+    Result<void> add_builtin(Builtin builtin) {
+        if (builtin == Builtin::t || builtin == Builtin::step) {
+            model_.reads_time = true;
+            return {};
+        }
+        if (is_of_model(builtin) && !model_.program->domain.model) return {};
+        return failure(fmt::format("its rates read '{}', so that no state is flat",
+                                   builtin_names[static_cast<std::size_t>(builtin)]));
+    }
+
+    Result<void> add_tensor(const Node& node, Part& part) {
+        for (std::size_t n = 0; n < 3; ++n) {
+            if (!is_flat(this->part(node, n).slopes)) {
+                return failure("a tensor in its rates changes with a species");
+            }
+        }
+        const TensorEntries entries =
+            tensor_entries(algebra_, this->part(node, 0).value[0], this->part(node, 1).value[0],
+                           this->part(node, 2).value[0]);
+        part.value = {entries.a11, entries.a12, entries.a22};
+        return {};
+    }
+
+    /// Calls `act` with each axis and component that the grid has.
+    template <typename Act>
+    void at_each_face(const Act& act) const {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t component = 0; component < 3; ++component) {
+                if (axes_[axis] && axes_[component]) act(axis, component);
+            }
+        }
+    }
+
+    /// The rules of lang/lower/lower_vectors.cpp: factors are averaged at faces.
+    Result<void> add_vector(const Node& node, Part& part) {
+        const Part& a = this->part(node, 0);
+        const Part& b = parts_[node.reads().back()];
+        const auto type = [&](std::size_t n) { return types_[node.operands[n].index()]; };
+        switch (node.function) {
+            case Function::grad:
+                at_each_face([&](std::size_t axis, std::size_t component) {
+                    part.at_faces[axis][component] =
+                        axis == component ? through(a.slopes, Kind::across, axis)
+                                          : through(through(a.slopes, Kind::average, axis),
+                                                    Kind::central, component);
+                });
+                return {};
+            case Function::vector:
+                for (std::size_t n = 0; n < node.operand_count; ++n) {
+                    part.value[n] = this->part(node, n).value[0];
+                }
+                at_each_face([&](std::size_t axis, std::size_t component) {
+                    if (component >= node.operand_count) return;
+                    part.at_faces[axis][component] =
+                        through(this->part(node, component).slopes, Kind::average, axis);
+                });
+                return {};
+            case Function::negate: combine(part, a, algebra_.number(-1)); return {};
+            case Function::add:
+                combine(part, a, one_);
+                combine(part, b, one_);
+                return {};
+            case Function::subtract:
+                combine(part, a, one_);
+                combine(part, b, algebra_.number(-1));
+                return {};
+            case Function::divide: {
+                const NodeId factor = algebra_.quotient(one_, b.value[0]);
+                scale(part, a, factor, b.slopes,
+                      algebra_.negative(algebra_.product(factor, factor)));
+                return {};
+            }
+            case Function::multiply:
+                if (type(0) == ValueType::tensor) {
+                    turn(part, a, b);
+                } else if (type(0) == ValueType::vector) {
+                    scale(part, a, b.value[0], b.slopes, one_);
+                } else {
+                    scale(part, b, a.value[0], a.slopes, one_);
+                }
+                return {};
+            default: break;
+        }
+        return without_rule(node);
+    }
+
+    void combine(Part& sum, const Part& vector, NodeId factor) {
+        for (std::size_t n = 0; n < 3; ++n) {
+            sum.value[n] = algebra_.sum(sum.value[n], algebra_.product(factor, vector.value[n]));
+        }
+        at_each_face([&](std::size_t axis, std::size_t component) {
+            add(sum.at_faces[axis][component], vector.at_faces[axis][component], factor);
+        });
+    }
+
+    /// A vector times a number at faces, where the number is `factor` and changes by `by` times
+    /// `slopes`.
+    void scale(Part& product, const Part& vector, NodeId factor, const Slopes& slopes, NodeId by) {
+        combine(product, vector, factor);
+        at_each_face([&](std::size_t axis, std::size_t component) {
+            add(product.at_faces[axis][component], through(slopes, Kind::average, axis),
+                algebra_.product(by, vector.value[component]));
+        });
+    }
+
+    void turn(Part& product, const Part& tensor, const Part& vector) {
+        for (std::size_t row = 0; row < 2; ++row) {
+            for (std::size_t column = 0; column < 2; ++column) {
+                const NodeId entry = tensor.value[row + column];
+                product.value[row] =
+                    algebra_.sum(product.value[row], algebra_.product(entry, vector.value[column]));
+                at_each_face([&](std::size_t axis, std::size_t component) {
+                    if (component == row && axes_[column]) {
+                        add(product.at_faces[axis][row], vector.at_faces[axis][column], entry);
+                    }
+                });
+            }
+        }
+    }
+
+    Result<void> without_rule(const Node& node) const {
+        return failure(
+            fmt::format("there is no rule for '{}' in its rates", info(node.function).spelling));
+    }
+
+    Result<void> add_call(const Node& node, Part& part) {
+        const Derivative derivative = derivative_of(node.function);
+        const Slopes& first = this->part(node, 0).slopes;
+        const auto axis = static_cast<std::size_t>(derivative.first);
+        if (derivative.order == 1) {
+            part.slopes = through(first, Kind::central, axis);
+            return {};
+        }
+        if (derivative.is_mixed()) {
+            part.slopes = through(through(first, Kind::central, axis), Kind::central,
+                                  static_cast<std::size_t>(derivative.second));
+            return {};
+        }
+        if (derivative.order == 2) {
+            part.slopes = through(first, Kind::second, axis);
+            return {};
+        }
+        switch (node.function) {
+            case Function::lap: part.slopes = through(first, Kind::laplacian); return {};
+            case Function::grad2: return {};  // A square, and 0 in a flat state.
+            case Function::advect: add_advection(node, part); return {};
+            case Function::diffuse: add_diffusion(node, part); return {};
+            case Function::div:
+                for (std::size_t each = 0; each < 3; ++each) {
+                    add(part.slopes,
+                        through(this->part(node, 0).at_faces[each][each], Kind::across, each),
+                        one_);
+                }
+                return {};
+            case Function::random:
+            case Function::normal:
+                model_.has_noise = true;
+                part.value[0] = this->part(node, 0).value[0];
+                part.slopes = first;
+                return {};
+            case Function::white: model_.has_noise = true; return {};
+            default: break;
+        }
+        if (info(node.function).is_aggregate) return add_aggregate(node, part);
+        return add_function(node, part);
+    }
+
+    Result<void> add_aggregate(const Node& node, Part& part) {
+        part.value[0] = this->part(node, 0).value[0];
+        NodeId factor = one_;
+        if (node.function == Function::domain_sum) {
+            if (model_.program->domain.model || model_.program->domain.mask) {
+                return failure("'sum over domain' in its rates depends on the number of cells");
+            }
+            factor = algebra_.number(static_cast<double>(model_.program->domain.grid.cell_count()));
+            part.value[0] = algebra_.product(factor, part.value[0]);
+        }
+        add(part.slopes, through(this->part(node, 0).slopes, Kind::mean), factor);
+        return {};
+    }
+
+    /// Upwind. The carried value is flat, so that changes of the velocity do not matter.
+    void add_advection(const Node& node, Part& part) {
+        const std::size_t velocities = node.operand_count - 1;
+        const Slopes& carried = this->part(node, velocities).slopes;
+        for (std::size_t axis = 0; axis < velocities; ++axis) {
+            const NodeId velocity = this->part(node, axis).value[0];
+            add(part.slopes, through(carried, Kind::backward, axis),
+                algebra_.maximum(velocity, zero_));
+            add(part.slopes, through(carried, Kind::forward, axis),
+                algebra_.call(Function::min, {velocity, zero_}));
+        }
+    }
+
+    void add_diffusion(const Node& node, Part& part) {
+        const Slopes& spread = this->part(node, 0).slopes;
+        const auto [a11, a12, a22] =
+            tensor_entries(algebra_, this->part(node, 1).value[0], this->part(node, 2).value[0],
+                           this->part(node, 3).value[0]);
+        add(part.slopes, through(spread, Kind::second, 0), a11);
+        add(part.slopes, through(spread, Kind::second, 1), a22);
+        add(part.slopes, through(through(spread, Kind::central, 0), Kind::central, 1),
+            algebra_.product(algebra_.number(2), a12));
+    }
+
+    Result<void> add_function(const Node& node, Part& part) {
+        Node valued = node;
+        for (std::size_t n = 0; n < node.operand_count; ++n) {
+            valued.operands[n] = this->part(node, n).value[0];
+        }
+        const bool is_numeric = !varies_by_cell(node.function) && node.operand_count <= 3 &&
+                                info(node.function).kind <= FunctionKind::choice;
+        if (!is_numeric) {
+            if (varies_by_cell(node.function)) {
+                return failure(fmt::format(
+                    "'{}' in its rates differs from place to place, so that no state is flat",
+                    info(node.function).spelling));
+            }
+            return without_rule(node);
+        }
+        const NodeId a = valued.operands[0], b = valued.operands[1], c = valued.operands[2];
+        part.value[0] = node.operand_count == 1   ? algebra_.call(node.function, {a})
+                        : node.operand_count == 2 ? algebra_.call(node.function, {a, b})
+                                                  : algebra_.call(node.function, {a, b, c});
+        for (std::size_t n = 0; n < node.operand_count; ++n) {
+            const Slopes& inner = this->part(node, n).slopes;
+            if (is_flat(inner)) continue;
+            const auto partial = partial_derivative(algebra_, valued, n);
+            if (!partial) return without_rule(node);
+            add(part.slopes, inner, *partial);
+        }
+        return {};
+    }
+
+public:
+    void note_type(ValueType type) { types_.push_back(type); }
+
+private:
+    LinearModel& model_;
+    Algebra& algebra_;
+    NodeId zero_, one_;
+    Slopes flat_;  ///< Of what does not change.
+    std::array<bool, 3> axes_;
+    IdVector<NodeId, Part> parts_;
+    std::vector<ValueType> types_;
+};
+
+std::vector<JacobianTerm> terms_of(const LinearModel& model, const std::vector<Slopes>& slopes,
+                                   NodeId zero) {
+    const std::size_t count = model.species_count();
+    std::map<OperatorProduct, std::vector<NodeId>> entries;
+    entries[{}].assign(count * count, zero);
+    for (std::size_t rate = 0; rate < count; ++rate) {
+        for (std::size_t species = 0; species < count; ++species) {
+            for (const auto& [operators, coefficient] : slopes[rate][species]) {
+                auto& matrix = entries[operators];
+                matrix.resize(count * count, zero);
+                matrix[rate * count + species] = coefficient;
+            }
+        }
+    }
+    std::vector<JacobianTerm> terms;
+    for (auto& [operators, matrix] : entries) terms.push_back({operators, std::move(matrix)});
+    return terms;
+}
+
+}  // namespace
+
+Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
+                                 std::span<const ItemId> varied) {
+    const System& system = program.system_of(stage);
+    if (system.cells) return failure("its cells crawl, and have no flat state");
+    LinearModel model;
+    model.program = &program;
+    model.stage = stage;
+    model.varied.assign(varied.begin(), varied.end());
+    for (const ItemId item : system.species()) model.species.push_back(item);
+    if (model.species.empty()) return failure("it has no species");
+    model.starts = start_values(model.algebra, program, stage, varied);
+    const FlatRates rates(system);
+    Lineariser parts(model);
+    for (const NodeId id : ids_below<NodeId>(rates.count)) {
+        if (auto done = parts.add(rates.algebra[id]); !done) return tl::unexpected(done.error());
+        parts.note_type(rates.algebra[id].type);
+    }
+    std::vector<Slopes> slopes;
+    for (const ItemId item : model.species) {
+        const Part& part = parts[rates.rate(item)];
+        model.rates.push_back(part.value[0]);
+        slopes.push_back(part.slopes);
+    }
+    model.terms = terms_of(model, slopes, model.algebra.number(0));
+    std::sort(model.parameters.begin(), model.parameters.end());
+    return model;
+}
+
+}  // namespace cascade::analysis

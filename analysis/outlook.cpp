@@ -1,0 +1,156 @@
+// Strict about what it judges: starting values, parameters, sides and rates must leave noise as the
+// only source of differences.
+#include "analysis/outlook.h"
+
+#include "analysis/stage_analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cascade::analysis {
+
+namespace {
+
+/// Noise above this part of the values might start a pattern that weak noise does not.
+constexpr double weak = 0.02;
+
+bool has_values_at_sides(const Program& program, std::uint32_t stage) {
+    for (const auto& side : program.domain.sides) {
+        if (side && takes_value(side->kind)) return true;
+    }
+    for (const auto& sides : program.stages[stage].sides) {
+        for (const SideSetting& side : sides) {
+            if (takes_value(side.kind)) return true;
+        }
+    }
+    return false;
+}
+
+/// Is noise the only source of differences between cells?
+bool starts_with_noise_alone(const LinearModel& model) {
+    if (model.reads_time || model.has_noise) return false;
+    const System& system = model.system();
+    const StartValue& frozen = model.starts[system.frozen_item()];
+    if (frozen.differs || frozen.is_unknown || !model.algebra.is_number(frozen.value, 0)) {
+        return false;
+    }
+    bool has_noise = false;
+    const auto is_plain = [&](ItemId item) {
+        const StartValue& start = model.starts[item];
+        has_noise = has_noise || !model.algebra.is_number(start.scatter, 0);
+        return !start.differs && !start.is_unknown;
+    };
+    for (const ItemId item : model.species) {
+        if (!is_plain(item)) return false;
+    }
+    for (const ItemId item : model.parameters) {
+        if (!is_plain(item)) return false;
+    }
+    return has_noise;
+}
+
+bool is_weak(const Vector& scatter, const Vector& state, const Vector& start) {
+    const double largest = state.cwiseAbs().maxCoeff();
+    const Vector sizes = state.cwiseAbs().cwiseMax(weak * largest);
+    for (Eigen::Index k = 0; k < state.size(); ++k) {
+        const double most = std::max(weak * sizes[k], 1e-3 * weak);
+        if (!(scatter[k] <= most)) return false;
+        if (!(std::abs(state[k] - start[k]) <= most)) return false;
+    }
+    return true;
+}
+
+/// The species for which the least more diffusion would let a wave grow, with the factor.
+std::string remedy(const LinearModel& model, const Matrices& matrices) {
+    const auto grows_with = [&](Eigen::Index species, double factor) {
+        Matrices scaled = matrices;
+        for (std::size_t k = 1; k < scaled.size(); ++k) scaled[k].row(species) *= factor;
+        return quick_dispersion(model, scaled).has_growing_waves();
+    };
+    constexpr double most = 100;
+    double least = most;
+    std::string name;
+    for (Eigen::Index s = 0; s < matrices[0].rows(); ++s) {
+        if (!grows_with(s, least * 0.999)) continue;
+        double low = 1, high = least;
+        for (int round = 0; round < 30; ++round) {
+            const double middle = std::sqrt(low * high);
+            (grows_with(s, middle) ? high : low) = middle;
+        }
+        least = high;
+        name = model.system().item_name(model.species[static_cast<std::size_t>(s)]);
+    }
+    if (name.empty()) return "";
+    return fmt::format("; if {} diffused {:.3g} times as fast, one would", name,
+                       std::ceil(least * 100) / 100);
+}
+
+/// The time that the stage takes; empty if that is not known before it runs.
+std::optional<double> duration_of(const LinearModel& model) {
+    const Stage& stage = model.program->stages[model.stage];
+    if (stage.time.duration) return stage.time.duration;
+    const StartValue& speed = model.starts[model.system().speed_item()];
+    const auto* step = model.algebra[speed.value].as<double>();
+    if (stage.time.chooses_steps() || stage.time.has_duration() || stage.time.open_end ||
+        speed.differs || speed.is_unknown || step == nullptr) {
+        return std::nullopt;
+    }
+    return *step * static_cast<double>(stage.iterations);
+}
+
+std::string lengths(const Dispersion& relation) {
+    const double least = 2 * std::numbers::pi / relation.bands.front().most;
+    if (relation.bands.front().least == 0) return fmt::format("above {:.3g} cells", least);
+    return fmt::format("{:.3g} to {:.3g} cells", least,
+                       2 * std::numbers::pi / relation.bands.front().least);
+}
+
+}  // namespace
+
+std::optional<std::string> why_nothing_grows(const Program& program, std::uint32_t stage) {
+    if (has_values_at_sides(program, stage)) return std::nullopt;
+    const auto model = linear_model(program, stage);
+    if (!model || !starts_with_noise_alone(*model)) return std::nullopt;
+    const LocalRates rates(*model);
+    const Vector start = rates.start();
+    if (!start.allFinite()) return std::nullopt;
+    const auto state = flat_state_near(rates, start, conserved_totals(rates));
+    if (!state || !is_weak(rates.scatter(), *state, start)) return std::nullopt;
+    const Matrices matrices = rates.matrices(*state);
+    for (const Matrix& matrix : matrices) {
+        if (!matrix.allFinite()) return std::nullopt;
+    }
+    const Dispersion relation = dispersion(*model, matrices);
+    if (relation.grows_at_rest()) return std::nullopt;
+    const std::string where = values_text(*model, *state);
+    const double rate = std::max(relation.fastest.rate.real(), relation.at_rest.real());
+    if (!relation.has_growing_waves()) {
+        if (!(rate < -1e3 * relation.resolution)) return std::nullopt;
+        return fmt::format("no wave grows from its flat state {}: the largest rate is {:.3g}{}",
+                           where, rate, remedy(*model, matrices));
+    }
+    if (const auto fitting = fastest_fitting_wave(*model, matrices);
+        fitting && fitting->rate.real() < -1e3 * relation.resolution) {
+        return fmt::format(
+            "no wave that grows from its flat state {} fits the domain: those are {} long", where,
+            lengths(relation));
+    }
+    if (relation.fastest.cells() < 3) {
+        return fmt::format(
+            "the waves that grow fastest are {:.3g} cells long, too short for the grid",
+            relation.fastest.cells());
+    }
+    if (const auto duration = duration_of(*model);
+        duration && *duration * relation.fastest.rate.real() < 1) {
+        return fmt::format(
+            "it ends before anything can grow from its flat state {}: the fastest wave grows "
+            "e-fold in {:.3g}, and it lasts {:.3g}",
+            where, 1 / relation.fastest.rate.real(), *duration);
+    }
+    return std::nullopt;
+}
+
+}  // namespace cascade::analysis

@@ -1,0 +1,307 @@
+// A flat state is followed from value to value by Newton's method, each time from the last one.
+#include "analysis/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace cascade::analysis {
+
+namespace {
+
+struct Place {
+    std::optional<Vector> state;
+    std::optional<Stability> stability;
+    double cells = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A flat state of a model at any values of its varied parameters.
+class Follower {
+public:
+    Follower(const LinearModel& model, const std::vector<double>& present, const Vector& state)
+        : model_(model), rates_(model), sizes_(state.cwiseAbs()) {
+        rates_.set_varied(present);
+        conserved_ = conserved_totals(rates_);
+        sizes_ = sizes_.cwiseMax(0.1 * std::max(sizes_.maxCoeff(), 1e-3));
+    }
+
+    /// The state beside a known one; nothing if Newton's method goes astray.
+    Place at(const std::vector<double>& values, const std::optional<Vector>& beside) {
+        rates_.set_varied(values);
+        // Totals are those of the starting values, which may depend on the parameters.
+        const bool has_totals = conserved_.rows() > 0;
+        if (!beside && !has_totals) return {};
+        const Vector guess = has_totals ? rates_.start() : *beside;
+        if (!guess.allFinite()) return {};
+        Place place;
+        place.state = flat_state_near(rates_, guess, conserved_);
+        if (place.state && !has_totals && is_far(*place.state, guess)) place.state.reset();
+        if (!place.state) return place;
+        const Matrices matrices = rates_.matrices(*place.state);
+        for (const Matrix& matrix : matrices) {
+            if (!matrix.allFinite()) return {};
+        }
+        const Dispersion relation = quick_dispersion(model_, matrices);
+        place.stability = relation.stability;
+        if (std::isfinite(relation.fastest.cells())) place.cells = relation.fastest.cells();
+        return place;
+    }
+
+private:
+    /// Another state that Newton's method jumped to.
+    bool is_far(const Vector& state, const Vector& guess) const {
+        const Vector scale = sizes_.cwiseMax(guess.cwiseAbs());
+        return (state - guess).cwiseQuotient(scale).cwiseAbs().maxCoeff() > 0.5;
+    }
+
+    const LinearModel& model_;
+    LocalRates rates_;
+    Matrix conserved_;
+    Vector sizes_;
+};
+
+/// The value of a parameter in the script.
+Result<double> present_value(const Program& program, std::uint32_t stage, ItemId item) {
+    Algebra algebra;
+    const StartValue start = start_values(algebra, program, stage, {})[item];
+    const auto* number = algebra[start.value].as<double>();
+    if (number == nullptr || start.is_unknown) {
+        return failure("its present value is unknown");
+    }
+    return *number;
+}
+
+CriticalValue bisected(Follower& follower, double low, double high, const Place& at_low,
+                       const Place& at_high) {
+    Place below = at_low, above = at_high;
+    const Place* known = below.state ? &below : &above;
+    for (int round = 0; round < 24; ++round) {
+        const double middle = (low + high) / 2;
+        known = below.state ? &below : &above;
+        Place place = follower.at({middle}, known->state);
+        if (place.stability == below.stability) {
+            below = std::move(place);
+            low = middle;
+        } else {
+            above = std::move(place);
+            high = middle;
+        }
+    }
+    CriticalValue change{(low + high) / 2, below.stability, above.stability, 0};
+    const auto has_waves = [](const Place& place) {
+        return place.stability == Stability::turing || place.stability == Stability::wave ||
+               place.stability == Stability::both;
+    };
+    change.cells = has_waves(above)   ? above.cells
+                   : has_waves(below) ? below.cells
+                                      : std::numeric_limits<double>::quiet_NaN();
+    return change;
+}
+
+}  // namespace
+
+Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage,
+                                     const ParameterSpan& span, const Vector& state) {
+    const std::array items{span.item};
+    const auto model = linear_model(program, stage, items);
+    if (!model) return tl::unexpected(model.error());
+    const auto present = present_value(program, stage, span.item);
+    if (!present) return tl::unexpected(present.error());
+    Follower follower(*model, {*present}, state);
+    ParameterScan scan{span, *present, {}, {}, {}};
+    const int parts = model->species_count() <= 2 ? 64 : 32;
+    const double middle = std::clamp(*present, span.low, span.high);
+    // At an end of its range a parameter may be 0 and leave nothing to divide by.
+    const double inwards = 1e-6 * (span.high - span.low);
+    const auto walk = [&](double end) {
+        double last = *present;
+        Place before = follower.at({last}, state);
+        // The way to the range does not count.
+        if (middle != last) {
+            for (int k = 1; k <= parts; ++k) {
+                before = follower.at({last + (middle - last) * k / parts}, before.state);
+            }
+            last = middle;
+        }
+        for (int k = 1; k <= parts && end != middle; ++k) {
+            const double value = k == parts ? end : middle + (end - middle) * k / parts;
+            Place here = follower.at({value}, before.state);
+            if (here.stability != before.stability) {
+                scan.changes.push_back(value > last
+                                           ? bisected(follower, last, value, before, here)
+                                           : bisected(follower, value, last, here, before));
+            }
+            if (!here.state) return std::optional<Stability>();
+            last = value;
+            before = std::move(here);
+        }
+        return before.stability;
+    };
+    scan.at_low = walk(span.low + inwards);
+    scan.at_high = walk(span.high - inwards);
+    for (CriticalValue& change : scan.changes) {
+        // Rounding errors of 0.
+        if (std::abs(change.value) < 1e-8 * (span.high - span.low)) change.value = 0;
+    }
+    std::sort(scan.changes.begin(), scan.changes.end(),
+              [](const auto& a, const auto& b) { return a.value < b.value; });
+    return scan;
+}
+
+std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    std::vector<ParameterSpan> spans;
+    for (const ItemId item : system.quantities.ids()) {
+        const Quantity& quantity = system.quantities[item];
+        if (quantity.is_species || !quantity.range || !program.stages[stage].uniform[item]) {
+            continue;
+        }
+        const std::array items{item};
+        const auto model = linear_model(program, stage, items);
+        if (!model) continue;
+        // Does a formula read it?
+        std::vector<NodeId> roots = model->rates;
+        for (const JacobianTerm& term : model->terms) {
+            roots.insert(roots.end(), term.entries.begin(), term.entries.end());
+        }
+        const auto reads = [&](NodeId root) {
+            const Formula formula = model->algebra.formula(root);
+            return std::any_of(formula.nodes.begin(), formula.nodes.end(),
+                               [&](const Node& node) { return node.is(item); });
+        };
+        if (std::any_of(roots.begin(), roots.end(), reads)) {
+            spans.push_back({item, quantity.range->low, quantity.range->high});
+        }
+    }
+    return spans;
+}
+
+Result<ParameterMap> map_parameters(const Program& program, std::uint32_t stage,
+                                    const ParameterSpan& across, const ParameterSpan& up,
+                                    std::size_t side, const Vector& state) {
+    const std::array items{across.item, up.item};
+    const auto model = linear_model(program, stage, items);
+    if (!model) return tl::unexpected(model.error());
+    std::vector<double> present;
+    for (const ItemId item : items) {
+        const auto value = present_value(program, stage, item);
+        if (!value) return tl::unexpected(value.error());
+        present.push_back(*value);
+    }
+    Follower follower(*model, present, state);
+
+    std::vector<std::optional<Place>> places(side * side);
+    const auto value = [&](const ParameterSpan& span, std::size_t k) {
+        return span.low +
+               (span.high - span.low) * static_cast<double>(k) / static_cast<double>(side - 1);
+    };
+    // From a known state in a few steps, so that Newton's method stays on its branch.
+    const auto reach = [&](std::vector<double> from, std::optional<Vector> beside, std::size_t i,
+                           std::size_t j, int parts) {
+        Place place;
+        for (int k = 1; k <= parts; ++k) {
+            const double part = static_cast<double>(k) / parts;
+            place = follower.at({from[0] + part * (value(across, i) - from[0]),
+                                 from[1] + part * (value(up, j) - from[1])},
+                                beside);
+            beside = place.state;
+        }
+        return place;
+    };
+    const auto fill = [&](std::size_t i, std::size_t j, std::size_t beside_i, std::size_t beside_j,
+                          int parts) {
+        auto& place = places[j * side + i];
+        if (place) return;
+        const auto& beside = places[beside_j * side + beside_i];
+        place = reach({value(across, beside_i), value(up, beside_j)},
+                      beside ? beside->state : std::nullopt, i, j, parts);
+    };
+
+    constexpr std::size_t block = 8;
+    std::vector<std::size_t> lines;
+    for (std::size_t k = 0; k < side - 1; k += block) lines.push_back(k);
+    lines.push_back(side - 1);
+    const auto nearest_line = [&](const ParameterSpan& span, double at) {
+        std::size_t best = 0;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            if (std::abs(value(span, lines[k]) - at) < std::abs(value(span, lines[best]) - at)) {
+                best = k;
+            }
+        }
+        return best;
+    };
+    const std::size_t middle_i = nearest_line(across, present[0]);
+    const std::size_t middle_j = nearest_line(up, present[1]);
+    places[lines[middle_j] * side + lines[middle_i]] =
+        reach(present, state, lines[middle_i], lines[middle_j], 64);
+    // Along the middle row, then from it along columns.
+    constexpr int careful = 4;
+    for (std::size_t i = middle_i; i-- > 0;) {
+        fill(lines[i], lines[middle_j], lines[i + 1], lines[middle_j], careful);
+    }
+    for (std::size_t i = middle_i + 1; i < lines.size(); ++i) {
+        fill(lines[i], lines[middle_j], lines[i - 1], lines[middle_j], careful);
+    }
+    for (const std::size_t i : lines) {
+        for (std::size_t j = middle_j; j-- > 0;) fill(i, lines[j], i, lines[j + 1], careful);
+        for (std::size_t j = middle_j + 1; j < lines.size(); ++j) {
+            fill(i, lines[j], i, lines[j - 1], careful);
+        }
+    }
+
+    ParameterMap map{across, up, side, {}};
+    map.classes.resize(side * side);
+    struct Block {
+        std::size_t left, low, right, high;
+    };
+    std::vector<Block> waiting;
+    for (std::size_t j = 0; j + 1 < lines.size(); ++j) {
+        for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+            waiting.push_back({lines[i], lines[j], lines[i + 1], lines[j + 1]});
+        }
+    }
+    while (!waiting.empty()) {
+        const Block at = waiting.back();
+        waiting.pop_back();
+        const auto& first = places[at.low * side + at.left]->stability;
+        const auto is_like = [&](std::size_t i, std::size_t j) {
+            return places[j * side + i]->stability == first;
+        };
+        const bool is_even =
+            is_like(at.right, at.low) && is_like(at.left, at.high) && is_like(at.right, at.high);
+        if (is_even || (at.right - at.left <= 1 && at.high - at.low <= 1)) {
+            for (std::size_t j = at.low; j <= at.high; ++j) {
+                for (std::size_t i = at.left; i <= at.right; ++i) {
+                    const auto& known = places[j * side + i];
+                    map.classes[j * side + i] = known ? known->stability : first;
+                }
+            }
+            continue;
+        }
+        const std::size_t i = (at.left + at.right) / 2, j = (at.low + at.high) / 2;
+        const auto corner = [&](std::size_t x, std::size_t y) {
+            // A corner that has a state leads to others.
+            for (const std::size_t row : {at.low, at.high}) {
+                for (const std::size_t column : {at.left, at.right}) {
+                    if (places[row * side + column]->state) return fill(x, y, column, row, 1);
+                }
+            }
+            fill(x, y, at.left, at.low, 1);
+        };
+        for (const std::size_t y : {at.low, j, at.high}) {
+            for (const std::size_t x : {at.left, i, at.right}) corner(x, y);
+        }
+        const auto push = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+            if (c > a || d > b) waiting.push_back({a, b, c, d});
+        };
+        const bool splits_across = i > at.left, splits_up = j > at.low;
+        push(at.left, at.low, splits_across ? i : at.right, splits_up ? j : at.high);
+        if (splits_across) push(i, at.low, at.right, splits_up ? j : at.high);
+        if (splits_up) push(at.left, j, splits_across ? i : at.right, at.high);
+        if (splits_across && splits_up) push(i, j, at.right, at.high);
+    }
+    return map;
+}
+
+}  // namespace cascade::analysis

@@ -1,0 +1,54 @@
+// How the class of a flat state changes with parameters: critical values of one, a map over two.
+#pragma once
+
+#include "analysis/stage_analysis.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cascade::analysis {
+
+/// A parameter and the range in which it is varied.
+struct ParameterSpan {
+    ItemId item;
+    double low = 0, high = 1;
+};
+
+/// A change of class.
+struct CriticalValue {
+    double value = 0;
+    std::optional<Stability> below, above;  ///< Empty: the flat state does not exist there.
+    double cells = 0;                       ///< The length of the fastest wave there; NaN without.
+};
+
+struct ParameterScan {
+    ParameterSpan span;
+    double present = 0;  ///< Its value in the script.
+    std::optional<Stability> at_low, at_high;
+    std::vector<CriticalValue> changes;  ///< By increasing value.
+};
+
+/// Follows a flat state of the script through the values of a parameter, and bisects where its
+/// class changes between two of some hundred values. Fails where linear_model() does.
+Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage,
+                                     const ParameterSpan& span, const Vector& state);
+
+/// The parameters of a stage that have a range and on which its rates depend.
+std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32_t stage);
+
+struct ParameterMap {
+    ParameterSpan across, up;
+    std::size_t side = 0;                           ///< The number of values of each.
+    std::vector<std::optional<Stability>> classes;  ///< Rows from the lowest value of `up`.
+};
+
+/// Classes of a flat state of the script at side × side pairs of values, the ends of ranges
+/// included. Blocks of 8 × 8 pairs whose
+/// corners are alike count as a whole.
+Result<ParameterMap> map_parameters(const Program& program, std::uint32_t stage,
+                                    const ParameterSpan& across, const ParameterSpan& up,
+                                    std::size_t side, const Vector& state);
+
+}  // namespace cascade::analysis

@@ -1,0 +1,46 @@
+// What is known of a stage before it runs: its flat states, what grows from each of them, and the
+// steps with which the rest fades.
+#pragma once
+
+#include "analysis/dispersion.h"
+#include "analysis/flat_states.h"
+#include "analysis/stable_steps.h"
+#include "core/result.h"
+
+#include <string>
+#include <vector>
+
+namespace cascade::analysis {
+
+struct StateAnalysis {
+    FlatState state;
+    Matrices matrices;
+    Dispersion relation;
+    std::vector<StableStep> steps;
+};
+
+struct StageAnalysis {
+    LinearModel model;
+    std::vector<StateAnalysis> states;  ///< That of the starting values first, if there is one.
+    bool has_conserved_totals = false;  ///< Then flat states come in families.
+    Vector start;                       ///< The starting values of the species.
+    std::optional<double> step;         ///< Of the time, if it is one number.
+};
+
+/// Fails where linear_model() does. The program must outlive the result.
+Result<StageAnalysis> analyze_stage(const Program& program, std::uint32_t stage);
+
+/// The state that is worth a closer look: the first that is stable without waves and from which
+/// waves grow, or else the first. There must be one.
+const StateAnalysis& state_to_show(const StageAnalysis& analysis);
+
+/// "u = 1, v = 0.9", at most six of them.
+std::string values_text(const LinearModel& model, const Vector& species);
+
+/// The analysis as a text of some lines.
+std::string describe(const StageAnalysis& analysis);
+
+/// The classes in words, such as "Turing".
+std::string_view name_of(Stability stability);
+
+}  // namespace cascade::analysis

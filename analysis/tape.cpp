@@ -1,0 +1,76 @@
+// The nodes that results need, in their order, each with a register.
+#include "analysis/tape.h"
+
+#include "core/check.h"
+#include "lang/program/fold.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace cascade::analysis {
+
+namespace {
+
+template <typename Step>
+double value_of(const Step& step, const std::vector<double>& registers) {
+    const double a = registers[step.a], b = registers[step.b];
+    switch (step.function) {
+        case Function::add: return a + b;
+        case Function::subtract: return a - b;
+        case Function::multiply: return a * b;
+        case Function::divide: return a / b;
+        case Function::power:
+        case Function::pow:
+            if (b == 2) return a * a;
+            break;
+        default: break;
+    }
+    return fold(step.function, std::array{a, b, registers[step.c]})
+        .value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace
+
+Tape::Tape(const Algebra& algebra, std::span<const NodeId> results, std::span<const ItemId> inputs)
+    : numbers_(inputs.size(), 0.0) {
+    std::vector<bool> is_needed(algebra.size(), false);
+    for (const NodeId id : results) is_needed[id.index()] = true;
+    for (std::size_t k = algebra.size(); k-- > 0;) {
+        if (!is_needed[k]) continue;
+        for (const NodeId operand : algebra[NodeId(k)].reads()) is_needed[operand.index()] = true;
+    }
+    std::vector<std::uint32_t> place(algebra.size(), 0);
+    for (const NodeId id : algebra.nodes().ids()) {
+        if (!is_needed[id.index()]) continue;
+        const Node& node = algebra[id];
+        if (const auto* item = node.as<ItemId>()) {
+            const auto found = std::find(inputs.begin(), inputs.end(), *item);
+            CHECK(found != inputs.end(), "formulas of a tape read its inputs");
+            place[id.index()] = static_cast<std::uint32_t>(found - inputs.begin());
+            continue;
+        }
+        const auto to = static_cast<std::uint32_t>(numbers_.size());
+        place[id.index()] = to;
+        const auto* number = node.as<double>();
+        numbers_.push_back(number != nullptr ? *number : 0.0);
+        if (number != nullptr) continue;
+        CHECK(node.is<Call>() && node.operand_count <= 3, "formulas of a tape are of numbers");
+        const auto operand = [&](std::size_t n) {
+            return n < node.operand_count ? place[node.operands[n].index()] : 0;
+        };
+        steps_.push_back({node.function, operand(0), operand(1), operand(2), to});
+    }
+    for (const NodeId id : results) results_.push_back(place[id.index()]);
+}
+
+std::vector<double> Tape::run(std::span<const double> inputs) const {
+    std::vector<double> registers = numbers_;
+    std::copy(inputs.begin(), inputs.end(), registers.begin());
+    for (const Step& step : steps_) registers[step.to] = value_of(step, registers);
+    std::vector<double> results;
+    for (const std::uint32_t place : results_) results.push_back(registers[place]);
+    return results;
+}
+
+}  // namespace cascade::analysis

@@ -1,0 +1,89 @@
+// Symbols of differences, as in lang/lower/lower_operators.cpp and lower_vectors.cpp.
+#include "analysis/wave_operators.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cascade::analysis {
+
+namespace {
+
+using Kind = WaveOperator::Kind;
+
+double second_difference(const Lattice& lattice, double phase) {
+    const double h = lattice.spacing;
+    if (lattice.is_continuous) return -(phase * phase) / (h * h);
+    const double sine = std::sin(phase / 2);
+    return -4 * sine * sine / (h * h);
+}
+
+Complex symbol_of(WaveOperator each, const Lattice& lattice, const Phases& phases) {
+    const double h = lattice.spacing, phase = phases[each.axis];
+    const Complex i(0, 1);
+    switch (each.kind) {
+        case Kind::laplacian: {
+            double sum = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                if (lattice.has_axis[axis]) sum += second_difference(lattice, phases[axis]);
+            }
+            return sum;
+        }
+        case Kind::mean: return phases == Phases{} ? 1.0 : 0.0;
+        case Kind::average:
+            return lattice.is_continuous || !lattice.has_axis[each.axis] ? 1 : std::cos(phase / 2);
+        default: break;
+    }
+    if (!lattice.has_axis[each.axis]) return 0;
+    if (each.kind == Kind::second) return second_difference(lattice, phase);
+    if (lattice.is_continuous) return i * phase / h;
+    switch (each.kind) {
+        case Kind::central: return i * std::sin(phase) / h;
+        case Kind::across: return 2.0 * i * std::sin(phase / 2) / h;
+        case Kind::backward: return (1.0 - std::exp(-i * phase)) / h;
+        default: return (std::exp(i * phase) - 1.0) / h;
+    }
+}
+
+}  // namespace
+
+OperatorProduct followed_by(OperatorProduct first, WaveOperator then) {
+    // The mean of a mean is itself, and the mean of any difference is 0, as its symbol says.
+    if (then.kind == Kind::mean && std::find(first.begin(), first.end(), then) != first.end()) {
+        return first;
+    }
+    first.insert(std::upper_bound(first.begin(), first.end(), then), then);
+    return first;
+}
+
+Lattice lattice_of(const Program& program) {
+    const DomainSettings& domain = program.domain;
+    const Grid& grid = domain.grid;
+    Lattice lattice;
+    if (domain.model) {
+        lattice.is_continuous = true;
+        lattice.has_axis = {true, false, false};
+        return lattice;
+    }
+    lattice.spacing = grid.spacing;
+    const Stencil stencil = grid.stencil();
+    lattice.has_axis = {stencil.x, stencil.y, stencil.z};
+    lattice.cells = {static_cast<double>(grid.width), static_cast<double>(grid.height),
+                     static_cast<double>(grid.depth)};
+    lattice.is_periodic = {grid.boundary.x == Boundary::periodic,
+                           grid.boundary.y == Boundary::periodic,
+                           grid.boundary.z == Boundary::periodic};
+    if (domain.surface && domain.surface->has_metric) {
+        lattice.is_continuous = true;
+        lattice.has_axis = {true, false, false};
+        lattice.cells = {};
+    }
+    return lattice;
+}
+
+Complex symbol(const OperatorProduct& operators, const Lattice& lattice, const Phases& phases) {
+    Complex product = 1;
+    for (const WaveOperator each : operators) product *= symbol_of(each, lattice, phases);
+    return product;
+}
+
+}  // namespace cascade::analysis

@@ -1,0 +1,27 @@
+// `cascade analyze`: what will grow, before it runs.
+#include "app/commands.h"
+#include "app/exit_status.h"
+
+#include <fmt/format.h>
+
+namespace cascade {
+
+int analyze_command(const Options& options, Console& console) {
+    const auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
+    if (!file) return exit_status::wrong_script;
+    const Script& script = file->script;
+    console.say(script.messages(console.error().colour));
+    if (!script.program) return exit_status::wrong_script;
+    const auto report = analyze(script, options.analyze);
+    if (!report) {
+        console.fail(report.error());
+        return exit_status::failed_run;
+    }
+    console.print(report->text);
+    for (const auto& path : report->written) {
+        console.say(fmt::format("wrote {}\n", path.string()));
+    }
+    return exit_status::success;
+}
+
+}  // namespace cascade

@@ -1,0 +1,40 @@
+// Options of `cascade analyze`.
+#include "app/add_value.h"
+#include "app/option_groups.h"
+
+namespace cascade::option_groups {
+
+void add_analyze(CLI::App& app, Options& options) {
+    AnalyzeRequest& analyze = options.analyze;
+    const std::string what = "What is analyzed";
+    add_value(app, "--stage", "STAGE", "Name or number of the stage; without it the first",
+              any_text, [&](auto stage) { analyze.stage = stage; })
+        ->group(what);
+    const auto read_all = [&](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+            analyze.varied.push_back(value_or_throw(parse_varied_range(text), "--vary"));
+        }
+        if (analyze.varied.size() > 2) {
+            throw CLI::ValidationError("--vary", "at most two parameters can be varied");
+        }
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "--vary", read_all,
+           "A parameter and its range, feed=0.02..0.06: its critical\nvalues; given twice: a map "
+           "over both. Without it every\nparameter that has a range in the script")
+        ->allow_extra_args(false)
+        ->type_name("NAME=RANGE")
+        ->group(what);
+    const std::string group = "Output";
+    app.add_flag("--json", analyze.as_json, "The result as JSON instead of words")->group(group);
+    const auto parse_output = [](const std::string& text) -> Result<std::string> {
+        if (is_analysis_output(text)) return text;
+        return failure(fmt::format("'{}' does not end in .svg, .png or .json", text));
+    };
+    add_value(app, "-o,--output", "FILE",
+              "FILE.svg or FILE.png, the dispersion relation or the\nmap as a plot; FILE.json",
+              parse_output, [&](auto path) { analyze.output = path; })
+        ->group(group);
+}
+
+}  // namespace cascade::option_groups

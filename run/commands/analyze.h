@@ -1,0 +1,35 @@
+// `cascade analyze`: what will grow, from the equations alone. Takes no step.
+#pragma once
+
+#include "core/result.h"
+#include "run/commands/variation.h"
+#include "run/script/script.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+struct AnalyzeRequest {
+    std::string stage;  ///< Name, or number from 1; empty for the first one.
+    /// Without one, critical values of every parameter that has a range; with one, of this one;
+    /// with two, a map over both.
+    std::vector<VariedRange> varied;
+    bool as_json = false;          ///< The report is JSON instead of words.
+    std::filesystem::path output;  ///< A file for the result, by its ending; may be empty.
+};
+
+/// The endings that an output may have: .svg and .png, a plot; .json.
+bool is_analysis_output(const std::filesystem::path& path);
+
+struct AnalyzeReport {
+    std::string text;  ///< For standard output.
+    std::vector<std::filesystem::path> written;
+};
+
+/// Fails if the stage has no flat states by its nature, if a parameter cannot be varied, or if the
+/// output cannot be written.
+Result<AnalyzeReport> analyze(const Script& script, const AnalyzeRequest& request);
+
+}  // namespace cascade

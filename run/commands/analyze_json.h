@@ -1,0 +1,17 @@
+// The result of `cascade analyze` as JSON, for other programs.
+#pragma once
+
+#include "analysis/parameters.h"
+
+#include <span>
+#include <string>
+
+namespace cascade {
+
+/// Indented, with a line break at its end. Numbers that do not exist are null.
+/// `map` may be null.
+std::string analysis_as_json(const analysis::StageAnalysis& analysis,
+                             std::span<const analysis::ParameterScan> scans,
+                             const analysis::ParameterMap* map);
+
+}  // namespace cascade

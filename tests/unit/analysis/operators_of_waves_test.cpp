@@ -1,0 +1,116 @@
+// What each operator does to a wave, against the step that is really taken.
+#include "tests/unit/analysis/closed_forms.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace cascade::testing {
+namespace {
+
+using analysis::Complex;
+
+/// The rate of a wave for a system of one species `u` with this rate.
+Complex rate_of(const std::string& rate, double x, double y) {
+    const auto analysed = analyse("system s { u: 0.5; u' = " + rate +
+                                  " }\ndomain { grid: 64, 64; spacing: 0.5 }\n"
+                                  "stage a: s { iterations: 1; speed: 1e-6 }");
+    if (!analysed.analysis || analysed.analysis->states.empty()) return 1e300;
+    const auto& model = analysed.analysis->model;
+    return analysis::eigenvalues(model, analysed.first().matrices,
+                                 analysis::lattice_of(*model.program), {x, y, 0})[0];
+}
+
+void expect_rate(const std::string& rate, Complex expected, double x = 0.7, double y = 0.3) {
+    const Complex found = rate_of(rate, x, y);
+    EXPECT_NEAR(found.real(), expected.real(), 1e-9) << rate;
+    EXPECT_NEAR(found.imag(), expected.imag(), 1e-9) << rate;
+}
+
+TEST(OperatorsOfWaves, HaveTheSymbolsOfTheirDifferences) {
+    constexpr double h = 0.5, x = 0.7, y = 0.3;
+    const Complex i(0, 1);
+    const double sx = -4 * std::pow(std::sin(x / 2), 2) / (h * h);
+    const double sy = -4 * std::pow(std::sin(y / 2), 2) / (h * h);
+    const double cx = std::sin(x) / h, cy = std::sin(y) / h;
+    expect_rate("lap(u)", sx + sy);
+    expect_rate("lap(lap(u))", (sx + sy) * (sx + sy));
+    expect_rate("dx(u)", i * cx);
+    expect_rate("dyy(u)", sy);
+    expect_rate("dxy(u)", -cx * cy);
+    expect_rate("div(grad(u))", sx + sy);
+    expect_rate("div(u * grad(u))", 0.5 * (sx + sy));
+    expect_rate("div(vector(u^2, 0))", i * cx);  // Averaged at faces: 2u · (E − W) / 2h.
+    expect_rate("advect(2, -1, u)",
+                2.0 * (1.0 - std::exp(-i * x)) / h - (std::exp(i * y) - 1.0) / h);
+    expect_rate("lap(u^3 - u)", (3 * 0.25 - 1) * (sx + sy));
+    expect_rate("grad2(u)", 0);
+    expect_rate("lap(u) + 3 * (mean(u over domain) - u)", sx + sy - 3);
+    // Along the x axis.
+    expect_rate("diffuse(u, 2, 1, 0)", 4 * sx + sy);
+    expect_rate("div(tensor(2, 1, 0) * grad(u))", 4 * sx + sy);
+}
+
+TEST(OperatorsOfWaves, TellWhatIsTheSameInAllCells) {
+    EXPECT_NEAR(rate_of("lap(u) + 3 * (mean(u over domain) - u)", 0, 0).real(), 0, 1e-12);
+}
+
+TEST(OperatorsOfWaves, OfFluxesAcrossAxesAreThoseOfTheTensor) {
+    // At 45 degrees a11 = a22 = (4 + 1)/2 and a12 = ±(4 − 1)/2; flux and diffuse agree in sign.
+    const Complex by_flux = rate_of("div(tensor(2, 1, pi/4) * grad(u))", 0.2, 0.2);
+    const Complex against = rate_of("div(tensor(2, 1, pi/4) * grad(u))", 0.2, -0.2);
+    const Complex by_diffuse = rate_of("diffuse(u, 2, 1, pi/4)", 0.2, 0.2);
+    EXPECT_LT(by_flux.real(), 1.5 * against.real());
+    EXPECT_NEAR(by_flux.real() / by_diffuse.real(), 1, 0.02);
+}
+
+TEST(OperatorsOfWaves, FixTheLongestStableSteps) {
+    const auto analysed = analyse(
+        "system s { u: 0; u' = 2 * lap(u) }\ndomain { grid: 64, 64 }\nstage a: s { iterations: 1 }");
+    // The shortest wave fades at 8 · 2.
+    for (const auto& step : analysed.first().steps) {
+        EXPECT_NEAR(step.step * 16, stability_interval(step.solver), 2e-3) << name_of(step.solver);
+    }
+}
+
+TEST(OperatorsOfWaves, OscillationsWithoutDecayAreStableWithNoStepOfEuler) {
+    const auto analysed =
+        analyse("system s { u: 0; v: 0; u' = v; v' = lap(u) - u }\nstage a: s { iterations: 1 }");
+    for (const auto& step : analysed.first().steps) {
+        if (step.solver == Solver::euler || step.solver == Solver::rk2) {
+            EXPECT_EQ(step.step, 0);
+        }
+        // The imaginary axis up to 2 √2, and ω = 3.
+        if (step.solver == Solver::rk4) {
+            EXPECT_NEAR(step.step, 2 * std::sqrt(2.0) / 3, 1e-3);
+        }
+    }
+}
+
+std::string refusal_of(const std::string& text) {
+    const auto script = check_text(text);
+    EXPECT_TRUE(script->program) << text;
+    if (!script->program) return "";
+    const auto model = analysis::linear_model(*script->program, 0);
+    return model ? "" : model.error().message;
+}
+
+TEST(OperatorsOfWaves, RatesThatDependOnPlacesAreRefused) {
+    EXPECT_EQ(refusal_of("system s { u: 0; u' = x - u }\nstage a: s { iterations: 1 }"),
+              "its rates read 'x', so that no state is flat");
+    EXPECT_EQ(refusal_of(
+                  "system s { u: 0; u' = disc(0.5, 0.5, 0.1) - u }\nstage a: s { iterations: 1 }"),
+              "'disc' in its rates differs from place to place, so that no state is flat");
+}
+
+TEST(OperatorsOfWaves, WordsNameStateAndWaves) {
+    const auto analysed = analyse("stage s: brusselator { }");
+    const std::string words = describe(*analysed.analysis);
+    EXPECT_NE(words.find("flat state u = 4.5, v = 1.5556 (from the starting values)"),
+              std::string::npos)
+        << words;
+    EXPECT_NE(words.find("Turing: stable without derivatives"), std::string::npos) << words;
+    EXPECT_NE(words.find("fastest wave        9.57"), std::string::npos) << words;
+}
+
+}  // namespace
+}  // namespace cascade::testing

@@ -1,0 +1,68 @@
+// What is said of stages in which nothing will grow, and of which nothing is said.
+#include "analysis/outlook.h"
+#include "lang/library/library.h"
+#include "tests/unit/analysis/closed_forms.h"
+
+namespace cascade::testing {
+namespace {
+
+std::string outlook_of(const std::string& text) {
+    const auto script = check_text(text);
+    EXPECT_TRUE(script->program) << text;
+    if (!script->program) return "";
+    return analysis::why_nothing_grows(*script->program, 0).value_or("");
+}
+
+const std::string noise = "u: [feed] + random(0, 0.01); v: [decay] / [feed] + random(0, 0.01)";
+
+TEST(Outlook, SaysHowMuchMoreDiffusionWouldDo) {
+    // (1 + 4.5 √(4 / d))² = 6 at the threshold of d = diff_v.
+    const std::string words = outlook_of("stage s: brusselator { decay: 6; " + noise + " }");
+    const double d = 4 * 4.5 * 4.5 / ((std::sqrt(6.0) - 1) * (std::sqrt(6.0) - 1));
+    EXPECT_NE(words.find("no wave grows from its flat state u = 4.5, v = 1.3333"),
+              std::string::npos)
+        << words;
+    EXPECT_NE(words.find(fmt::format("if v diffused {:.3g} times as fast, one would",
+                                     std::ceil(d / 32 * 100) / 100)),
+              std::string::npos)
+        << words;
+}
+
+TEST(Outlook, SaysThatWavesDoNotFitTheDomain) {
+    const std::string words =
+        outlook_of("domain { grid: 5, 5 }\nstage s: brusselator { " + noise + " }");
+    EXPECT_NE(words.find("fits the domain: those are 7.86 to 12.2 cells long"), std::string::npos)
+        << words;
+}
+
+TEST(Outlook, SaysThatAStageEndsTooEarly) {
+    const std::string words =
+        outlook_of("stage s: brusselator { iterations: 1000; speed: 0.005; " + noise + " }");
+    EXPECT_NE(words.find("it ends before anything can grow"), std::string::npos) << words;
+}
+
+TEST(Outlook, SaysNothingWhereAPatternMayGrow) {
+    EXPECT_EQ(outlook_of("stage s: brusselator { " + noise + " }"), "");
+    // A spot starts it, strong noise might, and so might a side.
+    EXPECT_EQ(outlook_of("stage s: gray_scott { }"), "");
+    EXPECT_EQ(outlook_of("stage s: brusselator { decay: 6; u: [feed] + random(0, 2) }"), "");
+    EXPECT_EQ(outlook_of("domain { grid: 64, 64; boundary: noflux }\n"
+                         "stage s: brusselator { decay: 6; u.left: fixed(1); " +
+                         noise + " }"),
+              "");
+}
+
+TEST(Outlook, NoScriptOfTheLibraryIsCalledIdle) {
+    for (const LibraryText& each : library_texts()) {
+        const auto script = check_text(std::string(each.text));
+        ASSERT_TRUE(script->program) << each.file_name;
+        const auto stages = static_cast<std::uint32_t>(script->program->stages.size());
+        for (std::uint32_t stage = 0; stage < stages; ++stage) {
+            EXPECT_EQ(analysis::why_nothing_grows(*script->program, stage).value_or(""), "")
+                << each.file_name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cascade::testing
