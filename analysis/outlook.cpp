@@ -21,6 +21,7 @@ bool has_values_at_sides(const Program& program, std::uint32_t stage) {
     for (const auto& side : program.domain.sides) {
         if (side && takes_value(side->kind)) return true;
     }
+    if (!program.stages[stage].definition_sides.empty()) return true;
     for (const auto& sides : program.stages[stage].sides) {
         for (const SideSetting& side : sides) {
             if (takes_value(side.kind)) return true;

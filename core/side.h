@@ -29,16 +29,18 @@ enum class SideKind : std::uint8_t {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< c: nothing flows through the side.
     fixed,     ///< 2e − c: the value at the face is e.
-    flux,      ///< c + h·e: the derivative along the outward normal is e.
+    slope,     ///< c + h·e: the derivative along the outward normal is e.
+    flux,      ///< Of scripts only: diffusion carries e in. Halos are filled by the slope that
+               ///< follows from it (lang/calculus/side_values.h).
 };
 
 constexpr bool takes_value(SideKind kind) {
-    return kind == SideKind::fixed || kind == SideKind::flux;
+    return kind == SideKind::fixed || kind == SideKind::slope || kind == SideKind::flux;
 }
 
 /// The words for them in scripts.
-inline constexpr std::array<std::string_view, 4> side_kind_words{"periodic", "noflux", "fixed",
-                                                                 "flux"};
+inline constexpr std::array<std::string_view, 5> side_kind_words{"periodic", "noflux", "fixed",
+                                                                 "slope", "flux"};
 
 /// The values e of a side that vary along it, numbers of the field's precision. Cells beside a side
 /// are numbered as in core/side_cells.h.

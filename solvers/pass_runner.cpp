@@ -221,8 +221,11 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
         level.fields.push_back(read(ref, registers).template origin<Number>());
     }
     level.results.clear();
+    level.written.clear();
     for (const StepProblem::Result& result : pass.results) {
-        level.results.push_back(written(result.plane, registers).template origin<Number>());
+        Field& plane = written(result.plane, registers);
+        level.results.push_back(plane.template origin<Number>());
+        level.written.push_back(&plane);
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
@@ -280,14 +283,21 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number,
     };
     const SideRules& rules = sides_[level.pass].rules[number];
     const auto* const own = std::get_if<StepProblem::SpeciesPlane>(&result.plane);
-    if (own == nullptr || problem_.changing_sides.empty()) return fill(rules);
+    const bool has_rules = own != nullptr || result.rules;
+    if (!has_rules || problem_.changing_sides.empty()) return fill(rules);
     const StepMoment& moment = level.moment;
     const bool is_next = result.read_at == StepProblem::Result::next_step;
     const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
                           is_next ? moment.next_t : moment.t + result.read_at * moment.length};
-    SideRules changed = rules;
-    set_side_values(problem_.changing_sides, own->species, when, layout_, cells, changed);
-    fill(changed);
+    // Sides of species read those that this pass has written beside them into the same register.
+    SpeciesPlanes present(problem_.species_needs_halo.size());
+    const std::vector<StepProblem::Result>& results = problem_.passes[level.pass].results;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        const auto* const other = std::get_if<StepProblem::SpeciesPlane>(&results[k].plane);
+        if (own == nullptr || other == nullptr || other->in_register != own->in_register) continue;
+        present[other->species.index()] = level.written[k];
+    }
+    fill(problem_.sides_of(own != nullptr ? own->species : *result.rules, when, present, cells));
 }
 
 void PassRunner::run_once(Team& team, Registers registers, const StepMoment& moment) {

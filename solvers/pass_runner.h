@@ -49,6 +49,7 @@ public:
         std::vector<Number> uniforms;
         std::vector<const Number*> fields;
         std::vector<Number*> results;
+        std::vector<const Field*> written;  ///< The planes of the results.
         KernelArgumentsOf<Number> given;
         const RowsWritten* when_written = nullptr;  ///< May be null.
     };

@@ -162,8 +162,11 @@ private:
     }
 
     void run_kernel() {
-        for (std::size_t k = 0; k < moved_.size(); ++k) {
-            if (rates_.has_halo()) moved_[k].fill_halo(rates_.sides_of(SpeciesId(k)));
+        const SpeciesPlanes present = planes_of(moved_);
+        const Patch everywhere{{0, layout_.row_count()}};
+        for (std::size_t k = 0; rates_.has_halo() && k < moved_.size(); ++k) {
+            moved_[k].fill_halo(
+                rates_.sides_of(SpeciesId(k), rates_.sides_moment, present, everywhere));
         }
         const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
         // White noise needs a step of some length; it cancels in differences.

@@ -49,9 +49,11 @@ struct StepProblem {
 
     struct Result {
         PlaneRef plane;
-        bool needs_halo = false;   ///< Something reads it at neighbours.
-        Boundaries boundary = {};  ///< At the sides, for a temporary.
-        /// For a species: the part of the step at which it is read at neighbours, or next_step.
+        bool needs_halo = false;              ///< Something reads it at neighbours.
+        Boundaries boundary = {};             ///< At the sides, for a temporary …
+        std::optional<SpeciesId> rules = {};  ///< … that has none of `sides` for its own.
+        /// For a species and for such a temporary: the part of the step at which it is read at
+        /// neighbours, or next_step.
         double read_at = next_step;
         static constexpr double next_step = -1;
     };
@@ -90,8 +92,10 @@ struct StepProblem {
     std::uint32_t temporaries = 0;
     std::uint32_t aggregates = 0;
     std::vector<DiffusionTerms<DiffusionFactor>> diffusion;  ///< Per species, for filters.
-    std::vector<SideRules> sides;  ///< By species; empty: the grid's boundary for all.
-    std::span<const ChangingSide> changing_sides;  ///< Those of the sides that change with time.
+    /// By species, and then of temporaries; empty: the grid's boundary for all.
+    std::vector<SideRules> sides;
+    std::span<const ChangingSide> changing_sides;  ///< Those of the sides that change.
+    SideMoment sides_moment;                       ///< For which `sides` are.
     std::vector<bool> species_needs_halo;  ///< Per species: the old step is read at neighbours.
 
     /// Does reading neighbours beyond the sides need a halo?
@@ -114,10 +118,18 @@ struct StepProblem {
     /// The rules at the sides of a plane that a pass writes.
     SideRules sides_of(const Result& result) const {
         const auto* const own = std::get_if<SpeciesPlane>(&result.plane);
-        return own != nullptr ? sides_of(own->species) : SideRules(result.boundary);
+        if (own == nullptr && !result.rules) return SideRules(result.boundary);
+        return sides_of(own != nullptr ? own->species : *result.rules);
     }
     SideRules sides_of(SpeciesId species) const {
         return sides.empty() ? SideRules(grid.boundary) : sides[species.index()];
+    }
+    /// The same at a moment, for halo that is filled from these cells; see set_side_values().
+    SideRules sides_of(SpeciesId species, SideMoment moment, const SpeciesPlanes& present,
+                       const Patch& cells) const {
+        SideRules rules = sides_of(species);
+        set_side_values(changing_sides, species, moment, present, PlaneLayout(grid), cells, rules);
+        return rules;
     }
 };
 

@@ -7,6 +7,7 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_shape.h"
 #include "lang/check/check_semi_implicit.h"
+#include "lang/check/check_side_values.h"
 #include "lang/check/check_time.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"
@@ -108,6 +109,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         // With errors, what reads a parameter may be missing from the program.
         if (!own.has_errors() && !diagnostics.has_errors()) {
             checking::warn_unread(work);
+            checking::check_side_values(program, own);
             for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
                 checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
             }

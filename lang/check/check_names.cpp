@@ -91,7 +91,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
         report(work, span, fmt::format("a mask cannot depend on '{}'", name), "it stays as it is");
         return std::nullopt;
     }
-    if (scope.context == Context::value && !varies_by_cell(name) && !scope.knows_time) {
+    if (scope.context == Context::value && !varies_by_cell(name) && !scope.is_side) {
         report(work, span, fmt::format("'{}' has no value when a stage starts", name),
                "it can be read in rates, definitions and pictures");
         return std::nullopt;
@@ -115,7 +115,7 @@ bool report_reserved(Workspace& work, const Scope& scope, std::string_view name,
 
 std::vector<std::string> readable_names(const System& system, const Scope& scope) {
     std::vector<std::string> names = quantity_names(system);
-    if (scope.context == Context::rate) {
+    if (scope.context == Context::rate || scope.is_side) {
         for (const Definition& definition : system.definitions) names.push_back(definition.name);
     }
     for (const std::string_view name : builtin_names) {
@@ -154,9 +154,9 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     report(work, span, not_a_parameter(name, system), std::move(hint), std::move(note));
 }
 
-/// Rates have the values of definitions, and pictures of cells that crawl compute them.
+/// Rates have the values of definitions, sides and pictures of cells that crawl compute them.
 bool reads_definitions(const Workspace& work, const Scope& scope) {
-    return scope.context == Context::rate ||
+    return scope.context == Context::rate || scope.is_side ||
            (scope.context == Context::picture && is_of_cells(work, scope));
 }
 

@@ -97,7 +97,7 @@ struct Scope {
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: the name of the value in messages.
-    bool knows_time = false;  ///< True for values of sides, which may depend on t and step.
+    bool is_side = false;  ///< For a value of a side, which may read t, step and definitions.
     std::optional<IndexValue> index = std::nullopt;  ///< Of a statement of a family.
 };
 
@@ -110,6 +110,9 @@ NameTable names_of(const System& system);
 const Meaning* find(const NameTable& table, std::string_view name);
 /// The species of a name; nothing if it is none.
 std::optional<ItemId> find_species(const Workspace& work, SystemId system, std::string_view name);
+/// The species or definition of a name, a number; nothing if it is none.
+std::optional<SideSubject> find_subject(const Workspace& work, SystemId system,
+                                        std::string_view name);
 
 // Each returns the node that a name refers to. If there is none, reports an error (unless that has
 // happened already) and returns nothing.

@@ -83,18 +83,22 @@ bool is_system(const Workspace& work, std::string_view name) {
                        [&](const System& system) { return system.name == name; });
 }
 
-/// True if the stage has a species, or a family of species, with the statement's name.
-bool has_species(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
+/// True if the stage has a species or a definition, or a family of them, with the statement's name.
+bool has_subject(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return false;
     const System& system = work.program.systems[stage.system];
     const std::string name = statement.index.empty() ? std::string(statement.name.text)
                                                      : fmt::format("{}[", statement.name.text);
-    return std::any_of(system.quantities.begin(), system.quantities.end(),
-                       [&](const Quantity& quantity) {
-                           if (!quantity.is_species) return false;
-                           return statement.index.empty() ? quantity.name == name
-                                                          : quantity.name.starts_with(name);
-                       });
+    const auto is_named = [&](const std::string& each) {
+        return statement.index.empty() ? each == name : each.starts_with(name);
+    };
+    return std::ranges::any_of(system.quantities,
+                               [&](const Quantity& quantity) {
+                                   return quantity.is_species && is_named(quantity.name);
+                               }) ||
+           std::ranges::any_of(system.definitions, [&](const Definition& definition) {
+               return is_named(definition.name);
+           });
 }
 
 /// An override of a side; `stage` is empty if it applies to all stages with the species.
@@ -114,10 +118,10 @@ std::optional<SideChange> as_side(const Workspace& work, const ast::Override& ch
     SideChange side{{}, change.statement};
     side.statement.side = side.statement.name;
     side.statement.name = change.stage;
-    const bool is_species =
+    const bool has_sides =
         std::any_of(work.program.stages.begin(), work.program.stages.end(),
-                    [&](const Stage& stage) { return has_species(work, stage, side.statement); });
-    return is_species ? std::optional(std::move(side)) : std::nullopt;
+                    [&](const Stage& stage) { return has_subject(work, stage, side.statement); });
+    return has_sides ? std::optional(std::move(side)) : std::nullopt;
 }
 
 void report_no_side(Workspace& work, const ast::Word& word) {
@@ -147,7 +151,7 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
             const bool is_named = stage.name == side->stage.text || is_its_system;
             is_stage |= is_named;
             // If a stage that was named lacks the species, that is reported with its other sides.
-            if (side->stage.empty() ? !has_species(work, stage, statement) : !is_named) continue;
+            if (side->stage.empty() ? !has_subject(work, stage, statement) : !is_named) continue;
             result[k].push_back(statement);
             is_used = true;
         }

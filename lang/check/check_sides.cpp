@@ -53,25 +53,36 @@ bool are_pairs(Workspace& work, const AllSides& sides) {
 }
 
 /// With a mask, the cell beyond a periodic side also depends on the mask, and there is one mask for
-/// all species. Reports an error and returns false if a species differs from the domain in what is
-/// periodic.
-bool are_periodic_as_boundary(Workspace& work, const AllSides& sides) {
+/// all species. A definition is periodic where all species in it are. Reports an error and returns
+/// false if a species differs from the domain in what is periodic.
+bool are_periodic_as_boundary(Workspace& work, const AllSides& sides, std::string_view where) {
     const SideRules boundary(work.program.domain.grid.boundary);
     for (std::size_t side = 0; side < side_count; ++side) {
         const bool is_periodic = sides[side].kind == SideKind::periodic;
         if (is_periodic == (boundary.at[side].kind == SideKind::periodic)) continue;
-        work.diagnostics.error(
-            sides[side].span,
-            fmt::format("in a domain with a mask {} is periodic for all species or for none",
-                        side_names[side]),
-            "the domain's boundary says which: boundary: periodic, noflux");
+        work.diagnostics.error(sides[side].span,
+                               fmt::format("{} {} is periodic for all species or for none", where,
+                                           side_names[side]),
+                               "the domain's boundary says which: boundary: periodic, noflux");
         return false;
     }
     return true;
 }
 
-/// Combines the rules for each species of a stage.
-void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own) {
+/// Those of a definition, which are added if it has none. Mirrored or periodic where nothing else
+/// is said.
+AllSides& sides_of_definition(const DomainSettings& domain, Stage& stage, DefinitionId definition) {
+    auto& all = stage.definition_sides;
+    const auto place = std::ranges::lower_bound(all, definition, {}, &DefinitionSides::definition);
+    if (place != all.end() && place->definition == definition) return place->sides;
+    AllSides sides;
+    const SideRules boundary(domain.grid.boundary);
+    for (std::size_t side = 0; side < side_count; ++side) sides[side].kind = boundary.at[side].kind;
+    return all.insert(place, {definition, sides})->sides;
+}
+
+/// Combines the rules for each species and definition of a stage.
+void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own) {
     const System& system = work.program.systems[stage.system];
     const AllSides base = sides_of_domain(work.program.domain);
     const bool is_plain =
@@ -85,8 +96,13 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
         stage.sides.push_back(base);
     }
     for (const auto* rules : {&system.sides, &own}) {
-        for (const SpeciesSide& rule : *rules) {
-            stage.sides[species[rule.species]][static_cast<std::size_t>(rule.side)] = rule.setting;
+        for (const SubjectSide& rule : *rules) {
+            const auto* item = std::get_if<ItemId>(&rule.subject);
+            auto& sides = item != nullptr
+                              ? stage.sides[species[*item]]
+                              : sides_of_definition(work.program.domain, stage,
+                                                    std::get<DefinitionId>(rule.subject));
+            sides[static_cast<std::size_t>(rule.side)] = rule.setting;
         }
     }
     if (work.program.domain.model) {
@@ -97,36 +113,44 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SpeciesSide>& own)
                 work.diagnostics.warning(side.span, "a model has no sides: this is ignored");
             }
         }
+        stage.definition_sides.clear();
         return stage.sides.clear();
     }
     for (const AllSides& sides : stage.sides) {
         if (!are_pairs(work, sides)) return;
-        if (work.program.domain.mask && !are_periodic_as_boundary(work, sides)) return;
+        if (work.program.domain.mask &&
+            !are_periodic_as_boundary(work, sides, "in a domain with a mask")) {
+            return;
+        }
+        if (!stage.definition_sides.empty() &&
+            !are_periodic_as_boundary(work, sides, "where a definition has a side")) {
+            return;
+        }
+    }
+    for (const DefinitionSides& each : stage.definition_sides) {
+        if (!are_pairs(work, each.sides)) return;
     }
 }
 
 /// Makes a rule of `from` one of a system derived from it, in which names have other numbers and
 /// may mean something else. Reports an error and returns false if it cannot be computed there.
-bool take_over(Workspace& work, const System& from, SystemId derived, SpeciesSide& side) {
+bool take_over(Workspace& work, const System& from, SystemId derived, SubjectSide& side) {
     const System& system = work.program.systems[derived];
     for (Node& node : side.setting.value.nodes) {
         const auto* item = node.as<ItemId>();
-        if (item == nullptr) continue;
-        const std::string_view name = from.item_name(*item);
+        const auto* definition = node.as<DefinitionId>();
+        if (item == nullptr && definition == nullptr) continue;
+        const std::string_view name =
+            item != nullptr ? from.item_name(*item) : from.definitions[*definition].name;
         const Meaning* own = find(work.names[derived], name);
         if (own == nullptr || own->has_error) continue;
         if (own->is_definition()) {
-            work.diagnostics.error(
-                node.span,
-                fmt::format("'{}' is a definition in {} and cannot be read here", name,
-                            system.name),
-                fmt::format("give {}.{} another rule in {}", system.item_name(side.species),
-                            side_names[static_cast<std::size_t>(side.side)], system.name));
-            return false;
+            node.kind = std::get<DefinitionId>(own->id);
+        } else {
+            node.kind = own->item();
         }
-        node.kind = own->item();
     }
-    return reads_no_species(work, system, side);
+    return is_known_along_side(work, system, side.setting.value);
 }
 
 }  // namespace
@@ -139,16 +163,21 @@ void check_system_sides(Workspace& work, const ast::Script& script, const ast::B
     Scope scope;
     scope.system = index;
     System& system = work.draft->systems[index];
-    std::vector<SpeciesSide> own = read_side_rules(work, script, scope, block.sides);
+    std::vector<SubjectSide> own = read_side_rules(work, script, scope, block.sides);
     if (base && *base != unknown_system) {
         const System& from = work.program.systems[*base];
-        for (SpeciesSide side : from.sides) {
-            const auto species = find_species(work, index, from.item_name(side.species));
-            const bool is_replaced = std::ranges::any_of(own, [&](const SpeciesSide& rule) {
-                return rule.species == species && rule.side == side.side;
+        for (SubjectSide side : from.sides) {
+            const auto* item = std::get_if<ItemId>(&side.subject);
+            const auto subject =
+                find_subject(work, index,
+                             item != nullptr
+                                 ? from.item_name(*item)
+                                 : from.definitions[std::get<DefinitionId>(side.subject)].name);
+            const bool is_replaced = std::ranges::any_of(own, [&](const SubjectSide& rule) {
+                return rule.subject == subject && rule.side == side.side;
             });
-            if (!species || is_replaced) continue;
-            side.species = *species;
+            if (!subject || is_replaced) continue;
+            side.subject = *subject;
             if (!take_over(work, from, index, side)) break;
             mark_reads(work, side.setting.value, index);
             system.sides.push_back(std::move(side));
@@ -190,10 +219,10 @@ void check_stage_sides(Workspace& work, const ast::Script& script) {
         scope.stage = scope.last_stage = index;
         ++index;
         if (stage.system == unknown_system) continue;
-        std::vector<SpeciesSide> rules = read_side_rules(work, script, scope, block.sides);
+        std::vector<SubjectSide> rules = read_side_rules(work, script, scope, block.sides);
         // Overrides come last, and the last one wins.
         for (const ast::Statement& change : overrides[index - 1]) {
-            for (SpeciesSide& rule : read_side_rules(work, script, scope, std::span(&change, 1))) {
+            for (SubjectSide& rule : read_side_rules(work, script, scope, std::span(&change, 1))) {
                 rules.push_back(std::move(rule));
             }
         }

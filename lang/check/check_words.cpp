@@ -54,6 +54,16 @@ std::optional<ItemId> find_species(const Workspace& work, SystemId system, std::
     return is_species ? std::optional(meaning->item()) : std::nullopt;
 }
 
+std::optional<SideSubject> find_subject(const Workspace& work, SystemId system,
+                                        std::string_view name) {
+    const Meaning* meaning = find(work.names[system], name);
+    if (meaning != nullptr && meaning->is_definition() && meaning->type == ValueType::number) {
+        return std::get<DefinitionId>(meaning->id);
+    }
+    if (const auto species = find_species(work, system, name)) return *species;
+    return std::nullopt;
+}
+
 bool is_incomplete(const Workspace& work, SystemId system) {
     return system < work.incomplete.next() && work.incomplete[system];
 }

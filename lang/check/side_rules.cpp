@@ -1,6 +1,7 @@
 // Parses rules at sides, and checks their values.
 #include "lang/check/side_rules.h"
 
+#include "lang/calculus/side_values.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/declarations.h"
 #include "lang/vocabulary/settings.h"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <unordered_map>
 
@@ -44,7 +44,8 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
     if (!kind) {
         std::string hint(advice_about(word, WordContext::side));
         if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::sides));
-        work.diagnostics.error(value.span, "a side is periodic, noflux, fixed(…) or flux(…)",
+        work.diagnostics.error(value.span,
+                               "a side is periodic, noflux, fixed(…), slope(…) or flux(…)",
                                std::move(hint));
         return std::nullopt;
     }
@@ -89,56 +90,15 @@ Span head_of(const ast::Statement& statement) {
     return join(statement.name.span, statement.side.span);
 }
 
-/// At a side, t and step are uniform. Whatever needs the values of many cells, or the position of
-/// one, is computed once when the stage starts, so it cannot depend on them.
-bool is_known_along_side(Workspace& work, const Formula& value) {
-    IdVector<NodeId, bool> changes;
-    for (const Node& node : value.nodes) {
-        bool is_changing = node.is(Builtin::t) || node.is(Builtin::step);
-        if (node.is<Call>()) {
-            for (const NodeId operand : node.reads()) is_changing |= changes[operand];
-            const FunctionInfo& function = info(node.function);
-            if (is_changing && (varies_by_cell(node.function) || function.is_aggregate)) {
-                work.diagnostics.error(
-                    node.span,
-                    fmt::format("at a side {} cannot depend on t or step", function.spelling),
-                    "put t and step outside: it is computed once, when the stage starts");
-                return false;
-            }
-        }
-        changes.push_back(is_changing);
-    }
-    return true;
-}
-
-/// The source to write in a rate instead of a flux that depends on a species: in the cells at the
-/// side, since `lap` divides a flux through a face by the spacing.
-std::string as_source(std::string_view species, Side side) {
-    constexpr std::array<std::string_view, side_count> places{"sx < 1/W", "sx > 1 - 1/W",
-                                                              "sy < 1/H", "sy > 1 - 1/H",
-                                                              "sz < 1/D", "sz > 1 - 1/D"};
-    constexpr std::array<std::string_view, 3> counts{"W columns", "H rows", "D slices"};
-    const auto number = static_cast<std::size_t>(side);
-    return fmt::format(
-        "for flux(E) write noflux, and {0}' += k/h * (E) * ({1}) in the system: "
-        "k times lap({0}), cells of side h, {2}",
-        species, places[number], counts[number / 2]);
-}
-
 }  // namespace
 
-bool reads_no_species(Workspace& work, const System& system, const SpeciesSide& side) {
-    const auto& nodes = side.setting.value.nodes;
-    const auto read = std::find_if(nodes.begin(), nodes.end(), [&](const Node& node) {
-        return node.is<ItemId>() && system.is_species(*node.as<ItemId>());
-    });
-    if (read == nodes.end()) return true;
-    const std::string_view name = system.item_name(*read->as<ItemId>());
+bool is_known_along_side(Workspace& work, const System& system, const Formula& value) {
+    const Node* node = beyond_reach_of_side(system, value);
+    if (node == nullptr) return true;
+    const std::string_view function = info(node->function).spelling;
     work.diagnostics.error(
-        read->span, fmt::format("a side cannot follow '{}', which every step changes", name),
-        side.setting.kind == SideKind::flux
-            ? as_source(system.item_name(side.species), side.side)
-            : fmt::format("a parameter keeps what {0} starts with: name: …; {0}: name", name));
+        node->span, fmt::format("at a side {} cannot depend on species, t or step", function),
+        "it is computed once, when the stage starts: put them outside of it");
     return false;
 }
 
@@ -149,10 +109,10 @@ class RuleChecker {
 public:
     RuleChecker(Workspace& work, const ast::Script& script, const Scope& scope)
         : work_(work), script_(script), scope_(scope), system_(work.program.systems[scope.system]) {
-        scope_.knows_time = true;
+        scope_.is_side = true;
     }
 
-    std::vector<SpeciesSide> check(std::span<const ast::Statement> statements) {
+    std::vector<SubjectSide> check(std::span<const ast::Statement> statements) {
         for (const ast::Statement* statement : in_order(statements)) {
             for (const Declaration& each :
                  stage_declarations(work_, system_, script_, *statement)) {
@@ -162,7 +122,7 @@ public:
         // u[2].left overrides u[i].left.
         std::stable_partition(rules_.begin(), rules_.end(),
                               [](const Rule& rule) { return rule.is_of_family; });
-        std::vector<SpeciesSide> sides;
+        std::vector<SubjectSide> sides;
         for (const bool of_all : {true, false}) {
             for (Rule& rule : rules_) {
                 if (rule.is_of_all == of_all) sides.push_back(std::move(rule.side));
@@ -173,7 +133,7 @@ public:
 
 private:
     struct Rule {
-        SpeciesSide side;
+        SubjectSide side;
         bool is_of_family = false;  ///< Of u[i], not of u[2].
         bool is_of_all = false;     ///< Of `sides`, not of one of them.
     };
@@ -190,29 +150,41 @@ private:
         return !is_new;
     }
 
+    /// A definition has no diffusion and no opposite side of its own.
+    bool is_for(const SideSubject& subject, const WrittenSide& written,
+                const ast::Statement& statement) {
+        const bool is_of_species =
+            written.kind == SideKind::periodic || written.kind == SideKind::flux;
+        if (std::holds_alternative<ItemId>(subject) || !is_of_species) return true;
+        work_.diagnostics.error(
+            head_of(statement), "a side of a definition is noflux, fixed(…) or slope(…)",
+            written.kind == SideKind::periodic
+                ? "it is periodic where the species in it are"
+                : "what diffusion carries is the slope times the factor before lap or grad");
+        return false;
+    }
+
     void check(const Declaration& declaration) {
         const ast::Statement& statement = *declaration.statement;
         const Meaning* meaning = find(work_.names[scope_.system], declaration.name);
         if (meaning != nullptr && meaning->has_error) return;
-        const auto species = find_species(work_, scope_.system, declaration.name);
-        if (!species) {
+        const auto subject = find_subject(work_, scope_.system, declaration.name);
+        if (!subject) {
             return report_not_species(work_, scope_.system, declaration.name, head_of(statement));
         }
         const auto written = read_side(work_, script_, statement);
-        if (!written) return;
+        if (!written || !is_for(*subject, *written, statement)) return;
         SideSetting setting{written->kind, {}, statement.span};
         if (written->value) {
             Scope scope = scope_;
             scope.index = declaration.index;
             auto checked = check_number(work_, script_, *written->value, scope);
-            if (!checked || !is_known_along_side(work_, checked->formula)) return;
+            if (!checked || !is_known_along_side(work_, system_, checked->formula)) return;
             setting.value = std::move(checked->formula);
             mark_reads(work_, setting.value, scope_.system);
-            const Side side = sides_of_word(statement.side.text)[0];
-            if (!reads_no_species(work_, system_, {*species, side, setting})) return;
         }
         for (const Side side : sides_of_word(statement.side.text)) {
-            rules_.push_back({{*species, side, setting},
+            rules_.push_back({{*subject, side, setting},
                               declaration.index.has_value(),
                               statement.side.text == "sides"});
         }
@@ -228,7 +200,7 @@ private:
 
 }  // namespace
 
-std::vector<SpeciesSide> read_side_rules(Workspace& work, const ast::Script& script,
+std::vector<SubjectSide> read_side_rules(Workspace& work, const ast::Script& script,
                                          const Scope& scope,
                                          std::span<const ast::Statement> statements) {
     if (is_of_cells(work, scope)) {

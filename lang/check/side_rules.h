@@ -17,20 +17,20 @@ struct WrittenSide {
     std::optional<ast::Expression> value;
 };
 
-/// Parses `periodic`, `noflux`, `fixed(e)` or `flux(e)`; reports errors.
+/// Parses `periodic`, `noflux`, `fixed(e)`, `slope(e)` or `flux(e)`; reports errors.
 std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
                                      const ast::Statement& statement);
 
 /// The sides that a word means; empty if it means none.
 std::vector<Side> sides_of_word(std::string_view word);
 
-/// Values of sides are computed when the stage starts, but species change. Reports an error and
-/// returns false if a value reads a species of the system.
-bool reads_no_species(Workspace& work, const System& system, const SpeciesSide& side);
+/// Reports an error and returns false if the value of a side needs other cells than those beside it
+/// whenever rates are evaluated. Definitions are not looked into.
+bool is_known_along_side(Workspace& work, const System& system, const Formula& value);
 
 /// The rules of statements about sides of species, in an order in which later ones replace earlier
 /// ones; reports errors.
-std::vector<SpeciesSide> read_side_rules(Workspace& work, const ast::Script& script,
+std::vector<SubjectSide> read_side_rules(Workspace& work, const ast::Script& script,
                                          const Scope& scope,
                                          std::span<const ast::Statement> statements);
 

@@ -81,6 +81,9 @@ void warn_of_unread_stages(const Program& program, std::span<const StageView> vi
         for (const auto& sides : stage.sides) {
             for (const SideSetting& side : sides) note_reads(side.value, is_read);
         }
+        for (const DefinitionSides& each : stage.definition_sides) {
+            for (const SideSetting& side : each.sides) note_reads(side.value, is_read);
+        }
     }
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         if (is_read[k]) continue;

@@ -106,6 +106,9 @@ Expressions GraphPass::run() {
     for (const auto& [id, name] : from_.names) {
         if (needed[id]) to_.names.emplace_back(images_[id], name);
     }
+    for (const auto& [id, wall] : from_.walls) {
+        if (needed[id]) to_.walls.emplace_back(images_[id], wall);
+    }
     to_.origins = from_.origins;
     return std::move(to_);
 }

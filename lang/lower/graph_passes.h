@@ -21,6 +21,8 @@ struct Expressions {
     std::vector<Origin> origins;
     /// The names of definitions and rates; the first name of a node counts.
     std::vector<std::pair<NodeId, std::string>> names;
+    /// The definitions that have sides of their own, by their number in Stage::definition_sides.
+    std::vector<std::pair<NodeId, std::size_t>> walls;
 };
 
 /// The cells to which expressions apply.

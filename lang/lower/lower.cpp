@@ -130,13 +130,14 @@ StepPlan plan_step_invariants(const Program& program, std::uint32_t stage,
 
 SidePlans plan_side(const Program& program, const SideSetting& setting, Side side,
                     std::uint32_t stage) {
+    CHECK(setting.kind != SideKind::flux, "lowering: a flux has been made a slope");
     const PassContext context{program, stage};
     const std::array formula{&setting.value};
     Expressions lowered = lower_expressions(flat_formulas(formula), context);
-    if (setting.kind == SideKind::flux) {
+    if (setting.kind == SideKind::slope) {
         lowered.roots[0] = across_side(lowered.graph, context, lowered.roots[0], side);
     }
-    const PlanGraph graph(std::move(lowered), context, Invariance::state);
+    const PlanGraph graph(std::move(lowered), context, Draws::once);
     const NodeId value = graph.roots()[0];
     SidePlans plans;
     plans.changes = !graph.is_step_invariant(value);

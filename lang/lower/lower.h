@@ -58,9 +58,10 @@ StepPlan plan_mask(const Program& program);
 StepPlan plan_step_invariants(const Program& program, std::uint32_t stage,
                               const PlanOptions& options);
 
-/// The value of a side; for a flux on a surface in units of the grid.
+/// The value of a side of fixed value or slope, as side_settings() of lang/calculus gives it; for a
+/// slope on a surface in units of the grid.
 struct SidePlans {
-    bool changes = false;  ///< It depends on t or step.
+    bool changes = false;  ///< It depends on t, step or species.
     StepPlan once;         ///< For a changing value: its step-invariants.
     /// The value. For a changing value this is a single pass that reads planes and numbers in the
     /// cell itself and does not depend on the place.

@@ -79,6 +79,10 @@ Expressions flat_step(const Program& program, std::uint32_t stage) {
     flattening.add_rates(system);
     for (const ItemId item : system.rate_order) roots.push_back(flattening.rate(item));
     for (const Invariant& each : system.invariants) roots.push_back(flattening.add(each.bound));
+    const auto& sides = program.stages[stage].definition_sides;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        flat.walls.emplace_back(flattening.definition(sides[k].definition), k);
+    }
     return with_roots(std::move(flat), flattening, std::move(roots));
 }
 

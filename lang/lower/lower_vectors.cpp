@@ -108,7 +108,13 @@ void Fluxes::find_what_crosses_sides() {
                 crossing.is_open[side] = of_item[*item][side] != SideKind::no_flux;
             }
         }
+        const DefinitionSides* own = graph_.sides(id);
+        for (std::size_t side = 0; own != nullptr && side < side_count; ++side) {
+            crossing.has_species = true;
+            crossing.is_open[side] = own->sides[side].kind != SideKind::no_flux;
+        }
         for (const NodeId read : node.reads()) {
+            if (own != nullptr) break;
             const Crossing& operand = crossings_[read];
             const bool turns = graph_[read].type == ValueType::tensor;
             crossing.goes_across |= is_vector && (operand.goes_across || turns);

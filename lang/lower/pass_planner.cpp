@@ -163,9 +163,11 @@ void PassPlanner::decide_own(NodeId id) {
     const Function function = node.function;
     const bool is_vector = node.type == ValueType::vector;
     const bool reads_beside = !graph_.is_uniform(id) && (is_stencil(function) || is_vector);
-    stays_[id] = !graph_.is_uniform(id) &&
-                 (is_stencil(function) || function == Function::div ||
-                  (varies_by_cell(function) && !differentiates(function) && !reads_file(function)));
+    stays_[id] =
+        !graph_.is_uniform(id) &&
+        (is_stencil(function) || function == Function::div ||
+         (varies_by_cell(function) && !differentiates(function) && !reads_file(function)) ||
+         graph_.sides(id) != nullptr);
     for (std::uint32_t k = 0; k < node.operand_count; ++k) {
         const NodeId operand = node.operands[k];
         const bool is_moved =

@@ -79,7 +79,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
         const std::string& name = graph_.name(id);
         const TemporaryId target = storage_.temporary[id];
         result(name.empty() ? fmt::format("(temporary {})", target.index()) : name, value(id)[0]);
-        plan_.passes[pass].targets.push_back({target, false, graph_.boundary(id)});
+        plan_.passes[pass].targets.push_back({target, false, graph_.boundary(id), graph_.wall(id)});
     }
     for (const NodeId id : aggregates_) {
         if (planner_.pass_of(id) != pass) continue;
@@ -102,7 +102,7 @@ StepPlan PlanBuilder::finish() && {
     close(planner_.pass_count() - 1);
     Pass& last = plan_.passes.back();
     while (last.targets.size() < last.bound.kernel.results.size()) {
-        last.targets.push_back({ResultId(plan_.result_count++), false, {}});
+        last.targets.push_back({ResultId(plan_.result_count++), false, {}, {}});
     }
     share_temporaries();
     plan_.is_uniform =

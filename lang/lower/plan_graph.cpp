@@ -58,33 +58,35 @@ SideKinds side_kinds(const Program& program, std::uint32_t stage, ItemId item) {
     return kinds;
 }
 
-PlanGraph::PlanGraph(Expressions expressions, const PassContext& context,
-                     Invariance step_invariants)
+PlanGraph::PlanGraph(Expressions expressions, const PassContext& context, Draws draws)
     : expressions_(std::move(expressions)), context_(context) {
+    walls_.insert(expressions_.walls.begin(), expressions_.walls.end());
     const auto is_uniform = uniform_nodes(expressions_.graph, context_);
     facts_.reserve(is_uniform.size());
     for (const NodeId id : is_uniform.ids()) {
         const Node& node = (*this)[id];
-        facts_.push_back({is_uniform[id], is_step_invariant(node, is_uniform[id], step_invariants),
-                          beyond(node, is_uniform[id])});
+        facts_.push_back({is_uniform[id],
+                          sides(id) == nullptr && is_step_invariant(node, is_uniform[id], draws),
+                          beyond(id, is_uniform[id])});
     }
     names_.insert(expressions_.names.begin(), expressions_.names.end());
 }
 
 /// Parameters keep their starting values, and earlier stages are over. But cells that crawl are
 /// elsewhere in each step, and there are more and more of them.
-bool PlanGraph::is_step_invariant(const Node& node, bool is_uniform, Invariance what) const {
+bool PlanGraph::is_step_invariant(const Node& node, bool is_uniform, Draws draws) const {
     if (context_.is_tissue() && !is_uniform) return false;
     if (const auto* item = node.as<ItemId>()) {
-        return what == Invariance::state || !program().system_of(stage()).is_species(*item);
+        return !program().system_of(stage()).is_species(*item);
     }
     if (node.is(Builtin::t) || node.is(Builtin::step)) return false;
-    if (is_draw(node) && what != Invariance::state) return false;
+    if (is_draw(node) && draws == Draws::every_step) return false;
     return std::ranges::all_of(node.reads(),
                                [&](NodeId operand) { return facts_[operand].is_step_invariant; });
 }
 
-std::array<Beyond, 3> PlanGraph::beyond(const Node& node, bool is_uniform) const {
+std::array<Beyond, 3> PlanGraph::beyond(NodeId id, bool is_uniform) const {
+    const Node& node = (*this)[id];
     const Grid& grid = this->grid();
     Axes3 beyond{};
     if (is_uniform) return beyond;
@@ -106,6 +108,12 @@ std::array<Beyond, 3> PlanGraph::beyond(const Node& node, bool is_uniform) const
             if (beyond[axis] == Beyond::itself) beyond[axis] = Beyond::mirrored;
         }
     }
+    // A definition with sides of its own is in a plane, like a species.
+    if (const DefinitionSides* own = sides(id)) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            beyond[axis] = beyond_of(own->sides[2 * axis].kind, own->sides[2 * axis + 1].kind);
+        }
+    }
     const Stencil stencil = grid.stencil();
     if (!stencil.x) beyond[0] = Beyond::anything;
     if (!stencil.y) beyond[1] = Beyond::anything;
@@ -114,7 +122,7 @@ std::array<Beyond, 3> PlanGraph::beyond(const Node& node, bool is_uniform) const
 }
 
 bool PlanGraph::is_open(NodeId id) const {
-    return std::ranges::count(facts_[id].beyond, Beyond::itself) > 0;
+    return sides(id) == nullptr && std::ranges::count(facts_[id].beyond, Beyond::itself) > 0;
 }
 
 Boundaries PlanGraph::boundary(NodeId id) const {
@@ -138,6 +146,16 @@ bool PlanGraph::is_plane(NodeId id) const {
     if (node.is<Call>()) return reads_file(node.function);
     return node.is<StageItem>() || node.is<SensedItem>() || node.is<MetricPlane>() ||
            node.is<ModelPlane>() || node.is<SurfaceValueId>();
+}
+
+const DefinitionSides* PlanGraph::sides(NodeId id) const {
+    const auto number = wall(id);
+    return number ? &program().stages[stage()].definition_sides[*number] : nullptr;
+}
+
+std::optional<std::size_t> PlanGraph::wall(NodeId id) const {
+    const auto found = walls_.find(id);
+    return found == walls_.end() ? std::nullopt : std::optional(found->second);
 }
 
 const std::string& PlanGraph::name(NodeId id) const {

@@ -6,7 +6,9 @@
 #include "lang/lower/graph_passes.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -26,14 +28,12 @@ using SideKinds = std::array<SideKind, side_count>;
 /// those of the domain.
 SideKinds side_kinds(const Program& program, std::uint32_t stage, ItemId item);
 
-/// What counts as step-invariant: values that no step changes, or values that do not depend on t
-/// and step.
-enum class Invariance : std::uint8_t { parameters, state };
+/// What random numbers are: drawn anew in every step, or once for a side when a stage starts.
+enum class Draws : std::uint8_t { every_step, once };
 
 class PlanGraph {
 public:
-    PlanGraph(Expressions expressions, const PassContext& context,
-              Invariance step_invariants = Invariance::parameters);
+    PlanGraph(Expressions expressions, const PassContext& context, Draws draws = Draws::every_step);
 
     const Node& operator[](NodeId id) const { return expressions_.graph[id]; }
     auto ids() const { return facts_.ids(); }
@@ -55,6 +55,10 @@ public:
     bool is_plane(NodeId id) const;
     /// The name of the definition or rate whose value it is; "" for others.
     const std::string& name(NodeId id) const;
+    /// The sides of the definition whose value it is, and their number in Stage::definition_sides;
+    /// nothing for others.
+    const DefinitionSides* sides(NodeId id) const;
+    std::optional<std::size_t> wall(NodeId id) const;
     /// Where it was written; null for nodes made by a pass.
     const Origin* origin(NodeId id) const;
     NodeId position(NodeId id) const { return expressions_.graph.written(id).position; }
@@ -73,13 +77,14 @@ private:
         bool is_uniform = false, is_step_invariant = false;
         std::array<Beyond, 3> beyond{};  ///< By axis.
     };
-    bool is_step_invariant(const Node& node, bool is_uniform, Invariance what) const;
-    std::array<Beyond, 3> beyond(const Node& node, bool is_uniform) const;
+    bool is_step_invariant(const Node& node, bool is_uniform, Draws draws) const;
+    std::array<Beyond, 3> beyond(NodeId id, bool is_uniform) const;
 
     Expressions expressions_;
     PassContext context_;
     IdVector<NodeId, Facts> facts_;
     std::unordered_map<NodeId, std::string> names_;
+    std::unordered_map<NodeId, std::size_t> walls_;
 };
 
 }  // namespace cascade::lowering

@@ -10,7 +10,9 @@
 #include "ir/reduction.h"
 #include "lang/lower/slot_source.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,10 @@ using ResultId = Id<struct ResultTag>;  ///< A result of a plan.
 struct PassTarget {
     std::variant<ResultId, TemporaryId> id;
     bool is_uniform = false;   ///< The same in all cells.
-    Boundaries boundary = {};  ///< How the halo of a temporary or step-invariant part is filled.
+    Boundaries boundary = {};  ///< How the halo of a temporary or step-invariant part is filled,
+    /// unless it is a definition with sides of its own, by their number in
+    /// Stage::definition_sides.
+    std::optional<std::size_t> wall = {};
 };
 
 /// An aggregate over the domain, computed from a plane.

@@ -129,13 +129,13 @@ void print_start_of_cells(const Program& program, const System& system, const St
     print("remove", stage.remove);
 }
 
-void print_sides(const Program& program, std::uint32_t index, ItemId item,
+void print_sides(const Program& program, std::uint32_t index, std::string_view name,
                  const std::array<SideSetting, side_count>& sides, Output out) {
     const System& system = program.system_of(index);
     for (std::size_t side = 0; side < side_count; ++side) {
         const SideSetting& setting = sides[side];
         if (setting.span.end == 0) continue;  // Same as the boundary.
-        fmt::format_to(out, "  {}.{}: {}", system.item_name(item), side_names[side],
+        fmt::format_to(out, "  {}.{}: {}", name, side_names[side],
                        side_kind_words[static_cast<std::size_t>(setting.kind)]);
         if (takes_value(setting.kind)) {
             fmt::format_to(out, "({})", print_formula(program, system, setting.value, index));
@@ -158,7 +158,10 @@ void print_stage(const Program& program, std::uint32_t index, Output out) {
     }
     const auto species = system.species();
     for (const SpeciesId id : stage.sides.ids()) {
-        print_sides(program, index, species[id], stage.sides[id], out);
+        print_sides(program, index, system.item_name(species[id]), stage.sides[id], out);
+    }
+    for (const DefinitionSides& each : stage.definition_sides) {
+        print_sides(program, index, system.definitions[each.definition].name, each.sides, out);
     }
     fmt::format_to(out, "  show: {}\n}}\n\n", print_formula(program, system, stage.show, index));
 }

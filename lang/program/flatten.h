@@ -36,6 +36,7 @@ public:
     void set_item(ItemId item, NodeId value) { items_[item] = value; }
 
     NodeId rate(ItemId species) const { return rates_.at(species); }
+    NodeId definition(DefinitionId id) const { return definitions_.at(id); }
     const std::vector<Origin>& origins() const { return origins_; }
     /// The names of definitions and rates, by node.
     const std::vector<std::pair<NodeId, std::string>>& names() const { return names_; }

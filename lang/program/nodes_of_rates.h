@@ -38,10 +38,13 @@ bool holds_in_rates(const System& system, const Test& test) {
 /// Does `test` hold for some node of the rules at the sides of a stage?
 template <typename Test>
 bool holds_in_sides(const Stage& stage, const Test& test) {
-    return std::any_of(stage.sides.begin(), stage.sides.end(), [&](const auto& sides) {
+    const auto is_in = [&](const auto& sides) {
         return std::any_of(sides.begin(), sides.end(),
                            [&](const SideSetting& side) { return holds_in(side.value, test); });
-    });
+    };
+    return std::any_of(stage.sides.begin(), stage.sides.end(), is_in) ||
+           std::any_of(stage.definition_sides.begin(), stage.definition_sides.end(),
+                       [&](const DefinitionSides& each) { return is_in(each.sides); });
 }
 
 }  // namespace cascade

@@ -265,14 +265,21 @@ struct Index {
 /// The rule of a species at a side.
 struct SideSetting {
     SideKind kind = SideKind::no_flux;
-    Formula value;  ///< Of fixed and flux: computed when a stage starts; its `own` nodes are the
-                    ///< stage's.
+    Formula value;  ///< Of fixed, slope and flux; its items are those of the stage.
     Span span;      ///< Where it was written; empty if it comes from the boundary.
 };
 
-/// A rule of one species.
-struct SpeciesSide {
-    ItemId species;
+/// The rules of a definition that has some. At the other sides it is mirrored.
+struct DefinitionSides {
+    DefinitionId definition;
+    std::array<SideSetting, side_count> sides;
+};
+
+/// What a rule at a side is about: a species or a definition.
+using SideSubject = std::variant<ItemId, DefinitionId>;
+
+struct SubjectSide {
+    SideSubject subject;
     Side side = Side::left;
     SideSetting setting;
 };
@@ -317,7 +324,7 @@ struct System {
     IdVector<ItemId, Formula> rates;  ///< One per quantity; empty nodes for parameters.
     std::vector<ItemId> rate_order;   ///< Species, each after those whose rate it reads.
     std::vector<Invariant> invariants;
-    std::vector<SpeciesSide> sides;  ///< Later ones replace earlier ones.
+    std::vector<SubjectSide> sides;  ///< Later ones replace earlier ones.
     Settings settings;
     std::optional<CellRules> cells;  ///< Of a `cells` block.
 
@@ -359,6 +366,7 @@ struct Stage {
     StageTime time;
     /// By species, in their order; empty if the boundary holds at all sides.
     IdVector<SpeciesId, std::array<SideSetting, side_count>> sides;
+    std::vector<DefinitionSides> definition_sides;  ///< In order of their definitions.
     // Of a stage of cells that crawl.
     std::optional<Founders> founders;  ///< Empty: the cells of the stage of cells before it.
     Formula remove;  ///< Cells where it is not 0 are removed at the start; empty: none.

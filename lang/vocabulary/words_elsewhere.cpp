@@ -56,9 +56,11 @@ constexpr WordElsewhere rows[] = {
     {Context::boundary, "wrap wrapped cyclic toroidal torus circular", "write 'periodic'"},
     {Context::boundary, "dirichlet fixed absorbing zero",
      "sides have values, boundaries have none: write 'sides: fixed(0)'"},
-    {Context::boundary, "flux", "sides have slopes, boundaries have none: write 'sides: flux(1)'"},
+    {Context::boundary, "flux slope",
+     "sides have slopes, boundaries have none: write 'sides: slope(1)'"},
 
-    {Context::side, "neumann", "write 'flux(0)'"},
+    {Context::side, "neumann", "write 'slope(0)'"},
+    {Context::side, "robin", "du/dn = c - a u is slope(c - a * u), in a system or a stage"},
     {Context::side, "zero_flux zeroflux reflecting reflective insulating closed wall mirror",
      "write 'noflux'"},
     {Context::side, "dirichlet absorbing zero constant value", "write 'fixed(0)'"},

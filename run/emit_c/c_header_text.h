@@ -27,14 +27,14 @@ extern "C" {
 )";
 
 inline constexpr std::string_view sides = R"(
-/* What a species is at a side. `value` is that of fixed and flux; where `values` is not NULL it
+/* What a species is at a side. `value` is that of fixed and slope; where `values` is not NULL it
  * points to cell (0, 0, 0) of a plane with a value for each cell beside the side. */
 struct $_side {
     int kind;
     float value;
     const float *values;
 };
-enum { $_periodic, $_noflux, $_fixed, $_flux };
+enum { $_periodic, $_noflux, $_fixed, $_slope };
 /* Sides in their order. */
 enum { $_left, $_right, $_top, $_bottom, $_front, $_back };
 

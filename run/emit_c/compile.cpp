@@ -2,6 +2,7 @@
 #include "run/emit_c/compile.h"
 
 #include "core/near_name.h"
+#include "lang/calculus/side_values.h"
 #include "lang/lower/lower.h"
 #include "run/domain/metric_planes.h"
 #include "run/emit_c/c_header.h"
@@ -116,11 +117,18 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
             if (!takes_value(sides[side].kind)) continue;
             if (!plan_side(program, sides[side], static_cast<Side>(side), stage).changes) continue;
             return failure(
-                fmt::format("stage '{}' has a side whose value changes with time, which is "
+                fmt::format("stage '{}' has a side whose value changes while it runs, which is "
                             "not compiled to an object file",
                             program.stages[stage].name),
                 "'cascade run' compiles it in memory");
         }
+    }
+    if (!program.stages[stage].definition_sides.empty()) {
+        return failure(
+            fmt::format("stage '{}' has a side of a definition, which is not compiled to "
+                        "an object file",
+                        program.stages[stage].name),
+            "'cascade run' compiles it in memory");
     }
     if (program.domain.mask) {
         return failure("a domain with a mask is not compiled to an object file",
@@ -140,6 +148,9 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     }
     const auto stage = find_stage(program, request.stage.value_or("1"));
     if (!stage) return tl::unexpected(stage.error());
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        program.stages[k].sides = side_settings(program, k);
+    }
     if (auto fits = check_header_knows(program, *stage); !fits) return tl::unexpected(fits.error());
     const auto numbers = known_numbers(program, *stage);
     if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {

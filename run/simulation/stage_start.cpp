@@ -3,6 +3,7 @@
 
 #include "core/floating_point.h"
 #include "core/side_cells.h"
+#include "lang/calculus/side_values.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
 #include "run/simulation/stage_view.h"
@@ -36,9 +37,9 @@ void start_varying_items(const StageView& view, StageState& state) {
     }
 }
 
-/// Do rows and columns meet at an angle other than a right one beside a side with a flux?
+/// Do rows and columns meet at an angle other than a right one beside a side with a slope?
 bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
-    if (here.metric.empty() || kind != SideKind::flux) return false;
+    if (here.metric.empty() || kind != SideKind::slope) return false;
     const auto at = [&](MetricPlane plane, std::int64_t offset) {
         return here.metric[static_cast<std::size_t>(plane)].visit(
             [&](const auto& cells) { return double{cells.origin()[offset]}; });
@@ -53,50 +54,73 @@ bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
     return false;
 }
 
-/// Values of sides come from formulas that may read any starting value. A value that is the same
-/// along the side is kept as a number. While values of sides are computed, the boundary of the
-/// domain holds.
-Result<void> find_sides(const StageView& view, StageState& state) {
-    const Environment& here = view.environment();
-    const std::uint32_t k = view.number();
-    std::vector<SideRules> found;
-    std::vector<ChangingSide> changing_sides;
-    for (const auto& settings : view.stage().sides) {
-        const SpeciesId species(found.size());
+/// Finds the rules of species and definitions at the sides. Values come from formulas that may read
+/// any starting value; one that is the same along the side is kept as a number. Meanwhile the
+/// boundary of the domain holds.
+class SideFinder {
+public:
+    SideFinder(const StageView& view) : view_(view), here_(view.environment()) {}
+
+    Result<void> add(std::string_view name, const SideSettings& settings) {
+        const SpeciesId number(rules_.size());
         SideRules rules;
-        rules.spacing = here.grid.spacing;
+        rules.spacing = here_.grid.spacing;
         for (std::size_t side = 0; side < side_count; ++side)
             rules.at[side].kind = settings[side].kind;
         for (std::size_t side = 0; side < side_count; ++side) {
             SideRule& rule = rules.at[side];
             if (!rule.has_value()) continue;
             const SidePlans value =
-                plan_side(*here.program, settings[side], static_cast<Side>(side), k);
-            if (is_sheared_at(here, static_cast<Side>(side), rule.kind)) {
+                plan_side(*here_.program, settings[side], static_cast<Side>(side), view_.number());
+            if (is_sheared_at(here_, static_cast<Side>(side), rule.kind)) {
                 return failure(
                     fmt::format(
-                        "stage '{}': {} has a flux at the side {}, where the surface is sheared",
-                        view.stage().name, species_name(view.system(), species.index()),
-                        side_names[side]),
-                    "a flux needs rows and columns that meet at right angles; fixed(…) does not");
+                        "stage '{}': {} has a slope at the side {}, where the surface is sheared",
+                        view_.stage().name, name, side_names[side]),
+                    "slope(…) and flux(…) need rows and columns that meet at right angles; fixed(…) "
+                    "does not");
             }
             if (value.changes) {
-                changing_sides.push_back(bind_side(value, species, static_cast<Side>(side),
-                                                   here.kernels->interpreted(), view.context(),
-                                                   *here.team));
+                changing_.push_back(bind_side(value, view_.number(), number,
+                                              static_cast<Side>(side), here_.kernels->interpreted(),
+                                              view_.context(), *here_.team));
                 continue;
             }
-            const Field values = std::move(view.evaluate(value.each)[0]);
+            const Field values = std::move(view_.evaluate(value.each)[0]);
             rule.value = values.number_at(0, 0);
             if (is_same_everywhere(values)) continue;
             rule.values = std::make_shared<const SideValues>(
                 SideValues{0, values_beside(values, static_cast<Side>(side))});
         }
-        found.push_back(rules);
+        rules_.push_back(rules);
+        return {};
     }
-    state.sides = std::move(found);
-    state.changing_sides = std::move(changing_sides);
-    state.go_to(state.steps, state.t);
+
+    void give_to(StageState& state) && {
+        state.sides = std::move(rules_);
+        state.changing_sides = std::move(changing_);
+        state.go_to(state.steps, state.t);
+    }
+
+private:
+    const StageView& view_;
+    const Environment& here_;
+    std::vector<SideRules> rules_;
+    std::vector<ChangingSide> changing_;
+};
+
+Result<void> find_sides(const StageView& view, StageState& state) {
+    SideFinder finder(view);
+    const auto of_species = side_settings(view.program(), view.number());
+    for (const SpeciesId species : of_species.ids()) {
+        const std::string name = species_name(view.system(), species.index());
+        if (auto good = finder.add(name, of_species[species]); !good) return good;
+    }
+    for (const DefinitionSides& each : view.stage().definition_sides) {
+        const std::string& name = view.system().definitions[each.definition].name;
+        if (auto good = finder.add(name, each.sides); !good) return good;
+    }
+    std::move(finder).give_to(state);
     return {};
 }
 

@@ -86,8 +86,13 @@ bool StageView::diffusion_limits() const {
 }
 
 OtherSpecies::OtherSpecies(StageState& state, std::vector<Field> species)
-    : state_(state), own_(std::exchange(state.species, std::move(species))) {}
+    : state_(state), own_(std::exchange(state.species, std::move(species))) {
+    state_.go_to(state_.steps, state_.t);
+}
 
-OtherSpecies::~OtherSpecies() { state_.species = std::move(own_); }
+OtherSpecies::~OtherSpecies() {
+    state_.species = std::move(own_);
+    state_.go_to(state_.steps, state_.t);
+}
 
 }  // namespace cascade

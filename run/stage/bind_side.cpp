@@ -1,4 +1,4 @@
-// Copies the planes that a side's formula reads to strips along the side, once.
+// Copies the planes that a side's formula reads and that do not change to strips along the side.
 #include "run/stage/bind_side.h"
 
 #include "core/check.h"
@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-ChangingSide bind_side(const SidePlans& plans, SpeciesId species, Side side, const Compile& compile,
-                       const BindingContext& context, Team& team) {
+ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId species, Side side,
+                       const Compile& compile, const BindingContext& context, Team& team) {
     const IdVector<StepInvariantId, Field> step_invariants(
         run_plan(plans.once, compile, context, context.grid, team));
     CHECK(plans.each.passes.size() == 1, "a side's value takes one pass");
@@ -19,7 +19,15 @@ ChangingSide bind_side(const SidePlans& plans, SpeciesId species, Side side, con
     changing.kernel = compile(bound.kernel);
     changing.precision = context.precision;
     changing.varies = !plans.each.is_uniform;
+    const StageState& own = context.states[stage];
     for (const PlaneSource& source : bound.fields) {
+        const auto* const item = std::get_if<StageItem>(&source);
+        const bool is_own = item != nullptr && item->stage == stage;
+        changing.reads.push_back(is_own ? own.species_of_item[item->item] : std::nullopt);
+        if (changing.reads.back()) {
+            changing.strips.emplace_back();
+            continue;
+        }
         const auto* const id = std::get_if<StepInvariantId>(&source);
         const Field& plane = id != nullptr ? step_invariants[*id] : plane_of(source, context);
         std::vector<double>& strip = changing.strips.emplace_back(values_beside(plane, side));

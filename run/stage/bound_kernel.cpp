@@ -71,6 +71,7 @@ public:
         if (system_ != nullptr) {
             problem_.sides = context_.states[stage_].sides;
             problem_.changing_sides = context_.states[stage_].changing_sides;
+            problem_.sides_moment = {context_.steps, context_.t};
             problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
         }
         temporary_needs_halo_.assign(plan_.temporaries, false);
@@ -255,6 +256,11 @@ private:
             result.plane = *temporary;
             result.needs_halo = temporary_needs_halo_[*temporary];
             result.boundary = target.boundary;
+            if (!target.wall) return result;
+            // The pass that reads it at neighbours evaluates the same rates.
+            const std::size_t species = context_.states[stage_].species.size();
+            result.rules = SpeciesId(species + *target.wall);
+            result.read_at = sweep_ != nullptr ? sweep_->time : 0;
             return result;
         }
         const std::uint32_t number = std::get<ResultId>(target.id).index();
@@ -352,6 +358,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
     whole.error_register = scheme.error_register;
     whole.sides = context.states[stage].sides;
     whole.changing_sides = context.states[stage].changing_sides;
+    whole.sides_moment = {context.steps, context.t};
     whole.species_needs_halo.assign(context.states[stage].species.size(), false);
     std::vector<const Sweep*> sweeps;
     const auto add = [&](const StepPlan& plan, const SweepForm* form, const Sweep* sweep,

@@ -33,8 +33,9 @@ void StageState::go_to(std::int64_t complete, double time_then) {
     if (changing_sides.empty()) return;
     const FlushDenormals environment;
     const PlaneLayout& layout = species.front().layout();
+    const SpeciesPlanes present = planes_of(species);
     for (const SpeciesId s : ids_below<SpeciesId>(sides.size())) {
-        set_side_values(changing_sides, s, {steps, t}, layout, {0, layout.row_count()},
+        set_side_values(changing_sides, s, {steps, t}, present, layout, {{0, layout.row_count()}},
                         sides[s.index()]);
     }
 }

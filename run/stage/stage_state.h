@@ -44,10 +44,12 @@ struct StageState {
     /// Of a stage of cells that crawl: their values, in place of `fields`, `species` and `frozen`.
     std::shared_ptr<Tissue> tissue;
     std::shared_ptr<const TissueGround> ground;  ///< Where these cells are.
-    std::vector<SideRules> sides;              ///< By species; empty if the boundary holds for all.
-    std::vector<ChangingSide> changing_sides;  ///< The sides whose values change with time.
+    /// By species, then by Stage::definition_sides; empty if the boundary holds for all.
+    std::vector<SideRules> sides;
+    std::vector<ChangingSide> changing_sides;  ///< The sides whose values change.
 
-    /// Sets the progress of the stage, and the values of sides to those of that moment.
+    /// Sets the progress of the stage, and the values of sides to those of that moment, at which
+    /// species have their present values.
     void go_to(std::int64_t complete, double time_then);
 
     /// The plane of an item that varies (a species or a varying parameter).

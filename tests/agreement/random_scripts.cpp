@@ -320,12 +320,13 @@ private:
             fmt::format("  u0.sides: {}\n",
                         stream_.chance(50) ? "fixed(0.5)" : stream_.pick<std::string_view>(all));
         if (!stream_.chance(50)) return;
-        // Sides follow no species.
+        // Operators, which expressions have, read no species at a side.
         std::erase_if(readable_, [](const std::string& name) {
             return name.starts_with("[") && name != "[frozen]";
         });
-        text_ += fmt::format("  u0.left: fixed({})\n  u0.right: flux(0.01)\n",
-                             expression(Place::value, 2));
+        static constexpr std::array<std::string_view, 2> slopes = {"0.01", "0.5 * sin([u0] - t)"};
+        text_ += fmt::format("  u0.left: fixed({})\n  u0.right: slope({})\n",
+                             expression(Place::value, 2), stream_.pick<std::string_view>(slopes));
     }
 
     RandomStream stream_, mask_stream_;

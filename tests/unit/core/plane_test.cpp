@@ -138,8 +138,8 @@ float expected_beyond(const Field& cells, const Grid& grid, const SideRules& sid
         const float value = rule.values ? values.at(inside[0], inside[1], inside[2])
                                         : static_cast<float>(rule.value);
         if (rule.kind == SideKind::fixed) return 2 * value - cell;
-        return rule.kind == SideKind::flux ? cell + static_cast<float>(sides.spacing) * value
-                                           : cell;
+        return rule.kind == SideKind::slope ? cell + static_cast<float>(sides.spacing) * value
+                                            : cell;
     }
     return cells.at(at[0], at[1], at[2]);
 }
@@ -158,7 +158,7 @@ TEST_P(Halo, SidesWithValues) {
     const Grid grid{GetParam().width, GetParam().height, Boundary::no_flux, GetParam().depth};
     const Field values = numbered(grid);
     const std::int64_t rows = values.layout().row_count();
-    const SideKind kinds[] = {SideKind::no_flux, SideKind::fixed, SideKind::flux};
+    const SideKind kinds[] = {SideKind::no_flux, SideKind::fixed, SideKind::slope};
     for (int mixture = 0; mixture < 729; mixture += 7) {
         SideRules sides;
         sides.spacing = 0.5f;

@@ -149,14 +149,19 @@ inline constexpr HintCase hint_cases[] = {
      "write speed: auto, or take the solver rk23 or rk45",
      "duration: 100; largest_step: 2; speed: auto"},
     {"stage", "u.sides: fixed(t * dx(x * t))",
-     "put t and step outside: it is computed once, when the stage starts",
+     "it is computed once, when the stage starts: put them outside of it",
      "u.sides: fixed(t * dx(x))"},
+    {"stage", "u.sides: flux(0.1)",
+     "slope(…) is the derivative along the outward normal, whatever the rate",
+     "u.sides: slope(0.1)"},
+    {"stage", "u.sides: fixed(random(0, 1) * [u])", "put them into a parameter: name: random(…)",
+     "u.sides: fixed([k] * [u])"},
     {"script",
-     "system b { u: 1; p: 2; u' = p; u.left: fixed(p) }\nsystem d: b { p = 3 }\nstage s: d { }\n"
+     "system s { u: 1; v = u; u' = lap(v); v.left: fixed(1) }\nstage a: s { }\n"
      "domain { boundary: noflux }",
-     "give u.left another rule in d",
-     "system b { u: 1; p: 2; u' = p; u.left: fixed(p) }\nsystem d: b { p = 3; u.left: noflux }\n"
-     "stage s: d { }\ndomain { boundary: noflux }"},
+     "give the side to u",
+     "system s { u: 1; v = u; u' = lap(v); u.left: fixed(1) }\nstage a: s { }\n"
+     "domain { boundary: noflux }"},
     {"domain", "sides: fixed", "write fixed(0)"},
     {"domain", "sides: noflux(1)", "write noflux"},
     {"domain", "left: fixed(0)", "give right a rule too, or write boundary: noflux in the domain",

@@ -84,9 +84,14 @@ std::vector<Solution> solutions() {
         wave_of("fixed",
                 "u.left: fixed(2 + sin(y / 2 + t)); u.right: fixed(2 + sin(1 + y / 2 + t))\n"
                 "u.top: fixed(2 + sin(x + t)); u.bottom: fixed(2 + sin(x + 1/2 + t))\n"),
-        wave_of("flux",
-                "u.left: flux(-cos(y / 2 + t)); u.right: flux(cos(1 + y / 2 + t))\n"
-                "u.top: flux(-cos(x + t) / 2); u.bottom: flux(cos(x + 1/2 + t) / 2)\n"),
+        wave_of("slope",
+                "u.left: slope(-cos(y / 2 + t)); u.right: slope(cos(1 + y / 2 + t))\n"
+                "u.top: slope(-cos(x + t) / 2); u.bottom: slope(cos(x + 1/2 + t) / 2)\n"),
+        wave_of("species",
+                "u.left: slope(-cos(y / 2 + t) + 3 * (2 + sin(y / 2 + t) - u))\n"
+                "u.right: slope(cos(1 + y / 2 + t) + (2 + sin(1 + y / 2 + t))^2 - u^2)\n"
+                "u.top: fixed(2 + sin(x + t)); u.bottom: slope(cos(x + 1/2 + t) / 2 + \n"
+                "  exp(-2 - sin(x + 1/2 + t)) - exp(-u))\n"),
         {"noflux",
          "X = cos(pi * x); Y = cos(pi * y); T = cos(t); A = sin(pi * x); B = sin(pi * y)\n"
          "w_t = -X * Y * sin(t); w_x = -pi * A * Y * T; w_y = -pi * X * B * T\n"
@@ -136,7 +141,21 @@ double error_of(const Solution& solution, const OperatorCase& each, int n) {
 /// a coefficient beyond a side: it is mirrored (spec/domain.md).
 double expected_order(const Solution& solution, const OperatorCase& each) {
     const std::string where = fmt::format("{} at {}", each.name, solution.name);
-    return where == "diffuse at fixed" || where == "div at flux" ? 1 : each.order;
+    const bool is_first = where == "diffuse at fixed" || where == "diffuse at species" ||
+                          where == "div at slope" || where == "div at species";
+    return is_first ? 1 : each.order;
+}
+
+/// A flux needs no coefficient beyond the side.
+TEST(Boundaries, AFluxIsOfSecondOrderWhereDiffusionVaries) {
+    const auto solution = wave_of(
+        "flux",
+        "u.left: flux(-cos(y / 2 + t)); u.right: flux((1 + y / 2) * cos(1 + y / 2 + t))\n"
+        "u.top: flux(-cos(x + t) / 2); u.bottom: flux((1 + x / 2) * cos(x + 1/2 + t) / 2)\n");
+    const double coarse = error_of(solution, operators[1], 6);
+    const double fine = error_of(solution, operators[1], 12);
+    EXPECT_GT(std::log2(coarse / fine), 1.65) << coarse << ", " << fine;
+    EXPECT_LT(fine, 0.02);
 }
 
 TEST(Boundaries, EveryOperatorAtEveryKindOfSide) {
@@ -178,7 +197,9 @@ TEST(Boundaries, ValuesAreThoseOfTheMomentInEverySweep) {
                              {"rk4", 0.6, 4},
                              {"rkl1", 0.2, 1},
                              {"rkl2", 0.1, 2}}) {
-        for (const char* right : {"fixed(1 + sin(2 * t))", "flux((1 + sin(2 * t)) / 8)"}) {
+        for (const char* right : {"fixed(1 + sin(2 * t))", "slope((1 + sin(2 * t)) / 8)",
+                                  "slope((1 + sin(2 * t)) / 8 + 2 * (1 + sin(2 * t) - u))",
+                                  "flux((1 + sin(2 * t)) / 16 + 2 * (1 + sin(2 * t) - u))"}) {
             const double coarse = error_in_time(each.solver, each.step, right);
             const double fine = error_in_time(each.solver, each.step / 2, right);
             EXPECT_GT(std::log2(coarse / fine), each.order - 0.35)
@@ -190,18 +211,17 @@ TEST(Boundaries, ValuesAreThoseOfTheMomentInEverySweep) {
     }
 }
 
-// What the message about sides that read a species tells to write.
-TEST(Boundaries, ASourceBesideASideIsAFluxThatFollowsASpecies) {
+TEST(Boundaries, ASideThatReadsItsSpeciesIsRobins) {
     const Ran ran =
-        run("system rod { u: 1; k: 2; u' = lap(u); u' += 1/(1/32) * (-k*u) * (sx > 1 - 1/32); "
-            "u.right: noflux }\n"
+        run("system rod { u: 1; k: 2; u' = lap(u); u.right: slope(-k * u) }\n"
             "domain { grid: 32; spacing: 1/32; boundary: noflux; precision: double }\n"
             "stage only: rod { speed: 1/4096; iterations: 2048 }\n");
-    // The same by hand: beyond the right side stands c + h · (−k c).
+    // The same by hand. The value at the face is (c + g) / 2, so (g - c) / h = -k (c + g) / 2.
     std::vector<double> u(34, 1), next(34);
+    const double q = 2 * (1.0 / 32) / 2;
     for (int step = 0; step < 2048; ++step) {
         u[0] = u[1];
-        u[33] = u[32] - 2 * u[32] / 32;
+        u[33] = u[32] * (1 - q) / (1 + q);
         for (int i = 1; i <= 32; ++i) {
             next[i] = u[i] + (u[i - 1] - 2 * u[i] + u[i + 1]) * 1024 / 4096;
         }
@@ -211,52 +231,55 @@ TEST(Boundaries, ASourceBesideASideIsAFluxThatFollowsASpecies) {
         EXPECT_NEAR(ran.species()[0].number_at(i, 0), u[i + 1], 1e-12) << i;
 }
 
-/// A script with a value at each of six sides, which `and_time` makes change.
-std::string volume(const std::string& and_time, const std::string& solver) {
+/// A script with a value at each of six sides, which `and_time` and `and_species` make change.
+std::string volume(const std::string& and_time, const std::string& and_species,
+                   const std::string& solver) {
     return fmt::format(
         "system s {{ begin: sin(7 * x) * y + z; u: begin; v: x * y\n"
         "  u' = 0.05 * lap(u) + 0.02 * dxy(u) - 0.01 * dyz(u * v); v' = 0.1 * lap(v) + dxz(u) / "
         "50\n"
-        "  u.left: fixed(sin(9 * y) * z{0}); u.right: flux(y - z{0}); u.top: flux(sin(x * 8){0})\n"
-        "  u.bottom: fixed(x * z{0}); u.front: fixed(x - y{0}); u.back: flux(x * y / 2{0})\n"
-        "  v.front: noflux; v.back: fixed(0.25{0}); v.left: fixed(begin{0}); v.right: noflux }}\n"
+        "  u.left: fixed(sin(9 * y) * z{0}{2}); u.right: slope(y - z{0}{2}); u.top: slope(sin(x * 8){0}{2})\n"
+        "  u.bottom: fixed(x * z{0}{2}); u.front: fixed(x - y{0}{2}); u.back: slope(x * y / 2{0}{2})\n"
+        "  v.front: noflux; v.back: fixed(0.25{0}{2}); v.left: fixed(begin{0}{2}); v.right: noflux }}\n"
         "domain {{ grid: 21, 10, 6; boundary: noflux, periodic, noflux }}\n"
         "stage only: s {{ iterations: 25; speed: 0.5; solver: {1}\n"
         "  u.left: fixed(sin(9 * y) * z{0}) }}\n",
-        and_time, solver);
+        and_time, solver, and_species);
 }
 
 TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
-    const std::string text = volume(" * (1 + t * z) + sin(step)", "rk4");
-    const Ran one = run(text);
-    ASSERT_TRUE(one.simulation);
+    for (const char* of_species : {"", " + 0.1 * u * v", " + exp(-v) - 2 * u / (1 + begin)"}) {
+        const std::string text = volume(" * (1 + t * z) + sin(step)", of_species, "rk4");
+        const Ran one = run(text);
+        ASSERT_TRUE(one.simulation);
 #if CASCADE_HAS_JIT
-    for (const SimulationOptions& options :
-         {SimulationOptions{BackendKind::jit, 4, 3}, SimulationOptions{BackendKind::jit, 16, 2}}) {
-        const Ran other = run(text, options);
-        EXPECT_EQ(same_bits(one.species(), other.species()), "");
-    }
+        for (const SimulationOptions& options : {SimulationOptions{BackendKind::jit, 4, 3},
+                                                 SimulationOptions{BackendKind::jit, 16, 2}}) {
+            const Ran other = run(text, options);
+            EXPECT_EQ(same_bits(one.species(), other.species()), "");
+        }
 #endif
-    Script script = load_script("test", text, ".");
-    auto first = Simulation::create(script, {BackendKind::interpreter, 0, 1}).value();
-    RunControl control;
-    ASSERT_TRUE(first->start_stage(0));
-    ASSERT_TRUE(first->advance_stage(0, 11, control, {}));
-    auto second = Simulation::create(script, {BackendKind::interpreter, 0, 1}).value();
-    ASSERT_TRUE(second->start_stage(0));
-    std::vector<Field> copies;
-    for (const Field& field : first->state(0).species) copies.push_back(field.clone());
-    const StageState& state = first->state(0);
-    second->restore(0, {std::move(copies), 11, state.t, false, false,
-                        StageMoment::Memory{state.time, {}}});
-    ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
-    EXPECT_EQ(same_bits(one.species(), second->state(0).species), "");
+        Script script = load_script("test", text, ".");
+        auto first = Simulation::create(script, {BackendKind::interpreter, 0, 1}).value();
+        RunControl control;
+        ASSERT_TRUE(first->start_stage(0));
+        ASSERT_TRUE(first->advance_stage(0, 11, control, {}));
+        auto second = Simulation::create(script, {BackendKind::interpreter, 0, 1}).value();
+        ASSERT_TRUE(second->start_stage(0));
+        std::vector<Field> copies;
+        for (const Field& field : first->state(0).species) copies.push_back(field.clone());
+        const StageState& state = first->state(0);
+        second->restore(0, {std::move(copies), 11, state.t, false, false,
+                            StageMoment::Memory{state.time, {}}});
+        ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
+        EXPECT_EQ(same_bits(one.species(), second->state(0).species), "");
+    }
 }
 
 #if CASCADE_HAS_JIT
 TEST(Boundaries, SpeciesOfOneKernelMayHaveSidesOfDifferentKinds) {
     const std::array<std::string_view, 5> sides = {"sides: periodic", "sides: noflux",
-                                                   "sides: fixed(x / 2)", "sides: flux(0.1)",
+                                                   "sides: fixed(x / 2)", "sides: slope(0.1)",
                                                    "sides: fixed(sin(9 * t))"};
     for (const std::string_view of_u : sides) {
         for (const std::string_view of_v : sides) {

@@ -235,7 +235,7 @@ system heat {
   u.left: fixed(hot)
 }
 domain { grid: 19, 14; boundary: noflux; spacing: 1.3; right: fixed(0.25) }
-stage only: heat { hot: 2; u.top: flux(0.1 * sx); v.bottom: fixed([begin] + 0.5); v.left: flux(0.1 * lap([begin] + x)) }
+stage only: heat { hot: 2; u.top: slope(0.1 * sx); v.bottom: fixed([begin] + 0.5); v.left: flux(0.1 * lap([begin] + x)) }
 )",
                        {"u", "v"});
 }
@@ -247,7 +247,7 @@ system heat {
   u' = 0.1 * lap(u)
 }
 domain { grid: 9, 7, 5; boundary: noflux }
-stage only: heat { u.front: flux(0.1 * sy); u.back: fixed(sx); u.top: fixed(1); u.left: flux(-0.2) }
+stage only: heat { u.front: slope(0.1 * sy); u.back: fixed(sx); u.top: fixed(1); u.left: flux(-0.02) }
 )",
                        {"u"});
 }

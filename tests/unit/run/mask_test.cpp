@@ -130,7 +130,7 @@ TEST(Mask, SolversTakeTheStepsOfTheSmallGrid) {
 /// A mask that is the same everywhere changes no bit, whatever the sides are.
 TEST(Mask, AMaskOfAllCellsIsNone) {
     for (const char* boundary : {"boundary: periodic", "boundary: noflux",
-                                 "boundary: noflux, periodic; left: fixed(1); right: flux(0.3)"}) {
+                                 "boundary: noflux, periodic; left: fixed(1); right: slope(0.3)"}) {
         for (const Operator& each : operators_of_planes) {
             std::string system = system_of(each.rates);
             for (const auto& [name, axis] :

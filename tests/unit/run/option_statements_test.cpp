@@ -99,7 +99,7 @@ TEST(OptionStatements, LeaveTheBordersOfThePlaneAside) {
     overrides.model = "torus";
     const std::string said = messages(
         "domain { grid: 9, 9; boundary: noflux; left: fixed(1) }\n"
-        "stage one: turing_spots { a.right: flux(1); a.top: noflux }\n",
+        "stage one: turing_spots { a.right: slope(1); a.top: noflux }\n",
         overrides);
     EXPECT_THAT(said, HasSubstr("test:1:40: warning: a model has no sides: this is ignored"));
     EXPECT_THAT(said, HasSubstr("test:2:27: warning: a model has no sides: this is ignored"));

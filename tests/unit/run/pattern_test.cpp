@@ -98,7 +98,7 @@ TEST(Pattern, NoResultDependsOnHowManyStepsAreTakenAtOnce) {
     const std::string grid = "domain { grid: 24, 18 }\n";
     const std::string sides =
         "domain { grid: 24, 18; boundary: noflux }\n"
-        "system s { u: 1; u' = 0.2 * lap(u); u.left: fixed(sin(t) * y); u.right: flux(0.1 * t) }\n";
+        "system s { u: 1; u' = 0.2 * lap(u); u.left: fixed(sin(t) * y); u.right: slope(0.1 * t) }\n";
     std::vector<std::string> scripts;
     for (const char* how :
          {"iterations: 90", "iterations: 90; solver: symplectic", "iterations: 60; solver: rk4",

@@ -136,7 +136,7 @@ system heat {
   u: 1
   u' = 0.4 * lap(u)
   u.left: fixed(1)
-  u.right: flux(0.25)
+  u.right: slope(0.25)
 }
 stage one: heat { iterations: 20000 }
 )",

@@ -109,7 +109,7 @@ TEST_F(RunningStage, RemarksChangeNoBits) {
 constexpr const char* held_at_sides =
     "domain { grid: 20, 16; boundary: noflux }\n"
     "system s { u: 1 + x; u' = 0.1 * lap(u)\n"
-    "  u.left: fixed(1 + y); u.right: fixed(sin(t) * y); u.top: flux(cos(t)) }\n"
+    "  u.left: fixed(1 + y); u.right: fixed(sin(t) * y); u.top: slope(cos(t)) }\n"
     "stage one: s { iterations: 60; speed: 0.2; solver: rk2 }\n";
 
 class CopiedState : public ::testing::Test {

@@ -4,6 +4,7 @@
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -177,10 +178,28 @@ TEST(TiledRuns, SidesThatChangeWithTime) {
         expect_same_bits(
             "domain { grid: 173, 149; boundary: noflux }\n"
             "system tide { u[i]: 0; i: 1..2\n  u[i]' = lap(u[i]) - 0.1 * u[i]\n"
-            "  u[i].left: fixed(sin(i * t) * sy); u[i].top: flux(cos(t) * sx)\n"
+            "  u[i].left: fixed(sin(i * t) * sy); u[i].top: slope(cos(t) * sx)\n"
             "  u[i].bottom: fixed(t) }\n"
             "stage s: tide { iterations: 40; speed: 0.15; " +
             std::string(solver) + " }\n");
+    }
+}
+
+TEST(TiledRuns, SidesThatReadSpecies) {
+    for (const char* const solver :
+         {"euler; iterations: 30", "rk4; iterations: 9", "rkl2; duration: 9"}) {
+        for (const char* const grid : {"173, 149", "3000, 4", "40, 36, 29"}) {
+            expect_same_bits(
+                fmt::format(
+                    "domain {{ grid: {}; boundary: noflux }}\n"
+                    "system wall {{ c: 1 + sin(9 * x); w: y; k = c * w\n"
+                    "  c' = 0.2 * lap(c) - 0.1 * c * w\n  w' = 0.1 * lap(w) + 0.01 * dx(c)\n"
+                    "  c.left: flux(0.2 * (w - c)); w.left: flux(0.2 * (c - w)); c.right: fixed(w^2)\n"
+                    "  c.top: slope(sin(t) - k); w.bottom: slope(c - sx * w); w.back: slope(-w) }}\n"
+                    "stage s: wall {{ speed: 0.5; solver: {} }}\n",
+                    grid, solver),
+                std::nullopt);
+        }
     }
 }
 

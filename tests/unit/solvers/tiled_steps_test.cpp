@@ -184,7 +184,7 @@ private:
             problem_.sides.assign(species_, SideRules(problem_.grid.boundary));
             SideRule& rule = problem_.sides[s].at[static_cast<std::size_t>(dice_.below(6))];
             if (rule.kind == SideKind::periodic) continue;
-            rule.kind = dice_.often() ? SideKind::fixed : SideKind::flux;
+            rule.kind = dice_.often() ? SideKind::fixed : SideKind::slope;
             rule.value = 0.25;
         }
     }

@@ -135,7 +135,7 @@ SideRules rules(const std::string& words) {
         switch (words[side]) {
             case 'p': result.at[side].kind = SideKind::periodic; break;
             case 'n': result.at[side].kind = SideKind::no_flux; break;
-            case 'f': result.at[side].kind = SideKind::flux; break;
+            case 'f': result.at[side].kind = SideKind::slope; break;
             default: result.at[side].kind = SideKind::fixed; break;
         }
     }

@@ -1,0 +1,295 @@
+// Each side has a small system of linear equations for the changes from the cell to the face, which
+// is solved by elimination before anything runs.
+#include "lang/calculus/side_values.h"
+
+#include "core/check.h"
+#include "lang/calculus/algebra.h"
+#include "lang/calculus/derivative_rules.h"
+#include "lang/program/nodes_of_rates.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+bool reads_definitions(const Formula& formula) {
+    return holds_in(formula, [](const Node& node) { return node.is<DefinitionId>(); });
+}
+
+bool is_species(const System& system, const Node& node) {
+    const auto* item = node.as<ItemId>();
+    return item != nullptr && system.is_species(*item);
+}
+
+bool is_moment(const Node& node) { return node.is(Builtin::t) || node.is(Builtin::step); }
+
+Formula flat(const System& system, const Formula& formula) {
+    return reads_definitions(formula) ? without_definitions(system, formula) : formula;
+}
+
+/// The nodes that `root` is computed from, itself included.
+IdVector<NodeId, bool> needed_for(const ExpressionGraph& graph, NodeId root) {
+    IdVector<NodeId, bool> needed(root.index() + 1, false);
+    needed[root] = true;
+    for (std::uint32_t n = root.index() + 1; n-- > 0;) {
+        if (!needed[NodeId(n)]) continue;
+        for (const NodeId operand : graph[NodeId(n)].reads()) needed[operand] = true;
+    }
+    return needed;
+}
+
+/// The equations of one side.
+class FaceEquations {
+public:
+    FaceEquations(const Program& program, std::uint32_t stage, Side side)
+        : program_(program),
+          stage_(stage),
+          system_(program.system_of(stage)),
+          side_(side),
+          species_(system_.species()),
+          rates_(system_),
+          algebra_(rates_.algebra),
+          zero_(algebra_.number(0)),
+          values_(species_.size()) {}
+
+    /// The species whose values at the face the value of `of` depends on, `of` last.
+    std::vector<SpeciesId> coupled(SpeciesId of) {
+        std::vector<SpeciesId> found{of};
+        for (std::size_t next = 0; next < found.size(); ++next) {
+            for (const SpeciesId read : unknowns_in(found[next])) {
+                if (std::find(found.begin(), found.end(), read) == found.end())
+                    found.push_back(read);
+            }
+        }
+        std::rotate(found.begin(), found.begin() + 1, found.end());
+        return found;
+    }
+
+    /// The value of `of` at the face or its slope there, as its rule says.
+    Formula solve(SpeciesId of) {
+        if (unknowns_in(of).empty()) return algebra_.formula(value(of));
+        const std::vector<SpeciesId> unknown = coupled(of);
+        const std::size_t count = unknown.size();
+        CHECK(count <= most_coupled_at_side, "few species are coupled at a side");
+        std::vector<std::vector<NodeId>> matrix(count);
+        std::vector<NodeId> right;
+        for (std::size_t row = 0; row < count; ++row) {
+            for (std::size_t column = 0; column < count; ++column) {
+                const NodeId by = algebra_.product(slope(value(unknown[row]), unknown[column]),
+                                                   change_by(unknown[column]));
+                matrix[row].push_back(algebra_.difference(algebra_.number(row == column), by));
+            }
+            right.push_back(is_fixed(unknown[row])
+                                ? algebra_.difference(value(unknown[row]), cell(unknown[row]))
+                                : value(unknown[row]));
+        }
+        for (std::size_t pivot = 0; pivot + 1 < count; ++pivot) {
+            for (std::size_t row = pivot + 1; row < count; ++row) {
+                const NodeId part = algebra_.quotient(matrix[row][pivot], matrix[pivot][pivot]);
+                const auto subtract = [&](NodeId& from, NodeId what) {
+                    from = algebra_.difference(from, algebra_.product(part, what));
+                };
+                for (std::size_t column = pivot + 1; column < count; ++column)
+                    subtract(matrix[row][column], matrix[pivot][column]);
+                subtract(right[row], right[pivot]);
+            }
+        }
+        const NodeId found = algebra_.quotient(right.back(), matrix.back().back());
+        return algebra_.formula(is_fixed(of) ? algebra_.sum(cell(of), found) : found);
+    }
+
+private:
+    const SideSetting& setting(SpeciesId species) const {
+        return program_.stages[stage_].sides[species][static_cast<std::size_t>(side_)];
+    }
+    bool is_fixed(SpeciesId species) const { return setting(species).kind == SideKind::fixed; }
+    NodeId cell(SpeciesId species) { return algebra_.leaf(species_[species]); }
+
+    /// The value or slope that a rule asks for, with the values of the cell in place of those at
+    /// the face.
+    NodeId value(SpeciesId species) {
+        std::optional<NodeId>& known = values_[species];
+        if (known) return *known;
+        const SideSetting& rule = setting(species);
+        NodeId node = rates_.flattening.add(rule.value);
+        if (rule.kind == SideKind::flux) {
+            if (diffusion_.empty()) diffusion_ = diffusion_of(program_, stage_);
+            const auto factor = conductivity_at(system_, diffusion_, species, side_).factor;
+            // The side of a species that no operator reads has no effect.
+            node = factor ? algebra_.quotient(node, rates_.flattening.add(*factor)) : zero_;
+        }
+        known = node;
+        return node;
+    }
+
+    /// The species in the value of another one that differ between the cell and the face.
+    std::vector<SpeciesId> unknowns_in(SpeciesId species) {
+        std::vector<SpeciesId> found;
+        const NodeId root = value(species);
+        const IdVector<NodeId, bool> needed = needed_for(algebra_, root);
+        for (const NodeId id : ids_below<NodeId>(needed.size())) {
+            if (!needed[id] || !cascade::is_species(system_, algebra_[id])) continue;
+            const auto read = *system_.species_of(*algebra_[id].as<ItemId>());
+            if (takes_value(setting(read).kind)) found.push_back(read);
+        }
+        return found;
+    }
+
+    /// The derivative of a value by a species; 0 through a function without a rule.
+    NodeId slope(NodeId root, SpeciesId by) {
+        const IdVector<NodeId, bool> needed = needed_for(algebra_, root);
+        IdVector<NodeId, NodeId> slopes(needed.size(), zero_);
+        for (const NodeId id : ids_below<NodeId>(needed.size())) {
+            if (!needed[id]) continue;
+            const Node node = algebra_[id];
+            if (node.is(species_[by])) slopes[id] = algebra_.number(1);
+            for (std::size_t n = 0; n < node.operand_count; ++n) {
+                const NodeId inner = slopes[node.operands[n]];
+                if (inner == zero_) continue;
+                const auto partial = partial_derivative(algebra_, node, n);
+                if (!partial) continue;
+                slopes[id] = algebra_.sum(slopes[id], algebra_.product(*partial, inner));
+            }
+        }
+        return slopes[root];
+    }
+
+    /// The change of a species from the cell to the face for each unit of its unknown: of a slope
+    /// half a cell, of a value the change itself.
+    NodeId change_by(SpeciesId species) {
+        if (is_fixed(species)) return algebra_.number(1);
+        const NodeId half = algebra_.number(program_.domain.grid.spacing / 2);
+        const auto& surface = program_.domain.surface;
+        if (!surface || !surface->has_metric) return half;
+        // As across_side() of lang/lower/surface_pass.cpp.
+        const auto square = [&](MetricPlane plane) {
+            return algebra_.product(algebra_.leaf(plane), algebra_.leaf(plane));
+        };
+        const bool is_column = side_ == Side::left || side_ == Side::right;
+        const NodeId diagonal = is_column ? algebra_.sum(square(MetricPlane::inverse_11),
+                                                         square(MetricPlane::inverse_12))
+                                          : square(MetricPlane::inverse_22);
+        return algebra_.quotient(half, algebra_.call(Function::sqrt, {diagonal}));
+    }
+
+    const Program& program_;
+    std::uint32_t stage_;
+    const System& system_;
+    Side side_;
+    IdVector<SpeciesId, ItemId> species_;
+    FlatRates rates_;
+    Algebra& algebra_;
+    NodeId zero_;
+    IdVector<SpeciesId, std::optional<NodeId>> values_;
+    IdVector<SpeciesId, SpeciesDiffusion> diffusion_;  ///< Empty until it is needed.
+};
+
+/// Which nodes of a formula without definitions do not stay the same.
+IdVector<NodeId, bool> changing_nodes(const System& system, const Formula& formula) {
+    IdVector<NodeId, bool> changes;
+    for (const Node& node : formula.nodes) {
+        bool is_changing = is_moment(node) || is_species(system, node);
+        for (const NodeId operand : node.reads()) is_changing |= changes[operand];
+        changes.push_back(is_changing);
+    }
+    return changes;
+}
+
+}  // namespace
+
+IdVector<SpeciesId, SideSettings> side_settings(const Program& program, std::uint32_t stage) {
+    IdVector<SpeciesId, SideSettings> settings = program.stages[stage].sides;
+    const System& system = program.system_of(stage);
+    for (std::size_t number = 0; number < side_count; ++number) {
+        std::unique_ptr<FaceEquations> equations;
+        for (const SpeciesId species : settings.ids()) {
+            SideSetting& setting = settings[species][number];
+            if (!takes_value(setting.kind)) continue;
+            const bool stays =
+                setting.kind != SideKind::flux && !reads_definitions(setting.value) &&
+                !holds_in(setting.value,
+                          [&](const Node& node) { return is_species(system, node); });
+            if (stays) continue;
+            const auto side = static_cast<Side>(number);
+            if (!equations) equations = std::make_unique<FaceEquations>(program, stage, side);
+            setting.value = equations->solve(species);
+            if (setting.kind == SideKind::flux) setting.kind = SideKind::slope;
+        }
+    }
+    return settings;
+}
+
+Conductivity conductivity_at(const System& system,
+                             const IdVector<SpeciesId, SpeciesDiffusion>& diffusion_of_all,
+                             SpeciesId species, Side side) {
+    const ItemId item = system.species()[species];
+    FlatRates rates(system);
+    const IdVector<NodeId, bool> needed = needed_for(rates.algebra, rates.rate(item));
+    for (const NodeId id : ids_below<NodeId>(needed.size())) {
+        const Node& node = rates.algebra[id];
+        if (needed[id] && (node.calls(Function::diffuse) || node.calls(Function::tensor)))
+            return {std::nullopt, "diffuses in a direction"};
+    }
+    const SpeciesDiffusion& diffusion = diffusion_of_all[species];
+    const auto is_there = [](const Formula& factor) { return !factor.nodes.empty(); };
+    const auto powers = diffusion.begin() + laplacian_powers;
+    if (std::any_of(diffusion.begin() + 1, powers, is_there))
+        return {std::nullopt, "has lap of lap in its rate"};
+    std::vector<NodeId> parts;
+    for (const std::size_t term :
+         {std::size_t{0}, laplacian_powers + static_cast<std::size_t>(side) / 2}) {
+        if (is_there(diffusion[term])) parts.push_back(rates.flattening.add(diffusion[term]));
+    }
+    if (parts.empty()) return {std::nullopt, "has no diffusion in its rate"};
+    const NodeId sum = parts.size() == 1 ? parts[0] : rates.algebra.sum(parts[0], parts[1]);
+    Formula factor = rates.algebra.formula(sum);
+    if (beyond_reach_of_side(system, factor) != nullptr)
+        return {std::nullopt, "has diffusion that depends on other cells"};
+    return {std::move(factor), {}};
+}
+
+bool is_read_beside(const System& system, const SideSubject& subject) {
+    const FlatRates rates(system);
+    const auto* definition = std::get_if<DefinitionId>(&subject);
+    const std::optional<NodeId> sought =
+        definition != nullptr ? std::optional(rates.flattening.definition(*definition))
+                              : std::nullopt;
+    IdVector<NodeId, bool> depends;
+    for (const NodeId id : ids_below<NodeId>(rates.count)) {
+        const Node& node = rates.algebra[id];
+        bool is_read = false;
+        for (const NodeId operand : node.reads()) is_read |= depends[operand];
+        if (is_read && node.is<Call>() &&
+            (differentiates(node.function) || node.type == ValueType::vector)) {
+            return true;
+        }
+        depends.push_back(is_read || (sought ? id == *sought : node.is(std::get<ItemId>(subject))));
+    }
+    return false;
+}
+
+bool changes_at_side(const System& system, const Formula& formula) {
+    const Formula whole = flat(system, formula);
+    return holds_in(whole,
+                    [&](const Node& node) { return is_moment(node) || is_species(system, node); });
+}
+
+const Node* beyond_reach_of_side(const System& system, const Formula& formula) {
+    const IdVector<NodeId, bool> changes = changing_nodes(system, formula);
+    for (const NodeId id : changes.ids()) {
+        const Node& node = formula.nodes[id];
+        if (!changes[id] || !node.is<Call>()) continue;
+        if (varies_by_cell(node.function) || info(node.function).is_aggregate) return &node;
+    }
+    return nullptr;
+}
+
+std::vector<SpeciesId> coupled_at_side(const Program& program, std::uint32_t stage, SpeciesId of,
+                                       Side side) {
+    return FaceEquations(program, stage, side).coupled(of);
+}
+
+}  // namespace cascade
