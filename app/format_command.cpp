@@ -16,18 +16,18 @@ namespace {
 
 /// The script in the canonical style; nothing, after printing its errors, if it cannot be parsed.
 std::optional<std::string> formatted(const std::string& name, const std::string& text,
-                                     const Console& console) {
+                                     ScriptNotation notation, const Console& console) {
     Sources sources;
     Diagnostics diagnostics;
     const SourceId source = sources.add(name, text);
-    auto result = format_script(source, sources, diagnostics);
+    auto result = format_script(source, sources, diagnostics, notation);
     RenderStyle style;
     style.colour = console.error().colour;
     if (!result) console.say(render(diagnostics, sources, style));
     return result;
 }
 
-int format_file(const std::string& path, bool check_only, Console& console) {
+int format_file(const std::string& path, const Options& options, Console& console) {
     const auto text = read_file(path, largest_script);
     if (!text) {
         console.fail(text.error());
@@ -38,11 +38,11 @@ int format_file(const std::string& path, bool check_only, Console& console) {
                       "fmt reads scripts"});
         return exit_status::wrong_script;
     }
-    const auto result = formatted(path, *text, console);
+    const auto result = formatted(path, *text, options.notation, console);
     if (!result) return exit_status::wrong_script;
     if (*result == *text) return exit_status::success;
     console.print(path + "\n");
-    if (check_only) return exit_status::would_change;
+    if (options.check_only) return exit_status::would_change;
     if (auto done = write_file(path, *result); !done) {
         console.fail(done.error());
         return exit_status::failed_run;
@@ -51,16 +51,17 @@ int format_file(const std::string& path, bool check_only, Console& console) {
 }
 
 /// Formats standard input to standard output; with --check only the status tells.
-int format_standard_input(bool check_only, Console& console) {
+int format_standard_input(const Options& options, Console& console) {
     const auto text = read_standard_input();
     if (!text) {
         console.fail(text.error());
         return exit_status::wrong_script;
     }
-    const auto result = formatted("<standard input>", *text, console);
+    const auto result = formatted("<standard input>", *text, options.notation, console);
     if (!result) return exit_status::wrong_script;
-    if (!check_only) console.print_exactly(*result);
-    return check_only && *result != *text ? exit_status::would_change : exit_status::success;
+    if (!options.check_only) console.print_exactly(*result);
+    return options.check_only && *result != *text ? exit_status::would_change
+                                                  : exit_status::success;
 }
 
 }  // namespace
@@ -68,8 +69,8 @@ int format_standard_input(bool check_only, Console& console) {
 int format_command(const Options& options, Console& console) {
     int status = exit_status::success;
     for (const std::string& path : options.scripts) {
-        status = std::max(status, path == "-" ? format_standard_input(options.check_only, console)
-                                              : format_file(path, options.check_only, console));
+        status = std::max(status, path == "-" ? format_standard_input(options, console)
+                                              : format_file(path, options, console));
     }
     return status;
 }

@@ -102,6 +102,7 @@ const std::string_view format_examples = R"(Examples:
   cascade fmt leopard.cascade                        changes the file if it has to
   cascade fmt --check *.cascade                      status 1 if one would change
   cascade fmt - < draft.cascade                      to standard output
+  cascade fmt --unicode spots.cascade                ∂u/∂t = D∇²u for u' = D*lap(u)
 Comments stay, and so does what an author has lined up. A script that cannot be read is left alone.)";
 
 const std::string_view mesh = "Describes 3-D models, and what has to be repaired in them.";

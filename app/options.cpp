@@ -186,6 +186,14 @@ void Parser::add_all() {
         ->type_name("");
     format->add_flag("--check", options.check_only,
                      "Write nothing; name the scripts that would change, with status 1");
+    auto* const ascii = format->add_flag_callback(
+        "--ascii", [&] { options.notation = ScriptNotation::ascii; },
+        "Spell everything in ASCII: u' = D*lap(u) + u^2*v");
+    format
+        ->add_flag_callback(
+            "--unicode", [&] { options.notation = ScriptNotation::papers; },
+            "Spell everything as papers do: ∂u/∂t = D∇²u + u²v")
+        ->excludes(ascii);
 
     mesh = command("mesh", help::mesh, help::mesh_examples);
     groups::add_mesh(*mesh, options);

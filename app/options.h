@@ -2,6 +2,7 @@
 // seconds to compile.
 #pragma once
 
+#include "lang/format/format_script.h"
 #include "run/commands/analyze.h"
 #include "run/commands/bench.h"
 #include "run/commands/run.h"
@@ -67,18 +68,19 @@ struct Options {
     std::optional<TypedScript> typed;  ///< Stands for the script "-".
     Overrides overrides;
     PictureChanges picture;
-    RunRequest run;                          ///< Its `picture` keeps the defaults.
-    SweepRequest sweep;                      ///< Its `picture` and `simulation` keep the defaults.
-    double limit_seconds = 0;                ///< `--limit-time`; 0 for none.
-    std::string dump;                        ///< The kind of dump; empty to run.
-    bool timing = false;                     ///< Print how the time was spent.
-    bool quiet = false;                      ///< Neither progress nor remarks.
-    std::vector<std::string> words;          ///< What `systems` searches for; the system of `new`.
-    std::filesystem::path new_script;        ///< `new -o`
-    bool check_only = false;                 ///< `fmt --check`
-    std::vector<std::string> models;         ///< Arguments of `mesh`.
-    std::optional<CellOptions> cells;        ///< `mesh --cells`.
-    std::optional<std::uint32_t> cell_seed;  ///< `mesh --seed`.
+    RunRequest run;                    ///< Its `picture` keeps the defaults.
+    SweepRequest sweep;                ///< Its `picture` and `simulation` keep the defaults.
+    double limit_seconds = 0;          ///< `--limit-time`; 0 for none.
+    std::string dump;                  ///< The kind of dump; empty to run.
+    bool timing = false;               ///< Print how the time was spent.
+    bool quiet = false;                ///< Neither progress nor remarks.
+    std::vector<std::string> words;    ///< What `systems` searches for; the system of `new`.
+    std::filesystem::path new_script;  ///< `new -o`
+    bool check_only = false;           ///< `fmt --check`
+    ScriptNotation notation = ScriptNotation::as_written;  ///< `fmt --unicode`, `--ascii`
+    std::vector<std::string> models;                       ///< Arguments of `mesh`.
+    std::optional<CellOptions> cells;                      ///< `mesh --cells`.
+    std::optional<std::uint32_t> cell_seed;                ///< `mesh --seed`.
     AnalyzeRequest analyze;
     BenchRequest bench;  ///< Its `simulation` keeps the defaults.
     bool csv = false;    ///< `bench --csv`

@@ -2,6 +2,7 @@
 #include "app/prompt_text.h"
 
 #include "lang/check/known_names.h"
+#include "lang/vocabulary/greek_letters.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,9 @@ bool ends_in_operator(std::string_view text) {
     constexpr std::array<std::string_view, 3> words = {"and", "or", "not"};
     if (text.empty()) return false;
     if (std::string_view("+-*/^,<>=").find(text.back()) != std::string_view::npos) return true;
+    for (const std::string_view sign : {"−", "·", "⋅", "×", "≤", "≥", "≠"}) {
+        if (text.ends_with(sign)) return true;
+    }
     return std::any_of(words.begin(), words.end(),
                        [&](std::string_view word) { return ends_in_word(text, word); });
 }
@@ -77,7 +81,7 @@ bool says_nothing(std::string_view line) {
 Completion complete_word(std::string_view line, std::vector<std::string> names) {
     std::size_t begin = line.size() - last_word(line).size();
     if (begin == 1 && line[0] == ':') begin = 0;
-    const std::string_view word = line.substr(begin);
+    const std::string word = with_ascii_names(line.substr(begin));
 
     Completion completion;
     for (std::string& name : names) {

@@ -3,6 +3,7 @@
 
 #include "core/palette.h"
 #include "lang/library/library.h"
+#include "lang/vocabulary/greek_letters.h"
 #include "lang/vocabulary/settings.h"
 
 #include <algorithm>
@@ -261,7 +262,7 @@ std::vector<KnownName> names_in_value(std::string_view statement, const Program&
 
 std::string_view last_word(std::string_view text) {
     std::size_t begin = text.size();
-    while (begin > 0 && is_word_character(text[begin - 1])) --begin;
+    while (const std::size_t size = last_letter_of_name(text.substr(0, begin))) begin -= size;
     return text.substr(begin);
 }
 
@@ -279,7 +280,9 @@ std::vector<KnownName> known_names(const Program& program) {
     return sorted(std::move(names));
 }
 
-std::vector<KnownName> completions(std::string_view text, const Program& program) {
+std::vector<KnownName> completions(std::string_view typed, const Program& program) {
+    const std::string ascii = with_ascii_names(typed);
+    std::string_view text = ascii;
     text.remove_suffix(last_word(text).size());
     const TextPlace place = place_at_end(text);
     if (place.is_comment) return {};
@@ -306,8 +309,10 @@ std::vector<KnownName> completions(std::string_view text, const Program& program
     return sorted(names_in_value(place.statement, program));
 }
 
-std::optional<Mention> mention_at_end(std::string_view text, const Program& program,
+std::optional<Mention> mention_at_end(std::string_view typed, const Program& program,
                                       std::uint32_t stage) {
+    const std::string ascii = with_ascii_names(typed);
+    std::string_view text = ascii;
     const std::string_view word = last_word(text);
     text.remove_suffix(word.size());
     const TextPlace place = place_at_end(text);

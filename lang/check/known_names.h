@@ -43,7 +43,7 @@ struct Mention {
 std::optional<Mention> mention_at_end(std::string_view text, const Program& program,
                                       std::uint32_t stage);
 
-/// The letters, digits and _ at the end of a text.
+/// The letters, Greek ones included, digits and _ at the end of a text.
 std::string_view last_word(std::string_view text);
 
 }  // namespace cascade

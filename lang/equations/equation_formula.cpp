@@ -2,7 +2,11 @@
 // its depth nor its length matters.
 #include "lang/equations/equation_formula.h"
 
+#include "core/utf8.h"
 #include "lang/equations/equation_marks.h"
+#include "lang/syntax/paper_notation.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -75,7 +79,7 @@ private:
             [&](const auto& node) {
                 using Node = std::decay_t<decltype(node)>;
                 if constexpr (std::is_same_v<Node, ast::Number>) {
-                    text_ += symbols_.number(sources_.text(expression.span));
+                    text_ += symbols_.number(digits(expression.span, node.value));
                 } else if constexpr (std::is_same_v<Node, ast::Text>) {
                     text_ +=
                         both("\"" + node.value + "\"", "\\texttt{" + tex_text(node.value) + "}");
@@ -185,12 +189,20 @@ private:
                        Operand{node.right, factor(node.right, a_power)}},
                       a_product, least);
     }
+    /// A number as its author wrote it.
+    std::string digits(Span span, double value) const {
+        const std::string_view text = sources_.text(span);
+        const bool is_raised = superscript_digit(decode_utf8(text, 0).value).has_value();
+        return is_raised ? fmt::format("{}", value) : std::string(text);
+    }
     void write_power(ast::ExprId base, ast::ExprId exponent, int least) {
         if (tex_) {
             return push_operator({Operand{base, an_atom}, "^{", Operand{exponent, anything}, "}"},
                                  a_power, least);
         }
-        const auto above = superscript(sources_.text(script_.expressions[exponent].span));
+        const std::string_view text = sources_.text(script_.expressions[exponent].span);
+        const bool is_raised = superscript_digit(decode_utf8(text, 0).value).has_value();
+        const auto above = is_raised ? std::string(text) : superscript(text);
         if (above && as<ast::Binary>(exponent) == nullptr) {
             return push_operator({Operand{base, an_atom}, *above}, a_power, least);
         }

@@ -1,6 +1,8 @@
 // Splits a name into stem, digits and subscript; names of Greek letters become those letters.
 #include "lang/equations/equation_symbols.h"
 
+#include "lang/vocabulary/greek_letters.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -12,18 +14,6 @@ namespace {
 struct Letter {
     std::string_view name;
     std::string_view unicode;
-};
-
-/// Names of letters. TeX has commands of the same names for them; Greek letters that it writes as
-/// Latin ones are left out. `epsilon` and `phi` are the forms common in papers.
-constexpr Letter greek[] = {
-    {"alpha", "α"},  {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"}, {"epsilon", "ε"},
-    {"zeta", "ζ"},   {"eta", "η"},   {"theta", "θ"}, {"iota", "ι"},  {"kappa", "κ"},
-    {"lambda", "λ"}, {"mu", "μ"},    {"nu", "ν"},    {"xi", "ξ"},    {"pi", "π"},
-    {"rho", "ρ"},    {"sigma", "σ"}, {"tau", "τ"},   {"phi", "φ"},   {"chi", "χ"},
-    {"psi", "ψ"},    {"omega", "ω"}, {"Gamma", "Γ"}, {"Delta", "Δ"}, {"Theta", "Θ"},
-    {"Lambda", "Λ"}, {"Xi", "Ξ"},    {"Pi", "Π"},    {"Sigma", "Σ"}, {"Phi", "Φ"},
-    {"Psi", "Ψ"},    {"Omega", "Ω"},
 };
 
 constexpr Letter above[] = {
@@ -78,7 +68,8 @@ Parts parts_of(std::string_view name) {
 
 /// A word of letters and digits in TeX's math mode.
 std::string tex_word(std::string_view word) {
-    if (find(greek, word) != nullptr) {
+    // TeX has commands of the same names. `epsilon` and `phi` are the forms common in papers.
+    if (!greek_letter(word).empty() || word == "Delta") {
         const std::string variant = word == "epsilon" || word == "phi" ? "var" : "";
         return "\\" + variant + std::string(word);
     }
@@ -133,8 +124,8 @@ std::string Symbols::name(std::string_view name) const {
         const std::string under = tex_below(parts.below);
         return under.empty() ? stem : stem + "_{" + under + "}";
     }
-    const Letter* const letter = find(greek, parts.stem);
-    const std::string stem(letter ? letter->unicode : parts.stem);
+    const std::string_view letter = greek_letter(parts.stem);
+    const std::string stem(letter.empty() ? parts.stem : letter);
     const auto under = subscript(parts.below);
     if (under && (subscripts || !parts.has_bar)) return stem + *under;
     return stem + (parts.has_bar ? "_" : "") + std::string(parts.below);

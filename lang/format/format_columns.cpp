@@ -30,10 +30,30 @@ struct Column {
     bool was_stretched = false;  ///< One of them had more than one blank before it.
 };
 
+/// Where a column of words goes, from the words before them.
+class Place {
+public:
+    explicit Place(bool respelled) : respelled_(respelled) {}
+
+    /// A word of the column: where the word before it ends, the blanks between them in the source,
+    /// and the blanks that are needed.
+    void add(std::size_t end_before, std::size_t blanks, std::size_t gap) {
+        kept_ = std::min(kept_, end_before + blanks);
+        needed_ = std::max(needed_, end_before + gap);
+        widest_ = std::max(widest_, end_before);
+        fewest_ = std::min(fewest_, blanks);
+    }
+    std::size_t column() const { return std::max(respelled_ ? widest_ + fewest_ : kept_, needed_); }
+
+private:
+    bool respelled_;
+    std::size_t kept_ = none, needed_ = 0, widest_ = 0, fewest_ = none;
+};
+
 class Placer {
 public:
-    Placer(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines)
-        : words_(words), lines_(lines), placed_(lines.size()) {}
+    Placer(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines, bool respelled)
+        : words_(words), lines_(lines), placed_(lines.size()), respelled_(respelled) {}
 
     void run() {
         for (std::size_t begin = 0; begin < lines_.size();) {
@@ -66,15 +86,13 @@ private:
         });
         for (const Column& column : columns) {
             if (!column.was_stretched) continue;
-            std::size_t kept = none, needed = 0;
+            Place place(respelled_);
             for (const auto [line, cell] : column.members) {
                 place_up_to(line, cell);
-                const std::size_t end_before = end_of(line, cell - 1);
-                kept = std::min(kept, end_before + word(line, cell).blanks);
-                needed = std::max(needed, end_before + gap(line, cell));
+                place.add(end_of(line, cell - 1), word(line, cell).blanks, gap(line, cell));
             }
             for (const auto [line, cell] : column.members) {
-                lines_[line].cells[cell].column = std::max(kept, needed);
+                lines_[line].cells[cell].column = place.column();
                 placed_[line] = cell + 1;
             }
         }
@@ -222,15 +240,15 @@ private:
                 first.comment_column = first.indentation;
                 continue;
             }
-            std::size_t end = begin, kept = none, needed = 0;
+            std::size_t end = begin;
+            Place place(respelled_);
             while (end < lines_.size() && is_in_column(begin, end)) {
-                const std::size_t end_before = end_of(end, lines_[end].cells.size() - 1);
-                kept = std::min(kept, end_before + words_[*lines_[end].comment].blanks);
-                needed = std::max(needed, end_before + before_comment);
+                place.add(end_of(end, lines_[end].cells.size() - 1),
+                          words_[*lines_[end].comment].blanks, before_comment);
                 ++end;
             }
             for (std::size_t line = begin; line < end; ++line) {
-                lines_[line].comment_column = std::max(kept, needed);
+                lines_[line].comment_column = place.column();
             }
             begin = end - 1;
         }
@@ -246,6 +264,7 @@ private:
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine>& lines_;
     std::vector<std::size_t> placed_;  ///< By line: the number of cells that are placed.
+    bool respelled_;
     std::vector<Bracket> brackets_;
     std::size_t value_column_ = none;
     std::size_t statement_column_ = 0;
@@ -253,8 +272,9 @@ private:
 
 }  // namespace
 
-void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines) {
-    Placer(words, lines).run();
+void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines,
+                 bool respelled) {
+    Placer(words, lines, respelled).run();
 }
 
 }  // namespace cascade

@@ -28,7 +28,9 @@ struct FormatLine {
 /// Splits words into lines; sets no column but the indentation.
 std::vector<FormatLine> format_lines(const std::vector<FormatWord>& words);
 
-/// Sets the columns of all cells and comments.
-void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines);
+/// Sets the columns of all cells and comments. Words that are spelled in another way than in the
+/// source (`respelled`) keep their distance from the widest words before their column.
+void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines,
+                 bool respelled);
 
 }  // namespace cascade

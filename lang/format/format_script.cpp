@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "lang/format/format_lines.h"
+#include "lang/format/format_notation.h"
 #include "lang/syntax/parse.h"
 
 #include <algorithm>
@@ -39,7 +40,9 @@ bool same_words(const std::vector<FormatWord>& before, const std::vector<FormatW
         left = std::find_if(left, before.end(), is_written);
         right = std::find_if(right, after.end(), is_written);
         if (left == before.end() || right == after.end()) break;
-        if (left->kind != right->kind || left->text != right->text) return false;
+        const bool are_comments = left->is_comment() && right->is_comment();
+        if (left->kind != right->kind || left->spelling != right->spelling) return false;
+        if (are_comments && left->text != right->text) return false;
         ++left;
         ++right;
     }
@@ -49,18 +52,19 @@ bool same_words(const std::vector<FormatWord>& before, const std::vector<FormatW
 }  // namespace
 
 std::optional<std::string> format_script(SourceId source, const Sources& sources,
-                                         Diagnostics& diagnostics) {
+                                         Diagnostics& diagnostics, ScriptNotation notation) {
     const std::size_t errors_before = diagnostics.error_count();
     parse(source, sources, diagnostics);
     if (diagnostics.error_count() > errors_before) return std::nullopt;
-    const std::vector<FormatWord> words = format_words(source, sources);
+    const std::vector<FormatWord> all_words = format_words(source, sources);
+    const std::vector<FormatWord> words = written_words(all_words, notation);
     std::vector<FormatLine> lines = format_lines(words);
-    place_words(words, lines);
+    place_words(words, lines, notation != ScriptNotation::as_written);
     std::string text = write_lines(words, lines);
 
     Sources formatted;
     const SourceId copy = formatted.add("formatted", text);
-    CHECK(same_words(words, format_words(copy, formatted)), "formatting keeps every word");
+    CHECK(same_words(all_words, format_words(copy, formatted)), "formatting keeps every word");
     return text;
 }
 

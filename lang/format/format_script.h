@@ -17,10 +17,15 @@ namespace cascade {
 /// Width beyond which a block or several statements on one line are split into lines.
 inline constexpr std::size_t widest_script_line = 100;
 
+/// How a formatted script is spelled: as its author wrote it, in ASCII alone, or in the notation of
+/// papers where there is one (∂u/∂t = D ∇²u + u²v).
+enum class ScriptNotation { as_written, ascii, papers };
+
 /// The script in the canonical style. Formatting the result again changes nothing. Empty if the
 /// script has syntax errors, which are then in `diagnostics`. Other errors, such as an unknown
 /// name, do not matter.
 std::optional<std::string> format_script(SourceId source, const Sources& sources,
-                                         Diagnostics& diagnostics);
+                                         Diagnostics& diagnostics,
+                                         ScriptNotation notation = ScriptNotation::as_written);
 
 }  // namespace cascade

@@ -2,6 +2,7 @@
 #include "lang/format/format_words.h"
 
 #include "core/utf8.h"
+#include "lang/syntax/paper_notation.h"
 
 #include <algorithm>
 
@@ -21,6 +22,7 @@ public:
     void add_token(const Token& token) {
         pass_over_gap(token.span.begin);
         add(token.kind, text_.substr(token.span.begin, token.span.end - token.span.begin));
+        words_.back().spelling = token.text;
     }
     /// Skips line breaks and blanks, and adds the comments up to `end`.
     void pass_over_gap(std::size_t end) {
@@ -82,7 +84,8 @@ bool ends_operand(TokenKind kind) {
 /// True for operators that may have blanks around them or not, to show what belongs together: `a*b
 /// + 1/8`, `1..n`.
 bool is_author_spaced(const FormatWord& word) {
-    return word.kind == TokenKind::star || word.kind == TokenKind::slash || word.text == "..";
+    return word.kind == TokenKind::star || word.kind == TokenKind::slash ||
+           word.kind == TokenKind::dots;
 }
 
 bool is_apart(const FormatWord& word) { return word.blanks > 0 || word.breaks > 0; }
@@ -98,7 +101,7 @@ void find_roles(std::vector<FormatWord>& words) {
         const bool follows_operand = before != nullptr && ends_operand(before->kind);
         word.is_sign = word.kind == TokenKind::minus && !follows_operand;
         word.is_infix = follows_operand && word.kind == TokenKind::name &&
-                        (word.text == "over" || word.text == "in" || word.text == "step");
+                        is_word_between_operands(word.spelling);
         if (is_author_spaced(word)) {
             word.is_spaced = is_apart(word);
             waiting = &word;
@@ -135,6 +138,7 @@ std::vector<FormatWord> format_words(SourceId source, const Sources& sources) {
 
 std::size_t blanks_between(const FormatWord& left, const FormatWord& right) {
     using Kind = TokenKind;
+    if (right.gap) return *right.gap;
     if (left.is_sign) return right.is_sign ? 1 : 0;  // `--` is not an operator.
     switch (right.kind) {
         case Kind::comma:
@@ -159,8 +163,8 @@ std::size_t blanks_between(const FormatWord& left, const FormatWord& right) {
         case Kind::slash: return left.is_spaced ? 1 : 0;
         default: break;
     }
-    if (right.text == "..") return right.is_spaced ? 1 : 0;
-    if (left.text == "..") return left.is_spaced ? 1 : 0;
+    if (right.kind == Kind::dots) return right.is_spaced ? 1 : 0;
+    if (left.kind == Kind::dots) return left.is_spaced ? 1 : 0;
     if (right.kind == Kind::open_round) return left.kind == Kind::name && !left.is_infix ? 0 : 1;
     if (right.kind == Kind::open_square && left.kind == Kind::name) {
         return is_apart(right) ? 1 : 0;  // u[i] is a member of a family.

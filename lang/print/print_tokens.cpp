@@ -62,7 +62,7 @@ std::string print_tokens(const std::vector<Token>& tokens, const Sources& source
         last_offset = token.span.begin;
         result += fmt::format("{}:{} {}", last.line, last.column, spelling(token.kind));
         if (has_own_text(token.kind)) {
-            std::string_view text = sources.text(token.span);
+            std::string_view text = token.text;
             if (token.kind == TokenKind::text) text = text.substr(1, text.size() - 2);
             result += " " + escaped(text);
         }

@@ -90,7 +90,7 @@ ExpressionParser::Progress ExpressionParser::read_name() {
     const Token token = cursor_.take();
     const ast::Word name = cursor_.word(token);
     if (cursor_.at(TokenKind::open_round)) {
-        push_bracket(PendingKind::call, cursor_.take(), token.span);
+        push_bracket(PendingKind::call, cursor_.take(), name);
         return Progress::going_on;
     }
     if (cursor_.at(TokenKind::prime)) {
@@ -158,7 +158,7 @@ ExpressionParser::Progress ExpressionParser::read_own_member() {
     const Token outer = cursor_.previous();
     const Token name = cursor_.take();
     push_operand(join(outer.span, name.span), ast::Bracketed{cursor_.word(name)});
-    push_bracket(PendingKind::index, cursor_.take(), outer.span);
+    push_bracket(PendingKind::index, cursor_.take(), {outer.span, {}});
     pending_.back().is_own = true;
     return Progress::going_on;
 }

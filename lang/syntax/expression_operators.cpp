@@ -95,7 +95,7 @@ ExpressionParser::Progress ExpressionParser::close_index() {
     if (open.is_own) {
         cursor_.skip_newlines();
         if (!cursor_.at(TokenKind::close_square)) {
-            return fail(open.detail, "this '[' is never closed",
+            return fail(open.detail.span, "this '[' is never closed",
                         "the member of a family in this stage is written [u[i]]");
         }
         whole = join(whole, cursor_.take().span);
@@ -130,7 +130,7 @@ ExpressionParser::Progress ExpressionParser::read_over() {
     }
     const ast::Word index = cursor_.word(cursor_.take());
     if (index.text == "near" && cursor_.at(TokenKind::open_round)) {
-        push_bracket(PendingKind::near, cursor_.take(), index.span);
+        push_bracket(PendingKind::near, cursor_.take(), index);
         return Progress::going_on;
     }
     return close_over(index, std::nullopt);
@@ -139,7 +139,7 @@ ExpressionParser::Progress ExpressionParser::read_over() {
 /// The cursor is at the bracket that closes near(d), and the distance is complete.
 ExpressionParser::Progress ExpressionParser::close_near() {
     cursor_.take();
-    const ast::Word near{pending_.back().detail, cursor_.text(pending_.back().detail)};
+    const ast::Word near = pending_.back().detail;
     pending_.pop_back();
     --open_brackets_;
     const ast::ExprId distance = operands_.back().id;
@@ -159,13 +159,12 @@ ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
                     form_of_over);
     }
     const Token close = cursor_.take();
-    const Span name = pending_.back().detail;
+    const ast::Word name = pending_.back().detail;
     pending_.pop_back();
     --open_brackets_;
     const Operand operand = operands_.back();
     operands_.pop_back();
-    push_operand(join(name, close.span),
-                 ast::Over{{name, cursor_.text(name)}, operand.id, over, distance});
+    push_operand(join(name.span, close.span), ast::Over{name, operand.id, over, distance});
     return Progress::going_on;
 }
 
@@ -206,8 +205,7 @@ ExpressionParser::Progress ExpressionParser::read_close_round() {
     const auto first = static_cast<std::uint32_t>(script_.arguments.size());
     script_.arguments.insert(script_.arguments.end(), arguments_.end() - count, arguments_.end());
     arguments_.resize(arguments_.size() - count);
-    push_operand(join(open.detail, close.span),
-                 ast::Call{{open.detail, cursor_.text(open.detail)}, first, count});
+    push_operand(join(open.detail.span, close.span), ast::Call{open.detail, first, count});
     return Progress::going_on;
 }
 
@@ -282,7 +280,8 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         hint = "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1";
     } else if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
         hint = fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
-        if (here.kind == TokenKind::open_round) hint = "write '*' to multiply";
+        const bool is_as_written = cursor_.text(before) == cursor_.text(before.span);
+        if (here.kind == TokenKind::open_round || !is_as_written) hint = "write '*' to multiply";
     }
     return fail(here.span, "an operator is missing before " + cursor_.describe(here), hint);
 }

@@ -36,7 +36,7 @@ void ExpressionParser::push_operand(Span span, decltype(ast::Expr::node) node) {
     expects_operand_ = false;
 }
 
-void ExpressionParser::push_bracket(PendingKind kind, Token bracket, Span name) {
+void ExpressionParser::push_bracket(PendingKind kind, Token bracket, ast::Word name) {
     Pending open;
     open.kind = kind;
     open.token = bracket;
@@ -57,7 +57,7 @@ void ExpressionParser::push_binary(Function op) {
                              pending_.back().precedence() == pending.precedence();
     if (meets_equal && is_comparison(op)) {
         pending.chain = pending_.back().chain == Chain::none ? Chain::to_report : Chain::reported;
-        pending.detail = operands_.back().outer;
+        pending.detail.span = operands_.back().outer;
     }
     if (meets_equal && op != Function::power) reduce();
     pending_.push_back(pending);
@@ -97,7 +97,7 @@ void ExpressionParser::report_chain(const Pending& comparison, const Operand& le
     const std::string_view text = cursor_.text(whole);
     if (text.size() <= longest && text.find_first_of("\r\n#") == std::string_view::npos) {
         hint = fmt::format("write '{} and {} {} {}'", cursor_.text(left.outer),
-                           cursor_.text(comparison.detail), cursor_.text(comparison.token),
+                           cursor_.text(comparison.detail.span), cursor_.text(comparison.token),
                            cursor_.text(right.outer));
     }
     cursor_.error(whole, "comparisons do not chain", hint);

@@ -41,7 +41,7 @@ private:
         Chain chain = Chain::none;
         Function op{};
         Token token;                       ///< The operator or the bracket.
-        Span detail;                       ///< Name of a call or `near`; middle operand of a chain.
+        ast::Word detail;                  ///< Name of a call or `near`; middle operand of a chain.
         std::uint32_t argument_count = 0;  ///< Of a call: complete arguments so far.
         bool is_own = false;               ///< Of an index: the inner bracket of [u[i]].
         int precedence() const { return info(op).precedence; }
@@ -80,7 +80,7 @@ private:
     Progress fail_silently();
 
     void push_operand(Span span, decltype(ast::Expr::node) node);
-    void push_bracket(PendingKind kind, Token bracket, Span name);
+    void push_bracket(PendingKind kind, Token bracket, ast::Word name);
     void push_binary(Function op);
     void reduce_above(int precedence);
     void reduce();

@@ -1,9 +1,12 @@
 // The lexer: one pass over the bytes of a source.
 #include "core/utf8.h"
+#include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/look_alikes.h"
 #include "lang/syntax/operator_spellings.h"
+#include "lang/syntax/paper_notation.h"
 #include "lang/syntax/token.h"
 #include "lang/syntax/unreadable_bytes.h"
+#include "lang/vocabulary/greek_letters.h"
 
 #include <fmt/core.h>
 
@@ -49,6 +52,12 @@ std::optional<std::string> hint_of_other_number(std::string_view word) {
     return std::nullopt;
 }
 
+/// A letter or digit of a name, and how it is spelled in ASCII.
+struct NamePart {
+    std::uint32_t size = 0;  ///< Bytes in the text.
+    std::string_view spelling;
+};
+
 class Lexer {
 public:
     Lexer(SourceId source, const Sources& sources, Diagnostics& diagnostics,
@@ -69,7 +78,8 @@ public:
         }
         const auto end = static_cast<std::uint32_t>(text_.size());
         tokens_.push_back({TokenKind::end_of_text, {source_, end, end}});
-        return std::move(tokens_);
+        if (!has_signs_of_papers_) return std::move(tokens_);
+        return without_paper_notation(tokens_, text_, diagnostics_);
     }
 
 private:
@@ -79,11 +89,16 @@ private:
     }
     /// Adds the token [begin, end) and continues at `end`.
     void push(TokenKind kind, std::size_t begin, std::size_t end) {
-        tokens_.push_back({kind, span(begin, end)});
+        push(kind, begin, end, text_.substr(begin, end - begin));
+    }
+    void push(TokenKind kind, std::size_t begin, std::size_t end, std::string_view text) {
+        tokens_.push_back({kind, span(begin, end), text});
         offset_ = end;
     }
 
+    bool begins_operator(std::size_t offset) const;
     bool joins_a_name(std::size_t offset) const;
+    NamePart name_part(std::size_t offset) const;
 
     void read_token();
     void read_line_end();
@@ -96,6 +111,7 @@ private:
     void read_bad_name(std::size_t begin);
     void read_number();
     void read_text(std::size_t quote_size, std::string_view closing);
+    bool read_superscript();
     bool read_operator();
     bool read_foreign(const ForeignOperator& foreign);
     void read_look_alike(const LookAlike& look_alike);
@@ -107,13 +123,35 @@ private:
     std::vector<Span>* docs_;
     std::vector<Token> tokens_;
     std::size_t offset_ = 0;
+    bool has_signs_of_papers_ = false;  ///< Among the tokens, besides operators and letters.
 };
+
+bool Lexer::begins_operator(std::size_t offset) const {
+    const std::string_view rest = text_.substr(offset);
+    return std::any_of(std::begin(operators), std::end(operators),
+                       [&](const Operator& known) { return rest.starts_with(known.spelling); });
+}
 
 /// True if the character at `offset` is not ASCII but would be taken for a letter of the name.
 bool Lexer::joins_a_name(std::size_t offset) const {
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return false;
     const CodePoint point = decode_utf8(text_, offset);
-    return point.valid && !is_unprintable(point.value) && !find_look_alike(point.value);
+    return point.valid && !is_unprintable(point.value) && !find_look_alike(point.value) &&
+           !superscript_digit(point.value) && !begins_operator(offset);
+}
+
+/// The letter or digit of a name at `offset`; of size 0 if there is none.
+NamePart Lexer::name_part(std::size_t offset) const {
+    if (is_name_part(at(offset))) return {1, text_.substr(offset, 1)};
+    if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return {};
+    const CodePoint point = decode_utf8(text_, offset);
+    if (!point.valid) return {};
+    if (const auto digit = subscript_digit(point.value)) {
+        const auto at = static_cast<std::size_t>(*digit - '0');
+        return {point.size, std::string_view("0123456789").substr(at, 1)};
+    }
+    const std::string_view spelling = greek_spelling(point.value);
+    return {spelling.empty() ? 0 : point.size, spelling};
 }
 
 void Lexer::read_token() {
@@ -167,9 +205,14 @@ void Lexer::skip_foreign_comment() {
 
 void Lexer::read_name() {
     std::size_t end = offset_;
-    while (is_name_part(at(end))) ++end;
+    std::string spelling;
+    for (NamePart part = name_part(end); part.size > 0; part = name_part(end)) {
+        spelling += part.spelling;
+        end += part.size;
+    }
     if (joins_a_name(end)) return read_bad_name(offset_);
     const std::string_view name = text_.substr(offset_, end - offset_);
+    if (name != spelling) return push(TokenKind::name, offset_, end, kept_spelling(spelling));
     TokenKind kind = TokenKind::name;
     if (name == "and") kind = TokenKind::keyword_and;
     if (name == "or") kind = TokenKind::keyword_or;
@@ -180,38 +223,38 @@ void Lexer::read_name() {
 /// Reports a name with letters of another alphabet.
 void Lexer::read_bad_name(std::size_t begin) {
     std::string latin, first_wrong;
-    bool has_spelling = true;
+    bool has_spelling = true, is_marked = false, is_dotted = false;
     std::size_t end = begin;
-    while (is_name_part(at(end)) || joins_a_name(end)) {
+    while (true) {
+        const NamePart part = name_part(end);
+        if (part.size == 0 && !joins_a_name(end)) break;
+        if (part.size > 0) {
+            latin += part.spelling;
+            end += part.size;
+            continue;
+        }
         const CodePoint point = decode_utf8(text_, end);
         const std::string_view letter = text_.substr(end, point.size);
         end += point.size;
-        if (point.value < 0x80) {
-            latin += letter;
-            continue;
-        }
+        const bool is_mark = display_width(point.value) == 0;
         if (first_wrong.empty()) {
-            first_wrong =
-                fmt::format("'{}' (U+{:04X})", letter, static_cast<std::uint32_t>(point.value));
+            const auto number = static_cast<std::uint32_t>(point.value);
+            first_wrong = is_mark ? fmt::format("the mark U+{:04X} above or below a letter", number)
+                                  : fmt::format("'{}' (U+{:04X})", letter, number);
+            is_marked = is_mark;
+            is_dotted = point.value == U'\u0307';
         }
+        if (is_mark) continue;
         has_spelling = has_spelling && !latin_spelling(point.value).empty();
         latin += latin_spelling(point.value);
     }
     has_spelling = has_spelling && end - begin <= 64;
-    std::string hint =
-        has_spelling ? "write '" + latin + "'" : "names are of a to z, A to Z, 0 to 9 and _";
-    const CodePoint first = decode_utf8(text_, begin);
-    const std::string_view sign = latin_spelling(first.value);
-    if (has_spelling && (sign == "lap" || sign == "grad")) {
-        // ∇² is one operator. The operand belongs in brackets.
-        const bool is_square =
-            sign == "grad" && decode_utf8(text_, begin + first.size).value == U'²';
-        if (is_square) end = begin + first.size + decode_utf8(text_, begin + first.size).size;
-        const std::string operand = latin.substr(sign.size());
-        hint = fmt::format("write '{}({})'", is_square ? "lap" : sign,
-                           operand.empty() ? "…" : operand);
-    }
-    diagnostics_.error(span(begin, end), first_wrong + " is not a letter of a name",
+    std::string hint = has_spelling ? "write '" + latin + "'"
+                                    : "names are of a to z, A to Z, 0 to 9, Greek letters and _";
+    if (has_spelling && is_dotted) hint = "write " + latin + "' for a rate";
+    diagnostics_.error(span(begin, end),
+                       first_wrong +
+                           (is_marked ? " is no part of a name" : " is not a letter of a name"),
                        std::move(hint));
     push(TokenKind::garbage, begin, end);
 }
@@ -230,11 +273,13 @@ void Lexer::read_number() {
         }
     }
     const std::size_t number_end = end;
-    while (is_name_part(at(end)) || (at(end) == '.' && is_digit(at(end + 1)))) ++end;
+    while (name_part(end).size > 0 || (at(end) == '.' && is_digit(at(end + 1)))) {
+        end += std::max(name_part(end).size, 1u);
+    }
     if (end == number_end) return push(TokenKind::number, begin, end);
     const std::string_view tail = text_.substr(number_end, end - number_end);
     std::string hint;
-    if (is_name_start(tail[0]) && tail[0] != '_' && end - begin <= 64) {
+    if (!is_digit(tail[0]) && tail[0] != '_' && tail[0] != '.' && end - begin <= 64) {
         hint = fmt::format("write '{} * {}'", text_.substr(begin, number_end - begin), tail);
     }
     if (tail == "e" || tail == "E") hint = "an exponent has digits, as in 1e-3";
@@ -266,6 +311,20 @@ void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     push(TokenKind::garbage, begin, end);
 }
 
+/// A run of raised digits, which may begin with a raised minus.
+bool Lexer::read_superscript() {
+    std::size_t end = offset_;
+    while (end < text_.size()) {
+        const CodePoint point = decode_utf8(text_, end);
+        if (!superscript_digit(point.value) || (end > offset_ && point.value == U'⁻')) break;
+        end += point.size;
+    }
+    if (end == offset_) return false;
+    push(TokenKind::superscript, offset_, end);
+    has_signs_of_papers_ = true;
+    return true;
+}
+
 bool Lexer::read_operator() {
     const std::string_view rest = text_.substr(offset_);
     for (const ForeignOperator& foreign : foreign_operators) {
@@ -273,7 +332,8 @@ bool Lexer::read_operator() {
     }
     for (const Operator& known : operators) {
         if (rest.starts_with(known.spelling)) {
-            push(known.kind, offset_, offset_ + known.spelling.size());
+            push(known.kind, offset_, offset_ + known.spelling.size(), spelling(known.kind));
+            has_signs_of_papers_ = has_signs_of_papers_ || is_sign_of_papers(known.kind);
             return true;
         }
     }
@@ -326,6 +386,8 @@ void Lexer::read_other() {
     while (end < text_.size() && is_unreadable(text_, end)) ++end;
     if (end > begin) return push(TokenKind::garbage, begin, end);  // Reported already.
     const CodePoint point = decode_utf8(text_, begin);
+    if (!greek_spelling(point.value).empty()) return read_name();
+    if (read_superscript()) return;
     if (const LookAlike* look_alike = find_look_alike(point.value)) {
         return read_look_alike(*look_alike);
     }

@@ -13,33 +13,30 @@ using Kind = TokenKind;
 // clang-format off
 constexpr LookAlike look_alikes[] = {
     // Primes: typographic quotation marks, accents, the mathematical prime.
-    {U'\u2018', Kind::prime, "'"}, {U'\u2019', Kind::prime, "'"}, {U'\u2032', Kind::prime, "'"},
+    {U'\u2018', Kind::prime, "'"}, {U'\u2019', Kind::prime, "'"},
     {U'\u00b4', Kind::prime, "'"}, {U'\u02b9', Kind::prime, "'"}, {U'\uff07', Kind::prime, "'"},
     // Quotation marks.
     {U'\u201c', Kind::text, "\""}, {U'\u201d', Kind::text, "\""}, {U'\u201e', Kind::text, "\""},
     {U'\u00ab', Kind::text, "\""}, {U'\u00bb', Kind::text, "\""}, {U'\uff02', Kind::text, "\""},
     // Hyphens, dashes and the minus sign.
     {U'\u2010', Kind::minus, "-"}, {U'\u2011', Kind::minus, "-"}, {U'\u2012', Kind::minus, "-"},
-    {U'\u2013', Kind::minus, "-"}, {U'\u2014', Kind::minus, "-"}, {U'\u2212', Kind::minus, "-"},
-    {U'\uff0d', Kind::minus, "-"},
+    {U'\u2013', Kind::minus, "-"}, {U'\u2014', Kind::minus, "-"}, {U'\uff0d', Kind::minus, "-"},
     // Multiplication and division signs.
-    {U'\u00d7', Kind::star, "*"},  {U'\u00b7', Kind::star, "*"},  {U'\u2217', Kind::star, "*"},
-    {U'\u22c5', Kind::star, "*"},  {U'\u2022', Kind::star, "*"},  {U'\uff0a', Kind::star, "*"},
+    {U'\u2217', Kind::star, "*"},  {U'\u2022', Kind::star, "*"},  {U'\uff0a', Kind::star, "*"},
     {U'\u00f7', Kind::slash, "/"}, {U'\u2044', Kind::slash, "/"}, {U'\u2215', Kind::slash, "/"},
     {U'\uff0f', Kind::slash, "/"}, {U'\uff0b', Kind::plus, "+"},  {U'\u02c6', Kind::caret, "^"},
-    // Comparisons and logic.
-    {U'\u2264', Kind::less_equal, "<="},    {U'\u2265', Kind::greater_equal, ">="},
-    {U'\u2260', Kind::not_equal, "!="},     {U'\uff1c', Kind::less, "<"},
-    {U'\uff1e', Kind::greater, ">"},        {U'\u2227', Kind::keyword_and, "and"},
-    {U'\u2228', Kind::keyword_or, "or"},    {U'\u00ac', Kind::keyword_not, "not"},
+    // Comparisons.
+    {U'\uff1c', Kind::less, "<"},           {U'\uff1e', Kind::greater, ">"},
     // Full-width punctuation.
     {U'\uff08', Kind::open_round, "("},     {U'\uff09', Kind::close_round, ")"},
     {U'\uff3b', Kind::open_square, "["},    {U'\uff3d', Kind::close_square, "]"},
     {U'\uff5b', Kind::open_curly, "{"},     {U'\uff5d', Kind::close_curly, "}"},
     {U'\uff0c', Kind::comma, ","},          {U'\uff1a', Kind::colon, ":"},
     {U'\uff1b', Kind::semicolon, ";"},      {U'\uff1d', Kind::assign, "="},
-    // Superscripts.
-    {U'\u00b2', Kind::garbage, "^2"},       {U'\u00b3', Kind::garbage, "^3"},
+    // Sums and products over indices.
+    {U'\u2211', Kind::garbage, "sum(… over i)"},
+    // Superscripts that are letters.
+    {U'\u207f', Kind::garbage, "^n"},       {U'\u2071', Kind::garbage, "^i"},
     // Blanks.
     {U'\u00a0', Kind::newline, " "}, {U'\u2002', Kind::newline, " "},
     {U'\u2003', Kind::newline, " "}, {U'\u2007', Kind::newline, " "},
@@ -57,16 +54,39 @@ struct Letter {
 
 // clang-format off
 constexpr Letter letters[] = {
-    {U'α', "alpha"},  {U'β', "beta"},    {U'γ', "gamma"}, {U'δ', "delta"},  {U'ε', "epsilon"},
-    {U'ζ', "zeta"},   {U'η', "eta"},     {U'θ', "theta"}, {U'κ', "kappa"},  {U'λ', "lambda"},
-    {U'μ', "mu"},     {U'µ', "mu"},      {U'ν', "nu"},    {U'ξ', "xi"},     {U'π', "pi"},
-    {U'ρ', "rho"},    {U'σ', "sigma"},   {U'τ', "tau"},   {U'φ', "phi"},    {U'χ', "chi"},
-    {U'ψ', "psi"},    {U'ω', "omega"},   {U'∆', "lap"},   {U'Δ', "lap"},    {U'∇', "grad"},
     // Cyrillic letters that look like Latin ones.
     {U'а', "a"}, {U'е', "e"}, {U'о', "o"}, {U'р', "p"}, {U'с', "c"}, {U'у', "y"}, {U'х', "x"},
     {U'і', "i"}, {U'ѕ', "s"}, {U'ј', "j"},
+    // Greek letters that look like Latin ones.
+    {U'ο', "o"}, {U'Α', "A"}, {U'Β', "B"}, {U'Ε', "E"}, {U'Ζ', "Z"}, {U'Η', "H"}, {U'Ι', "I"},
+    {U'Κ', "K"}, {U'Μ', "M"}, {U'Ν', "N"}, {U'Ο', "O"}, {U'Ρ', "P"}, {U'Τ', "T"}, {U'Υ', "Y"},
+    {U'Χ', "X"}, {U'ς', "sigma"}, {U'\u212a', "K"}, {U'ℓ', "l"}, {U'ħ', "h"}, {U'ℏ', "h"},
+    {U'ℎ', "h"},
 };
 // clang-format on
+
+/// The Greek alphabet in the order of the mathematical styles, after the capitals.
+constexpr std::string_view greek_of_styles[] = {"alpha",   "beta", "gamma", "delta", "epsilon",
+                                                "zeta",    "eta",  "theta", "iota",  "kappa",
+                                                "lambda",  "mu",   "nu",    "xi",    "o",
+                                                "pi",      "rho",  "sigma", "sigma", "tau",
+                                                "upsilon", "phi",  "chi",   "psi",   "omega"};
+
+/// The spelling of a letter in one of Unicode's mathematical styles (U+1D400 to U+1D7CB), such as
+/// the italic u of formulas copied from a PDF.
+std::string_view styled_spelling(char32_t code_point) {
+    static constexpr std::string_view latin =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    constexpr char32_t first_latin = 0x1d400, last_latin = 0x1d6a3;
+    constexpr char32_t first_greek = 0x1d6a8, last_greek = 0x1d7cb, greek_size = 58, capitals = 26;
+    if (code_point >= first_latin && code_point <= last_latin) {
+        return latin.substr((code_point - first_latin) % latin.size(), 1);
+    }
+    if (code_point < first_greek || code_point > last_greek) return {};
+    const std::size_t letter = (code_point - first_greek) % greek_size;
+    if (letter < capitals || letter - capitals >= std::size(greek_of_styles)) return {};
+    return greek_of_styles[letter - capitals];
+}
 
 }  // namespace
 
@@ -81,7 +101,7 @@ std::string_view latin_spelling(char32_t code_point) {
     const auto found = std::find_if(std::begin(letters), std::end(letters), [&](const Letter& row) {
         return row.code_point == code_point;
     });
-    return found == std::end(letters) ? std::string_view() : found->spelling;
+    return found == std::end(letters) ? styled_spelling(code_point) : found->spelling;
 }
 
 }  // namespace cascade

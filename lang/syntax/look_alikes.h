@@ -18,8 +18,8 @@ struct LookAlike {
 /// The table's row for a code point; null if there is none.
 const LookAlike* find_look_alike(char32_t code_point);
 
-/// What to write for a letter of another alphabet: `beta` for β, `a` for a Cyrillic а. Empty if
-/// there is nothing.
+/// What to write for a letter that no name has: `a` for a Cyrillic а, `u` for a mathematical
+/// italic u. Empty if there is nothing.
 std::string_view latin_spelling(char32_t code_point);
 
 }  // namespace cascade

@@ -63,7 +63,7 @@ std::vector<std::string_view> words_without_pictures(const ParsedText& parsed) {
         const bool is_break = token.kind == TokenKind::newline;
         if (is_of_picture || (is_break && is_after_break)) continue;
         is_after_break = is_break;
-        words.push_back(is_break ? "\n" : parsed.sources.text(token.span));
+        words.push_back(is_break ? "\n" : token.text);
     }
     while (!words.empty() && (words.back() == "\n" || words.back().empty())) words.pop_back();
     return words;

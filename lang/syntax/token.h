@@ -13,41 +13,47 @@
 namespace cascade {
 
 /// CASCADE_TOKEN(name, spelling): messages and `--dump tokens` use the spelling.
-#define CASCADE_TOKENS(CASCADE_TOKEN)               \
-    CASCADE_TOKEN(end_of_text, "end of text")       \
-    CASCADE_TOKEN(newline, "line end")              \
-    CASCADE_TOKEN(name, "name")                     \
-    CASCADE_TOKEN(number, "number")                 \
-    CASCADE_TOKEN(text, "text in quotes")           \
-    CASCADE_TOKEN(garbage, "unreadable characters") \
-    CASCADE_TOKEN(keyword_and, "and")               \
-    CASCADE_TOKEN(keyword_or, "or")                 \
-    CASCADE_TOKEN(keyword_not, "not")               \
-    CASCADE_TOKEN(colon, ":")                       \
-    CASCADE_TOKEN(semicolon, ";")                   \
-    CASCADE_TOKEN(comma, ",")                       \
-    CASCADE_TOKEN(dot, ".")                         \
-    CASCADE_TOKEN(dots, "..")                       \
-    CASCADE_TOKEN(prime, "'")                       \
-    CASCADE_TOKEN(open_round, "(")                  \
-    CASCADE_TOKEN(close_round, ")")                 \
-    CASCADE_TOKEN(open_square, "[")                 \
-    CASCADE_TOKEN(close_square, "]")                \
-    CASCADE_TOKEN(open_curly, "{")                  \
-    CASCADE_TOKEN(close_curly, "}")                 \
-    CASCADE_TOKEN(assign, "=")                      \
-    CASCADE_TOKEN(plus_assign, "+=")                \
-    CASCADE_TOKEN(equal, "==")                      \
-    CASCADE_TOKEN(not_equal, "!=")                  \
-    CASCADE_TOKEN(less, "<")                        \
-    CASCADE_TOKEN(less_equal, "<=")                 \
-    CASCADE_TOKEN(greater, ">")                     \
-    CASCADE_TOKEN(greater_equal, ">=")              \
-    CASCADE_TOKEN(plus, "+")                        \
-    CASCADE_TOKEN(minus, "-")                       \
-    CASCADE_TOKEN(star, "*")                        \
-    CASCADE_TOKEN(slash, "/")                       \
-    CASCADE_TOKEN(caret, "^")
+#define CASCADE_TOKENS(CASCADE_TOKEN)                                              \
+    CASCADE_TOKEN(end_of_text, "end of text")                                      \
+    CASCADE_TOKEN(newline, "line end")                                             \
+    CASCADE_TOKEN(name, "name")                                                    \
+    CASCADE_TOKEN(number, "number")                                                \
+    CASCADE_TOKEN(text, "text in quotes")                                          \
+    CASCADE_TOKEN(garbage, "unreadable characters")                                \
+    CASCADE_TOKEN(keyword_and, "and")                                              \
+    CASCADE_TOKEN(keyword_or, "or")                                                \
+    CASCADE_TOKEN(keyword_not, "not")                                              \
+    CASCADE_TOKEN(colon, ":")                                                      \
+    CASCADE_TOKEN(semicolon, ";")                                                  \
+    CASCADE_TOKEN(comma, ",")                                                      \
+    CASCADE_TOKEN(dot, ".")                                                        \
+    CASCADE_TOKEN(dots, "..")                                                      \
+    CASCADE_TOKEN(prime, "'")                                                      \
+    CASCADE_TOKEN(open_round, "(")                                                 \
+    CASCADE_TOKEN(close_round, ")")                                                \
+    CASCADE_TOKEN(open_square, "[")                                                \
+    CASCADE_TOKEN(close_square, "]")                                               \
+    CASCADE_TOKEN(open_curly, "{")                                                 \
+    CASCADE_TOKEN(close_curly, "}")                                                \
+    CASCADE_TOKEN(assign, "=")                                                     \
+    CASCADE_TOKEN(plus_assign, "+=")                                               \
+    CASCADE_TOKEN(equal, "==")                                                     \
+    CASCADE_TOKEN(not_equal, "!=")                                                 \
+    CASCADE_TOKEN(less, "<")                                                       \
+    CASCADE_TOKEN(less_equal, "<=")                                                \
+    CASCADE_TOKEN(greater, ">")                                                    \
+    CASCADE_TOKEN(greater_equal, ">=")                                             \
+    CASCADE_TOKEN(plus, "+")                                                       \
+    CASCADE_TOKEN(minus, "-")                                                      \
+    CASCADE_TOKEN(star, "*")                                                       \
+    CASCADE_TOKEN(slash, "/")                                                      \
+    CASCADE_TOKEN(caret, "^")                                                      \
+    /* Signs of papers, which paper_notation.h takes apart: lex() returns none. */ \
+    CASCADE_TOKEN(nabla, "∇")                                                      \
+    CASCADE_TOKEN(laplacian, "Δ")                                                  \
+    CASCADE_TOKEN(partial, "∂")                                                    \
+    CASCADE_TOKEN(root, "√")                                                       \
+    CASCADE_TOKEN(superscript, "superscript")
 
 enum class TokenKind : std::uint8_t {
 #define CASCADE_TOKEN(name, spelling) name,
@@ -59,7 +65,12 @@ std::string_view spelling(TokenKind kind);
 
 struct Token {
     TokenKind kind = TokenKind::end_of_text;
+    /// Its place in the source. Empty for a token that the notation of papers leaves out, such as
+    /// the `*` of `D ∇²u`.
     Span span;
+    /// Its spelling in ASCII, as the parser reads it: `beta` of β, `lap` of ∇². A view into the
+    /// source or into memory that lives as long as the process.
+    std::string_view text = {};
 };
 
 /// The most tokens of a script, which bounds the memory of later passes; a longer one is refused
@@ -67,11 +78,12 @@ struct Token {
 inline constexpr std::size_t most_tokens = 1u << 22;
 
 /// Splits a source into tokens; the last one is end_of_text. A line break is a token (several in a
-/// row are one); comments and blanks are not. Bad input (a stray character, invalid UTF-8, NUL, an
-/// unclosed string, a look-alike such as ’ − × ·) is reported once per run of characters and yields
-/// `garbage`, or for a look-alike the token that was meant, so that one mistake gives one message.
-/// The places of doc comments (`## text`; `###` begins an ordinary one) are added to `docs` if it
-/// is given.
+/// row are one); comments and blanks are not. What is written in the notation of papers becomes the
+/// tokens that mean the same (paper_notation.h). Bad input (a stray character, invalid UTF-8, NUL,
+/// an unclosed string, a look-alike such as ’ – ÷) is reported once per run of characters and
+/// yields `garbage`, or for a look-alike the token that was meant, so that one mistake gives one
+/// message. The places of doc comments (`## text`; `###` begins an ordinary one) are added to
+/// `docs` if it is given.
 std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
                        std::vector<Span>* docs = nullptr);
 

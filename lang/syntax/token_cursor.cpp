@@ -54,7 +54,8 @@ void TokenCursor::step_back() {
 std::string TokenCursor::describe(const Token& token) const {
     if (token.kind == TokenKind::newline) return "the end of the line";
     if (token.kind == TokenKind::end_of_text) return "the end of the text";
-    const std::string_view word = text(token);
+    const bool is_left_out = token.span.begin == token.span.end;
+    const std::string_view word = is_left_out ? token.text : text(token.span);
     const bool is_long_text = token.kind == TokenKind::text && word.size() > longest_shown;
     return is_long_text ? "this text" : "'" + shortened(word) + "'";
 }

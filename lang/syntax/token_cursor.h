@@ -37,7 +37,8 @@ public:
     std::size_t position() const { return position_; }
     std::size_t token_count() const { return tokens_.size(); }
 
-    std::string_view text(const Token& token) const { return sources_.text(token.span); }
+    /// As the parser reads it; ASCII of a script without errors.
+    std::string_view text(const Token& token) const { return token.text; }
     std::string_view text(Span span) const { return sources_.text(span); }
     ast::Word word(const Token& token) const { return {token.span, text(token)}; }
     /// The token in messages: `'beta'`, `the end of the line`. Long ones are cut.

@@ -9,6 +9,10 @@ import type { Message } from "./connection";
 import { type EngineHelp, editor_help } from "./editor_help";
 import { in_words } from "./words";
 
+// A Greek letter or a lowered digit in a name is read as its spelling in ASCII; ∂u is the beginning of a rate.
+const name = "∂?[A-Za-z_α-ωΓ-ΩµϵϕϑϰϱϖΩ][\\wα-ωΓ-ΩµϵϕϑϰϱϖΩ₀-₉]*";
+const called = new RegExp(`^${name}(?=\\s*\\()`), defined = new RegExp(`^${name}(?=\\s*('|′|/∂t|\\+?=|:))`), named = new RegExp(`^${name}`);
+
 const language = StreamLanguage.define({
     token(stream) {
         if (stream.eatSpace()) return null;
@@ -16,9 +20,10 @@ const language = StreamLanguage.define({
         if (stream.match(/^"[^"]*"?/)) return "string";
         if (stream.match(/^[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?/)) return "number";
         if (stream.match(/^(system|cells|shape|stage|domain|picture|use|in|step|and|or|not)\b(?!\s*:)/)) return "keyword";
-        if (stream.match(/^[A-Za-z_]\w*(?=\s*\()/)) return "function";
-        if (stream.match(/^[A-Za-z_]\w*(?=\s*('|\+?=|:))/)) return "definition";
-        if (!stream.match(/^[A-Za-z_]\w*/)) stream.next();
+        if (stream.match(/^(∇²|∇⁴|∇·|∇|Δ|√)/)) return "function";
+        if (stream.match(called)) return "function";
+        if (stream.match(defined)) return "definition";
+        if (!stream.match(named)) stream.next();
         return null;
     },
     tokenTable: { function: tags.function(tags.variableName), definition: tags.definition(tags.variableName) },

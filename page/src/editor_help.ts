@@ -32,19 +32,19 @@ export function explanation_box(told: Explanation): HTMLElement | undefined {
 
 export function editor_help(engine: EngineHelp) {
     const complete = async (context: CompletionContext) => {
-        const word = context.matchBefore(/\w*/)!, before = context.state.sliceDoc(0, context.pos);
-        const is_asked = context.explicit || /[A-Za-z_]\w*$/.test(before) || /[A-Za-z_]\w*\.$/.test(before);
+        const word = context.matchBefore(/[\wα-ωΓ-Ω₀-₉]*/)!, before = context.state.sliceDoc(0, context.pos);
+        const is_asked = context.explicit || /[A-Za-z_α-ωΓ-Ω][\wα-ωΓ-Ω₀-₉]*$/.test(before) || /[A-Za-z_]\w*\.$/.test(before);
         if (!is_asked) return null;
         const names = await engine.names(before);
         if (context.aborted) return null;
         // What the text declares may be too new for the engine: it is not correct while it is being typed.
         if (names.some(({ what }) => what === "function")) {
-            for (const [, name] of context.state.sliceDoc().matchAll(/(?:^|[;{])\s*([A-Za-z_]\w*)\s*['=:]/gm)) {
+            for (const [, name] of context.state.sliceDoc().matchAll(/(?:^|[;{])\s*∂?([A-Za-z_α-ωΓ-Ω][\wα-ωΓ-Ω₀-₉]*)\s*(?:['′=:]|\/∂t)/gm)) {
                 if (!names.some((known) => known.name === name)) names.push({ name, what: "parameter", note: "" });
             }
         }
         return {
-            from: word.from, validFor: /^\w*$/,
+            from: word.from, validFor: /^[\wα-ωΓ-Ω₀-₉]*$/,
             options: names.map(({ name, what, note }) => ({
                 label: name, detail: note || what,
                 // What the script itself says comes first.

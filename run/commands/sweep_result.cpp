@@ -31,9 +31,8 @@ std::uint64_t add_words(std::uint64_t hash, const Script& script) {
     for (SourceId source = 0; source < script.sources.size(); ++source) {
         Diagnostics already_reported;
         for (const Token& token : lex(source, script.sources, already_reported)) {
-            const std::string_view text = token.kind == TokenKind::newline
-                                              ? std::string_view("\n")
-                                              : script.sources.text(token.span);
+            const std::string_view text =
+                token.kind == TokenKind::newline ? std::string_view("\n") : token.text;
             hash = fnv1a("\x1f", fnv1a(text, hash));
         }
     }

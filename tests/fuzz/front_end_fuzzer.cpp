@@ -62,10 +62,16 @@ void run_front_end(const std::string& text) {
 void run_formatter(const std::string& text) {
     Sources sources;
     Diagnostics diagnostics;
-    const auto once = format_script(sources.add("fuzz.cascade", text), sources, diagnostics);
-    if (!once) return;
-    const auto twice = format_script(sources.add("formatted", *once), sources, diagnostics);
-    CHECK(twice == once, "formatting is done in one run");
+    const SourceId source = sources.add("fuzz.cascade", text);
+    for (const ScriptNotation notation :
+         {ScriptNotation::as_written, ScriptNotation::ascii, ScriptNotation::papers}) {
+        const auto once = format_script(source, sources, diagnostics, notation);
+        if (!once) return;
+        const SourceId copy = sources.add("formatted", *once);
+        CHECK(format_script(copy, sources, diagnostics, notation) == once,
+              "formatting is done in one run");
+        CHECK(format_script(copy, sources, diagnostics) == once, "no notation changes by itself");
+    }
 }
 
 void run_short_forms(const std::string& text) {

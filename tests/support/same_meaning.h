@@ -5,6 +5,7 @@
 #include "lang/format/format_script.h"
 #include "lang/syntax/parse.h"
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -24,20 +25,42 @@ inline std::string tree_of(const std::string& text) {
     return tree;
 }
 
-/// What is wrong with the formatted form of a script that can be read; empty if nothing is.
+inline std::optional<std::string> formatted_in(ScriptNotation notation, const std::string& script) {
+    Sources sources;
+    Diagnostics diagnostics;
+    const SourceId source = sources.add("script.cascade", script);
+    return format_script(source, sources, diagnostics, notation);
+}
+
+/// Without blanks, line ends and `;`, which formatting may exchange.
+inline std::string without_layout(std::string text) {
+    text.erase(std::remove_if(text.begin(), text.end(),
+                              [](char c) { return c == ' ' || c == '\n' || c == ';'; }),
+               text.end());
+    return text;
+}
+
+/// What is wrong with the formatted form of a script that can be read; empty if nothing is. Its
+/// forms in ASCII and in the notation of papers mean the same, and lead back to each other.
 inline std::string fault_of_formatting(const std::string& text) {
-    const auto formatted = [](const std::string& script) {
-        Sources sources;
-        Diagnostics diagnostics;
-        const SourceId source = sources.add("script.cascade", script);
-        return format_script(source, sources, diagnostics);
-    };
-    const auto first = formatted(text);
-    if (!first) return "it cannot be read:\n" + text;
-    if (tree_of(*first) != tree_of(text)) return "it means something else:\n" + *first;
-    const auto second = formatted(*first);
-    if (second != first)
-        return "a second run changes it:\n" + *first + "---\n" + second.value_or("");
+    const std::string tree = tree_of(text);
+    for (const ScriptNotation notation :
+         {ScriptNotation::as_written, ScriptNotation::ascii, ScriptNotation::papers}) {
+        const auto first = formatted_in(notation, text);
+        if (!first) return "it cannot be read:\n" + text;
+        if (tree_of(*first) != tree) return "it means something else:\n" + *first;
+        for (const ScriptNotation again : {notation, ScriptNotation::as_written}) {
+            const auto second = formatted_in(again, *first);
+            if (second == first) continue;
+            return "a second run changes it:\n" + *first + "---\n" + second.value_or("");
+        }
+    }
+    const std::string ascii = formatted_in(ScriptNotation::ascii, text).value();
+    const std::string papers = formatted_in(ScriptNotation::papers, ascii).value();
+    const std::string back = formatted_in(ScriptNotation::ascii, papers).value();
+    if (without_layout(back) != without_layout(ascii)) {
+        return "the notation of papers does not lead back:\n" + papers + "---\n" + back;
+    }
     return "";
 }
 

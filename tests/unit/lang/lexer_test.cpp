@@ -31,7 +31,7 @@ Lexed lex_text(const std::string& text) {
         if (!result.tokens.empty()) result.tokens += " ";
         if (token.kind == TokenKind::newline) result.tokens += "NL";
         else if (token.kind == TokenKind::garbage) result.tokens += "GARBAGE";
-        else if (is_word) result.tokens += sources.text(token.span);
+        else if (is_word) result.tokens += token.text;
         else result.tokens += spelling(token.kind);
     }
     result.faults = list_faults(diagnostics, sources);
@@ -88,14 +88,14 @@ TEST(Lexer, PrintsTokens) {
     Sources sources;
     Diagnostics diagnostics;
     const auto tokens =
-        lex(sources.add("test", "\n\n    ka: \"x\"\n\xce\xb2 1"), sources, diagnostics);
+        lex(sources.add("test", "\n\n    ka: \"x\"\n\xce\x92 1"), sources, diagnostics);
     EXPECT_EQ(print_tokens(tokens, sources),
               "1:1 line end\n"
               "3:5 name \"ka\"\n"
               "3:7 :\n"
               "3:9 text in quotes \"x\"\n"
               "3:12 line end\n"
-              "4:1 unreadable characters \"\xce\xb2\"\n"
+              "4:1 unreadable characters \"\xce\x92\"\n"
               "4:3 number \"1\"\n"
               "4:4 end of text\n");
 }
@@ -132,14 +132,11 @@ TEST(Lexer, ReadsLookAlikesAsWhatTheyMean) {
     const std::string nothing = " has no meaning in the language | write ";
     const std::vector<Fault> faults = {
         {"a\u2019 = 1", "a ' = 1", "1:2 '\u2019' (U+2019)" + nothing + "the apostrophe '"},
-        {"a\u2032 = 1", "a ' = 1", "1:2 '\u2032' (U+2032)" + nothing + "the apostrophe '"},
-        {"a \u2212 b", "a - b", "1:3 '\u2212' (U+2212)" + nothing + "'-'"},
         {"a \u2013 b", "a - b", "1:3 '\u2013' (U+2013)" + nothing + "'-'"},
-        {"a \u00d7 b", "a * b", "1:3 '\u00d7' (U+00D7)" + nothing + "'*'"},
-        {"a \u00b7 b", "a * b", "1:3 '\u00b7' (U+00B7)" + nothing + "'*'"},
-        {"a \u2265 b", "a >= b", "1:3 '\u2265' (U+2265)" + nothing + "'>='"},
+        {"a \u2022 b", "a * b", "1:3 '\u2022' (U+2022)" + nothing + "'*'"},
+        {"a \u00f7 b", "a / b", "1:3 '\u00f7' (U+00F7)" + nothing + "'/'"},
         {"a\uff1a 1", "a : 1", "1:2 '\uff1a' (U+FF1A)" + nothing + "':'"},
-        {"a\u00b2", "a", "1:2 '\u00b2' (U+00B2)" + nothing + "'^2'"},
+        {"a\u207f", "a", "1:2 '\u207f' (U+207F)" + nothing + "'^n'"},
         {"\u201ctan\u201d + 1", "GARBAGE + 1", "1:1 '\u201c' (U+201C)" + nothing + "'\"'"},
         {"a:\u00a0\u00a01", "a : 1", "1:3 U+00A0 is not a plain blank | write a plain blank"},
     };
@@ -152,14 +149,17 @@ TEST(Lexer, ReadsLookAlikesAsWhatTheyMean) {
 
 TEST(Lexer, SpellsLettersOfOtherAlphabets) {
     const std::vector<Fault> faults = {
-        {"\u03b2: 1", "GARBAGE : 1",
-         "1:1 '\u03b2' (U+03B2) is not a letter of a name | write 'beta'"},
-        {"diff_\u03b12", "GARBAGE",
-         "1:1 '\u03b1' (U+03B1) is not a letter of a name | write 'diff_alpha2'"},
+        {"\u0392: 1", "GARBAGE : 1", "1:1 '\u0392' (U+0392) is not a letter of a name | write 'B'"},
+        {"diff_\U0001d6fc2", "GARBAGE",
+         "1:1 '\U0001d6fc' (U+1D6FC) is not a letter of a name | write 'diff_alpha2'"},
+        {"\U0001d462", "GARBAGE",
+         "1:1 '\U0001d462' (U+1D462) is not a letter of a name | write 'u'"},
+        {"u\u0307", "GARBAGE",
+         "1:1 the mark U+0307 above or below a letter is no part of a name | write u' for a rate"},
         {"k\u0430", "GARBAGE", "1:1 '\u0430' (U+0430) is not a letter of a name | write 'ka'"},
         {"\u6f22", "GARBAGE",
-         "1:1 '\u6f22' (U+6F22) is not a letter of a name | names are of a to z, A to Z, 0 to 9 "
-         "and _"},
+         "1:1 '\u6f22' (U+6F22) is not a letter of a name | names are of a to z, A to Z, 0 to 9, "
+         "Greek letters and _"},
     };
     for (const Fault& fault : faults) {
         const Lexed lexed = lex_text(fault.text);

@@ -1,0 +1,14 @@
+// The notation of a formatted script (internal to the formatter): how its words are spelled.
+#pragma once
+
+#include "lang/format/format_script.h"
+#include "lang/format/format_words.h"
+
+#include <vector>
+
+namespace cascade {
+
+/// The words that are written, with their texts in this notation.
+std::vector<FormatWord> written_words(std::vector<FormatWord> words, ScriptNotation notation);
+
+}  // namespace cascade
