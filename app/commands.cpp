@@ -8,6 +8,7 @@
 #include "core/printable.h"
 #include "lang/library/library.h"
 #include "lang/syntax/parse.h"
+#include "run/commands/analyze.h"
 #include "run/commands/dump.h"
 #include "run/script/embedded_script.h"
 #include "run/session/session_log.h"
@@ -112,6 +113,7 @@ int check_one(const std::string& path, const Options& options, Console& console)
     if (!options.dump.empty()) return dump_command(file->script, options.dump, console);
     console.say(file->script.messages(console.error().colour));
     if (!file->script.program) return exit_status::wrong_script;
+    for (const std::string& remark : outlooks(file->script)) console.warn(remark);
     console.print(
         fmt::format("{}: no errors ({})\n", printable(file->script.name), summary(file->script)));
     return exit_status::success;

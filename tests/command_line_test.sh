@@ -140,6 +140,18 @@ run 0 --help
 run 0 --version
 says out 'cascade 0.1.0'
 
+# What its equations say of a stage before it runs.
+cat >faint.cascade <<'END'
+stage one: brusselator { decay: 6; u: [feed] + random(0, 0.01); v: [decay] / [feed] + random(0, 0.01); iterations: 10 }
+stage two: brusselator { u: [feed] + random(0, 0.01); v: [decay] / [feed] + random(0, 0.01); iterations: 10000 }
+END
+run 0 check faint.cascade
+says err "stage 'one': nothing will grow: no wave grows from its flat state u = 4.5, v = 1.3333"
+[ "$(grep -c 'nothing will grow' err)" = 1 ] || fail "a word too many before the run"
+run 0 run faint.cascade --steps 10 -o faint.png
+says err "stage 'one': nothing will grow"
+says err "stage 'two': nothing will grow: it ends before anything can grow"
+
 # A reader that goes away, a diagnostic that nobody reads.
 "$CASCADE" systems 2>err | head -n 1 >out
 [ "${PIPESTATUS[0]}" = 0 ] && [ ! -s err ] || fail "cascade systems | head"

@@ -198,4 +198,21 @@ Result<AnalyzeReport> analyze(const Script& script, const AnalyzeRequest& reques
     return Analysis(program, *stage, request).run();
 }
 
+std::string outlook(const Program& program, std::uint32_t stage) {
+    if (program.system_of(stage).cells) return "";
+    const auto reason = analysis::why_nothing_grows(program, stage);
+    if (!reason) return "";
+    return fmt::format("stage '{}': nothing will grow: {}", program.stages[stage].name, *reason);
+}
+
+std::vector<std::string> outlooks(const Script& script) {
+    std::vector<std::string> remarks;
+    if (script.program->stages.empty()) return remarks;
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        std::string remark = outlook(*script.program, k);
+        if (!remark.empty()) remarks.push_back(std::move(remark));
+    }
+    return remarks;
+}
+
 }  // namespace cascade

@@ -5,6 +5,7 @@
 #include "run/commands/variation.h"
 #include "run/script/script.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,5 +32,11 @@ struct AnalyzeReport {
 /// Fails if the stage has no flat states by its nature, if a parameter cannot be varied, or if the
 /// output cannot be written.
 Result<AnalyzeReport> analyze(const Script& script, const AnalyzeRequest& request);
+
+/// A remark for each stage of fields from whose start no pattern can come, which its equations tell
+/// before it runs: "stage 'a': nothing will grow: no wave grows from …".
+std::vector<std::string> outlooks(const Script& script);
+/// That of one stage, or nothing.
+std::string outlook(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

@@ -2,7 +2,9 @@
 #include "tests/models/dispersion.h"
 #include "tests/models/model.h"
 
+#include "analysis/stage_analysis.h"
 #include "measure/spectrum.h"
+#include "run/script/script.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -130,6 +132,16 @@ std::vector<Case> cases() {
     };
 }
 
+/// The fastest wave, in cells, that `cascade analyze` finds for the library's own values.
+double analysed_wavelength(const std::string& system) {
+    const Script script =
+        load_script("test", fmt::format("stage only: {} {{ iterations: 1 }}", system), ".");
+    EXPECT_TRUE(script.program) << script.messages(false);
+    const auto analysis = analysis::analyze_stage(*script.program, 0);
+    EXPECT_TRUE(analysis && !analysis->states.empty()) << system;
+    return analysis::state_to_show(*analysis).relation.fastest.cells();
+}
+
 class TuringTest : public testing::TestWithParam<Case> {};
 
 /// From weak noise, while the pattern is small: the wave that has grown most is the one that grows
@@ -141,6 +153,7 @@ TEST_P(TuringTest, WavelengthIsThatOfTheDispersionRelation) {
     ASSERT_GT(growth_rate(each.mathematics, flat, square), 0);
     ASSERT_LT(growth_rate(each.mathematics, flat, 0), growth_rate(each.mathematics, flat, square));
     const double predicted = std::numbers::pi / std::asin(std::sqrt(square) / 2);
+    EXPECT_NEAR(analysed_wavelength(each.system) / predicted, 1, 1e-3);
 
     std::string stage = fmt::format("speed: {}\n", each.speed);
     for (std::size_t i = 0; i < flat.size(); ++i) {
