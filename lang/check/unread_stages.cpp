@@ -56,12 +56,12 @@ std::string how_to_go_on(const Program& program, std::uint32_t stage) {
 
 }  // namespace
 
-void warn_of_unread_stages(const Program& program, std::span<const StageView> views,
+void warn_of_unread_stages(const Program& program, std::span<const PictureView> views,
                            Diagnostics& diagnostics) {
     if (program.stages.empty()) return;
     std::vector<bool> is_read(program.stages.size());
     is_read.back() = true;
-    for (const StageView& view : views) {
+    for (const PictureView& view : views) {
         is_read[view.stage] = true;
         if (view.formula) note_reads(*view.formula, is_read);
     }

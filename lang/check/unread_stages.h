@@ -11,14 +11,14 @@
 namespace cascade {
 
 /// A formula of the picture.
-struct StageView {
+struct PictureView {
     std::uint32_t stage = 0;  ///< Whose names it reads; it counts as read.
     std::optional<Formula> formula;
 };
 
 /// Warns of every stage that nothing reads. A stage that reads nothing is not reported if it is
 /// read itself.
-void warn_of_unread_stages(const Program& program, std::span<const StageView> views,
+void warn_of_unread_stages(const Program& program, std::span<const PictureView> views,
                            Diagnostics& diagnostics);
 
 }  // namespace cascade

@@ -111,7 +111,7 @@ void check_views(Script& script) {
     // script, so only a whole run is checked here.
     if (last + 1 != script.program->stages.size()) return;
     const Program& program = *script.program;
-    std::vector<StageView> views{{stage, std::nullopt}};
+    std::vector<PictureView> views{{stage, std::nullopt}};
     if (const auto expression = picture_expression(script.tree)) {
         views[0].formula = check_view(script.tree, *expression, stage, last, program,
                                       script.sources, script.diagnostics);
