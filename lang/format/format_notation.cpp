@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t none = ~std::size_t{0};
+constexpr std::size_t no_partner = ~std::size_t{0};
 
 class PaperWriter {
 public:
@@ -44,7 +44,7 @@ private:
     }
 
     void find_brackets() {
-        partner_.assign(words_.size(), none);
+        partner_.assign(words_.size(), no_partner);
         std::vector<std::size_t> open;
         for (std::size_t k = 0; k < words_.size(); ++k) {
             const TokenKind here = kind(k);
@@ -76,7 +76,7 @@ private:
         const TokenKind next = kind(k + 1);
         if (next != TokenKind::assign && next != TokenKind::plus_assign) return;
         std::size_t name = k - 1;
-        if (kind(name) == TokenKind::close_square && partner_[name] != none) {
+        if (kind(name) == TokenKind::close_square && partner_[name] != no_partner) {
             name = partner_[name] - 1;
         }
         if (kind(name) != TokenKind::name || !is_on_one_line(name + 1, k)) return;
@@ -88,9 +88,8 @@ private:
     static std::string_view sign_of(std::string_view function) {
         constexpr std::array<std::pair<std::string_view, std::string_view>, 4> signs{
             {{"lap", "∇²"}, {"div", "∇·"}, {"grad", "∇"}, {"sqrt", "√"}}};
-        const auto* const found = std::find_if(signs.begin(), signs.end(), [&](const auto& row) {
-            return row.first == function;
-        });
+        const auto found = std::find_if(signs.begin(), signs.end(),
+                                        [&](const auto& row) { return row.first == function; });
         return found == signs.end() ? std::string_view() : found->second;
     }
     /// True if the words from `name` on are a call that can be written with a sign.
@@ -99,7 +98,7 @@ private:
             kind(name) == TokenKind::name && kind(name + 1) == TokenKind::open_round;
         if (!is_call || sign_of(words_[name].spelling).empty()) return false;
         const std::size_t open = name + 1, close = partner_[open];
-        if (close == none || close == open + 1) return false;
+        if (close == no_partner || close == open + 1) return false;
         const bool is_defined =
             name > 0 && kind(name - 1) == TokenKind::name && !words_[name - 1].is_infix;
         const bool is_of_stage = name > 0 && kind(name - 1) == TokenKind::dot;
@@ -108,7 +107,7 @@ private:
             if (kind(k) == TokenKind::comma) return false;
             const bool opens =
                 kind(k) == TokenKind::open_round || kind(k) == TokenKind::open_square;
-            if (opens && partner_[k] != none) k = partner_[k];
+            if (opens && partner_[k] != no_partner) k = partner_[k];
         }
         return is_on_one_line(open, open + 1);
     }
@@ -118,7 +117,8 @@ private:
         if (kind(first) != TokenKind::name) return false;
         if (is_application(first)) return partner_[first + 1] + 1 == end;
         std::size_t k = first + 1;
-        if (kind(k) == TokenKind::open_square && words_[k].blanks == 0 && partner_[k] != none) {
+        if (kind(k) == TokenKind::open_square && words_[k].blanks == 0 &&
+            partner_[k] != no_partner) {
             k = partner_[k] + 1;
         }
         if (kind(k) == TokenKind::prime) ++k;
