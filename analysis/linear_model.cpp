@@ -395,7 +395,7 @@ Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
     for (const ItemId item : system.species()) model.species.push_back(item);
     if (model.species.empty()) return failure("it has no species");
     model.starts = start_values(model.algebra, program, stage, varied);
-    const FlatRates rates(system, FieldSpace::of(program, system));
+    const FlatRates rates(system);
     Lineariser parts(model);
     for (const NodeId id : ids_below<NodeId>(rates.count)) {
         if (auto done = parts.add(rates.algebra[id]); !done) return tl::unexpected(done.error());

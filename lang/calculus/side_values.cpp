@@ -50,7 +50,7 @@ public:
           system_(program.system_of(stage)),
           side_(side),
           species_(system_.species()),
-          rates_(system_, FieldSpace::of(program, system_)),
+          rates_(system_),
           algebra_(rates_.algebra),
           zero_(algebra_.number(0)),
           values_(species_.size()) {}
@@ -230,8 +230,7 @@ Conductivity conductivity_at(const System& system,
     const IdVector<NodeId, bool> needed = needed_for(rates.algebra, rates.rate(item));
     for (const NodeId id : ids_below<NodeId>(needed.size())) {
         const Node& node = rates.algebra[id];
-        if (needed[id] && (node.calls(Function::diffuse) || node.calls(Function::tensor) ||
-                           node.calls(Function::symmetric)))
+        if (needed[id] && (node.calls(Function::diffuse) || node.calls(Function::tensor)))
             return {std::nullopt, "diffuses in a direction"};
     }
     const SpeciesDiffusion& diffusion = diffusion_of_all[species];

@@ -19,10 +19,8 @@ bool has_mask(const PassContext& context) { return context.has_mask(); }
 
 bool any_node(const Node&) { return true; }
 bool is_tensor(const Node& node) {
-    return node.calls(Function::tensor) || node.calls(Function::symmetric) ||
-           node.calls(Function::diffuse);
+    return node.calls(Function::tensor) || node.calls(Function::diffuse);
 }
-bool is_transport(const Node& node) { return node.calls(Function::transport); }
 bool is_operator(const Node& node) { return node.is<Call>() && differentiates(node.function); }
 bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>(); }
 
@@ -33,15 +31,13 @@ constexpr std::array passes{
     // numbers:
     // the operands of `theirs` are in planes.
     PassInfo{"tissue", is_tissue, any_node, lay_on_tissue},
-    // After this pass a tensor's operands are its entries, a11, a12 and a22 or in space a11, a12,
-    // a13, a22, a23 and a33; diffuse has two operands, a tensor and the value to differentiate.
+    // After this pass a tensor's operands are its entries a11, a12 and a22; diffuse has two
+    // operands, a tensor and the value to differentiate.
     PassInfo{"tensors", always, is_tensor, write_out_tensors},
     // After this pass lap, grad2 and derivatives along the surface are differences along columns
     // and rows times planes of the metric. Vectors are fluxes through faces, not directions along
     // the surface.
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
-    // After this pass there are no limiters but slopes along an axis, in planes of their own.
-    PassInfo{"limiters", always, is_transport, write_out_limiters},
     // After this pass places and normals are planes of the model. There are no vectors: the operand
     // of div has become a sum of lap(weight, e).
     PassInfo{"links", is_on_model, is_of_cell, spread_over_links},
@@ -65,11 +61,10 @@ Expressions with_roots(Expressions expressions, const Flattening& flattening,
 
 Expressions flat_start(const Program& program, std::uint32_t stage, std::span<const ItemId> items) {
     Expressions flat;
-    const System& system = program.system_of(stage);
-    Flattening flattening(flat.graph, FieldSpace::of(program, system));
+    Flattening flattening(flat.graph);
     std::vector<NodeId> roots;
     for (const ItemId item : items) {
-        const std::string name(system.draw_name(item));
+        const std::string name(program.system_of(stage).draw_name(item));
         roots.push_back(flattening.add(program.stages[stage].items[item], {name, false}));
         flattening.set_item(item, roots.back());
     }
@@ -79,7 +74,7 @@ Expressions flat_start(const Program& program, std::uint32_t stage, std::span<co
 Expressions flat_step(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     Expressions flat;
-    Flattening flattening(flat.graph, FieldSpace::of(program, system));
+    Flattening flattening(flat.graph);
     std::vector<NodeId> roots;
     flattening.add_rates(system);
     for (const ItemId item : system.rate_order) roots.push_back(flattening.rate(item));
@@ -91,11 +86,9 @@ Expressions flat_step(const Program& program, std::uint32_t stage) {
     return with_roots(std::move(flat), flattening, std::move(roots));
 }
 
-Expressions flat_formulas(std::span<const Formula* const> formulas, const PassContext& context,
-                          const Noise& noise) {
+Expressions flat_formulas(std::span<const Formula* const> formulas, const Noise& noise) {
     Expressions flat;
-    const System& system = context.program.system_of(context.stage);
-    Flattening flattening(flat.graph, FieldSpace::of(context.program, system));
+    Flattening flattening(flat.graph);
     std::vector<NodeId> roots;
     for (const Formula* formula : formulas) roots.push_back(flattening.add(*formula, noise));
     return with_roots(std::move(flat), flattening, std::move(roots));
@@ -128,7 +121,7 @@ void watch_lowering(const Program& program, const LoweringWatch& watch) {
         };
         lower("starting values", flat_start(program, k, program.stages[k].order));
         lower("one step", flat_step(program, k));
-        if (!view[0]->nodes.empty()) lower("picture", flat_formulas(view, context));
+        if (!view[0]->nodes.empty()) lower("picture", flat_formulas(view));
     }
 }
 

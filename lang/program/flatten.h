@@ -1,9 +1,8 @@
 // Puts formulas into one graph; definitions and rates are replaced by their expressions.
 #pragma once
 
-#include "lang/program/field_vectors.h"
+#include "lang/program/expression_graph.h"
 
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -27,11 +26,7 @@ struct Origin {
 /// Writes formulas into a graph one after another.
 class Flattening {
 public:
-    /// With a space, vectors are written out (lang/program/field_vectors.h).
-    explicit Flattening(ExpressionGraph& graph, const std::optional<FieldSpace>& space = {})
-        : graph_(graph) {
-        if (space) vectors_.emplace(graph, *space);
-    }
+    explicit Flattening(ExpressionGraph& graph) : graph_(graph) {}
 
     /// Adds a formula and returns the node of its value. Definitions, rates and items of the stage
     /// that it reads become the nodes known for them; items without a known node stay items.
@@ -43,12 +38,11 @@ public:
     NodeId rate(ItemId species) const { return rates_.at(species); }
     NodeId definition(DefinitionId id) const { return definitions_.at(id); }
     const std::vector<Origin>& origins() const { return origins_; }
-    /// The names of definitions and rates, by node; J.x of the components of a vector J.
-    std::vector<std::pair<NodeId, std::string>> names() const;
+    /// The names of definitions and rates, by node.
+    const std::vector<std::pair<NodeId, std::string>>& names() const { return names_; }
 
 private:
     ExpressionGraph& graph_;
-    std::optional<FieldVectors> vectors_;
     std::vector<Origin> origins_;
     std::unordered_map<ItemId, NodeId> items_, rates_;
     std::unordered_map<DefinitionId, NodeId> definitions_;

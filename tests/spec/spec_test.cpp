@@ -207,7 +207,8 @@ std::string_view word_of(Domains domains) {
         case Domains::bent: return "bent";
         case Domains::all: return "all";
         case Domains::fields:
-        case Domains::crawling: break;  // Of functions only.
+        case Domains::crawling:
+        case Domains::components: break;  // Of functions only.
     }
     return "";
 }
