@@ -243,8 +243,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
         WrongUse{
             {"fly"},
-            "the commands are run, sweep, check, bench, compile, systems, new, fmt, mesh, repl, "
-            "export, view"},
+            "the commands are run, sweep, check, analyze, bench, compile, systems, new, fmt, mesh, "
+            "repl, export, view"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
         WrongUse{{"check"}, "cascade check: a script is missing"},
         WrongUse{{"run", "a", "--pallete", "tan"}, "no option --pallete; did you mean --palette?"},
