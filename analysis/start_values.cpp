@@ -114,7 +114,7 @@ private:
         const bool is_of_numbers = node.type == ValueType::number &&
                                    kind != FunctionKind::derivative &&
                                    kind != FunctionKind::stencil && kind != FunctionKind::flux;
-        if (!is_of_numbers) return result;  // Derivatives of what is flat.
+        if (!is_of_numbers) return result;  // A derivative of a flat state is 0.
         Node valued = node;
         for (std::size_t n = 0; n < node.operand_count; ++n) valued.operands[n] = of(n).value;
         result.value = called(valued);

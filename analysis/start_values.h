@@ -14,7 +14,7 @@ namespace cascade::analysis {
 /// the middle of the domain.
 struct StartValue {
     NodeId value;
-    /// The standard deviation of what random numbers add, to first order.
+    /// The standard deviation due to random numbers, to first order.
     NodeId scatter;
     /// Does it differ from place to place by something other than random numbers?
     bool differs = false;

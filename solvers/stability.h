@@ -23,10 +23,9 @@ struct StabilityEstimate {
 
 /// Estimates stability at the state `species` by finite differences of the kernel of rates (one
 /// result for each species, slots as for the step). Cells that `frozen` marks (nullptr: none) do
-/// not change. Takes at most about 800 evaluations
-/// of the rates on one thread. The error is within 2 % for diffusion, within 4 % for more than a
-/// million values. Deterministic. Only useful at a state before a blow-up: at 1e20 any reaction
-/// looks stiff.
+/// not change. Takes at most about 800 evaluations of the rates on one thread. The error is within
+/// 2 % for diffusion, within 4 % for more than a million values. Deterministic. Only useful at a
+/// state before a blow-up: at 1e20 any reaction looks stiff.
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
                                      const Mask* frozen = nullptr);
 

@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// The tokens without blanks between them; after it the faults.
+/// The tokens without blanks between them, followed by the error messages.
 std::string read(const std::string& text) {
     Sources sources;
     Diagnostics diagnostics;
@@ -104,7 +104,7 @@ TEST(PaperNotation, ReportsWhatCouldBeReadInTwoWays) {
     }
 }
 
-/// Spans are those of what is written; what is left out has an empty one.
+/// Tokens have the spans of the source text; an implied token has an empty span.
 TEST(PaperNotation, KeepsThePlaces) {
     Sources sources;
     Diagnostics diagnostics;
