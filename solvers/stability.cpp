@@ -162,12 +162,7 @@ private:
     }
 
     void run_kernel() {
-        const SpeciesPlanes present = planes_of(moved_);
-        const Patch everywhere{{0, layout_.row_count()}};
-        for (std::size_t k = 0; rates_.has_halo() && k < moved_.size(); ++k) {
-            moved_[k].fill_halo(
-                rates_.sides_of(SpeciesId(k), rates_.sides_moment, present, everywhere));
-        }
+        rates_.fill_halos(moved_);
         const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
         // White noise needs a step of some length; it cancels in differences.
         team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1}); });

@@ -131,6 +131,16 @@ struct StepProblem {
         set_side_values(changing_sides, species, moment, present, PlaneLayout(grid), cells, rules);
         return rules;
     }
+    /// Fills the halos of all species for the moment of `sides`, where neighbours are read beyond
+    /// the sides. Must run inside a FlushDenormals.
+    void fill_halos(std::span<Field> species) const {
+        if (!has_halo()) return;
+        const SpeciesPlanes present = planes_of(species);
+        const Patch everywhere{{0, PlaneLayout(grid).row_count()}};
+        for (std::size_t s = 0; s < species.size(); ++s) {
+            species[s].fill_halo(sides_of(SpeciesId(s), sides_moment, present, everywhere));
+        }
+    }
 };
 
 }  // namespace cascade

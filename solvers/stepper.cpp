@@ -16,15 +16,9 @@ namespace {
 
 std::vector<Field> with_halo(const StepProblem& problem, std::vector<Field> species) {
     CHECK(problem.species_needs_halo.size() == species.size(), "a flag for every species");
-    if (!problem.has_halo()) return species;
     // Values may have changed since the problem was bound.
     const FlushDenormals environment;
-    const SpeciesPlanes present = planes_of(species);
-    const Patch everywhere{{0, PlaneLayout(problem.grid).row_count()}};
-    for (std::size_t s = 0; s < species.size(); ++s) {
-        species[s].fill_halo(
-            problem.sides_of(SpeciesId(s), problem.sides_moment, present, everywhere));
-    }
+    problem.fill_halos(species);
     return species;
 }
 
