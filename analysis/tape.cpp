@@ -34,15 +34,10 @@ double value_of(const Step& step, const std::vector<double>& registers) {
 
 Tape::Tape(const Algebra& algebra, std::span<const NodeId> results, std::span<const ItemId> inputs)
     : numbers_(inputs.size(), 0.0) {
-    std::vector<bool> is_needed(algebra.size(), false);
-    for (const NodeId id : results) is_needed[id.index()] = true;
-    for (std::size_t k = algebra.size(); k-- > 0;) {
-        if (!is_needed[k]) continue;
-        for (const NodeId operand : algebra[NodeId(k)].reads()) is_needed[operand.index()] = true;
-    }
+    const IdVector<NodeId, bool> is_needed = needed_by(algebra, results);
     std::vector<std::uint32_t> place(algebra.size(), 0);
     for (const NodeId id : algebra.nodes().ids()) {
-        if (!is_needed[id.index()]) continue;
+        if (!is_needed[id]) continue;
         const Node& node = algebra[id];
         if (const auto* item = node.as<ItemId>()) {
             const auto found = std::find(inputs.begin(), inputs.end(), *item);

@@ -147,10 +147,8 @@ IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::
 
 bool changes_in_time(const Program& program, std::uint32_t stage, const Formula& formula) {
     const System& system = program.system_of(stage);
-    return holds_in(formula, [&](const Node& node) {
-        if (const auto* own = node.as<ItemId>()) return system.is_species(*own);
-        return node.is(Builtin::t) || node.is(Builtin::step);
-    });
+    return holds_in(formula,
+                    [&](const Node& node) { return is_species(system, node) || is_moment(node); });
 }
 
 }  // namespace cascade

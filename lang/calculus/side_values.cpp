@@ -19,26 +19,8 @@ bool reads_definitions(const Formula& formula) {
     return holds_in(formula, [](const Node& node) { return node.is<DefinitionId>(); });
 }
 
-bool is_species(const System& system, const Node& node) {
-    const auto* item = node.as<ItemId>();
-    return item != nullptr && system.is_species(*item);
-}
-
-bool is_moment(const Node& node) { return node.is(Builtin::t) || node.is(Builtin::step); }
-
 Formula flat(const System& system, const Formula& formula) {
     return reads_definitions(formula) ? without_definitions(system, formula) : formula;
-}
-
-/// The nodes that `root` is computed from, itself included.
-IdVector<NodeId, bool> needed_for(const ExpressionGraph& graph, NodeId root) {
-    IdVector<NodeId, bool> needed(root.index() + 1, false);
-    needed[root] = true;
-    for (std::uint32_t n = root.index() + 1; n-- > 0;) {
-        if (!needed[NodeId(n)]) continue;
-        for (const NodeId operand : graph[NodeId(n)].reads()) needed[operand] = true;
-    }
-    return needed;
 }
 
 /// The equations of one side.
@@ -129,9 +111,9 @@ private:
     std::vector<SpeciesId> unknowns_in(SpeciesId species) {
         std::vector<SpeciesId> found;
         const NodeId root = value(species);
-        const IdVector<NodeId, bool> needed = needed_for(algebra_, root);
+        const IdVector<NodeId, bool> needed = needed_by(algebra_, {&root, 1});
         for (const NodeId id : ids_below<NodeId>(needed.size())) {
-            if (!needed[id] || !cascade::is_species(system_, algebra_[id])) continue;
+            if (!needed[id] || !is_species(system_, algebra_[id])) continue;
             const auto read = *system_.species_of(*algebra_[id].as<ItemId>());
             if (takes_value(setting(read).kind)) found.push_back(read);
         }
@@ -140,7 +122,7 @@ private:
 
     /// The derivative of a value by a species; 0 through a function without a rule.
     NodeId slope(NodeId root, SpeciesId by) {
-        const IdVector<NodeId, bool> needed = needed_for(algebra_, root);
+        const IdVector<NodeId, bool> needed = needed_by(algebra_, {&root, 1});
         IdVector<NodeId, NodeId> slopes(needed.size(), zero_);
         for (const NodeId id : ids_below<NodeId>(needed.size())) {
             if (!needed[id]) continue;
@@ -227,7 +209,8 @@ Conductivity conductivity_at(const System& system,
                              SpeciesId species, Side side) {
     const ItemId item = system.species()[species];
     FlatRates rates(system);
-    const IdVector<NodeId, bool> needed = needed_for(rates.algebra, rates.rate(item));
+    const NodeId rate = rates.rate(item);
+    const IdVector<NodeId, bool> needed = needed_by(rates.algebra, {&rate, 1});
     for (const NodeId id : ids_below<NodeId>(needed.size())) {
         const Node& node = rates.algebra[id];
         if (needed[id] && (node.calls(Function::diffuse) || node.calls(Function::tensor)))

@@ -102,14 +102,13 @@ private:
             if (setting.span.end == 0) continue;
             const Node& root = whole.nodes.back();
             if (!root.is<Call>() || reads_file(root.function)) {
-                const auto* item = root.as<ItemId>();
-                const bool is_of_species = item != nullptr && system().is_species(*item);
                 return report(setting.span,
                               fmt::format("'{}' has no side of its own, for it is only another "
                                           "name",
                                           definition.name),
-                              is_of_species
-                                  ? fmt::format("give the side to {}", system().item_name(*item))
+                              is_species(system(), root)
+                                  ? fmt::format("give the side to {}",
+                                                system().item_name(*root.as<ItemId>()))
                                   : "");
             }
             if (!differs_by_cell(whole)) {
@@ -128,8 +127,7 @@ private:
             if (!takes_value(setting.kind)) continue;
             const Formula value = without_definitions(system(), setting.value);
             const auto read = std::ranges::find_if(value.nodes, [&](const Node& node) {
-                const auto* item = node.as<ItemId>();
-                return item != nullptr && system().is_species(*item);
+                return is_species(system(), node);
             });
             if (read != value.nodes.end()) {
                 return report(setting.span,
@@ -144,10 +142,8 @@ private:
     bool check_draws(const SideSetting& setting) {
         const auto draw = std::ranges::find_if(setting.value.nodes, is_draw);
         if (draw == setting.value.nodes.end()) return true;
-        const bool changes = holds_in(setting.value, [&](const Node& node) {
-            const auto* item = node.as<ItemId>();
-            return item != nullptr && system().is_species(*item);
-        });
+        const bool changes =
+            holds_in(setting.value, [&](const Node& node) { return is_species(system(), node); });
         if (!changes) return true;
         return report(draw->span, "a side that reads species cannot draw random numbers",
                       "put them into a parameter: name: random(…)");
@@ -199,9 +195,7 @@ private:
         for (const SpeciesId own : settings.ids()) {
             for (std::size_t side = 0; side < side_count; ++side) {
                 const auto reads = [&](const Node& node) {
-                    const auto* item = node.as<ItemId>();
-                    if (item == nullptr || !system().is_species(*item)) return false;
-                    return !is_in_turn || *item != species[own];
+                    return is_species(system(), node) && !(is_in_turn && node.is(species[own]));
                 };
                 if (!holds_in(settings[own][side].value, reads)) continue;
                 const std::string what =

@@ -189,11 +189,13 @@ private:
                        Operand{node.right, factor(node.right, a_power)}},
                       a_product, least);
     }
+    static bool is_raised(std::string_view number) {
+        return superscript_digit(decode_utf8(number, 0).value).has_value();
+    }
     /// A number as its author wrote it.
     std::string digits(Span span, double value) const {
         const std::string_view text = sources_.text(span);
-        const bool is_raised = superscript_digit(decode_utf8(text, 0).value).has_value();
-        return is_raised ? fmt::format("{}", value) : std::string(text);
+        return is_raised(text) ? fmt::format("{}", value) : std::string(text);
     }
     void write_power(ast::ExprId base, ast::ExprId exponent, int least) {
         if (tex_) {
@@ -201,8 +203,7 @@ private:
                                  a_power, least);
         }
         const std::string_view text = sources_.text(script_.expressions[exponent].span);
-        const bool is_raised = superscript_digit(decode_utf8(text, 0).value).has_value();
-        const auto above = is_raised ? std::string(text) : superscript(text);
+        const auto above = is_raised(text) ? std::string(text) : superscript(text);
         if (above && as<ast::Binary>(exponent) == nullptr) {
             return push_operator({Operand{base, an_atom}, *above}, a_power, least);
         }

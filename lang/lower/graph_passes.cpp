@@ -113,16 +113,6 @@ Expressions GraphPass::run() {
     return std::move(to_);
 }
 
-IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, const std::vector<NodeId>& roots) {
-    IdVector<NodeId, bool> needed(graph.size(), false);
-    for (const NodeId root : roots) needed[root] = true;
-    for (const NodeId id : needed.ids_backwards()) {
-        if (!needed[id]) continue;
-        for (const NodeId operand : graph[id].reads()) needed[operand] = true;
-    }
-    return needed;
-}
-
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context) {
     IdVector<NodeId, bool> is_uniform;
     is_uniform.reserve(graph.size());

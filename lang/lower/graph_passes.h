@@ -100,9 +100,6 @@ Expressions take_out_even_weights(const Expressions& from, const PassContext& co
 Expressions weigh_by_areas(const Expressions& from, const PassContext& context);
 Expressions leave_out_masked_cells(const Expressions& from, const PassContext& context);
 
-/// The nodes that a list of them needs, directly or through others.
-IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, const std::vector<NodeId>& roots);
-
 /// Finds the nodes that are the same in all cells.
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);
 

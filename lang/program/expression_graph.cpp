@@ -82,6 +82,16 @@ NodeId ExpressionGraph::call(Function function, std::initializer_list<NodeId> op
     return add(node);
 }
 
+IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, std::span<const NodeId> roots) {
+    IdVector<NodeId, bool> needed(graph.size(), false);
+    for (const NodeId root : roots) needed[root] = true;
+    for (const NodeId id : needed.ids_backwards()) {
+        if (!needed[id]) continue;
+        for (const NodeId operand : graph[id].reads()) needed[operand] = true;
+    }
+    return needed;
+}
+
 TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeId theta) {
     const auto times = [&](NodeId a, NodeId b) { return graph.call(Function::multiply, {a, b}); };
     const NodeId along = times(a1, a1), across = times(a2, a2);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -57,6 +58,9 @@ private:
     /// The slot of a node in the hash table, whose size is a power of two, or the next free slot.
     std::vector<std::optional<NodeId>> known_;
 };
+
+/// The nodes that a list of them needs, directly or through others, themselves included.
+IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, std::span<const NodeId> roots);
 
 /// The entries a11, a12 and a22 of A = R(θ) diag(a1², a2²) Rᵀ(θ), y down (Witkin & Kass, eq 6; its
 /// direction [cos θ, sin θ] and the sign of its a12 agree when y points down).

@@ -1,4 +1,4 @@
-// The nodes of a system's rates and of a stage's sides.
+// What nodes of formulas are, and those of a system's rates and of a stage's sides.
 #pragma once
 
 #include "lang/program/program.h"
@@ -6,6 +6,15 @@
 #include <algorithm>
 
 namespace cascade {
+
+/// Is the node a species of the formula's own stage?
+inline bool is_species(const System& system, const Node& node) {
+    const auto* item = node.as<ItemId>();
+    return item != nullptr && system.is_species(*item);
+}
+
+/// Is it the time or the number of steps?
+inline bool is_moment(const Node& node) { return node.is(Builtin::t) || node.is(Builtin::step); }
 
 /// Does `test` hold for some node of the formula?
 template <typename Test>

@@ -24,11 +24,9 @@ struct NamedRate {
 
 NamedRate rate_of(const System& system, ItemId item) {
     const CellRules& rules = *system.cells;
-    const bool is_place =
-        item.index() >= rules.place.index() && item.index() < rules.place.index() + 3;
-    if (is_place) return {"p", &system.definitions[rules.velocity].formula};
-    if (rules.has_component(item)) return {"turn", &system.definitions[rules.spin].formula};
-    return {system.item_name(item), &system.rates[item]};
+    if (!rules.has_component(item)) return {system.item_name(item), &system.rates[item]};
+    if (item < rules.frame) return {"p", &system.definitions[rules.velocity].formula};
+    return {"turn", &system.definitions[rules.spin].formula};
 }
 
 /// The summands of the whole formula, in their order, without their signs.
