@@ -91,7 +91,7 @@ private:
             fmt::format("rate {}: {}", rate_text(relation_.at_rest, relation_.resolution),
                         pace(relation_.at_rest.real()));
         const double turns = std::abs(relation_.at_rest.imag());
-        if (turns > std::max(relation_.resolution, 1e-6 * std::abs(relation_.at_rest.real()))) {
+        if (oscillates(relation_.at_rest, relation_.resolution)) {
             text += fmt::format(", period {:.4g}", 2 * std::numbers::pi / turns);
         }
         return text;

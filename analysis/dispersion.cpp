@@ -222,19 +222,21 @@ private:
 };
 
 Stability stability_of(const Dispersion& found) {
-    const auto oscillates = [&](Complex rate) {
-        return std::abs(rate.imag()) > std::max(found.resolution, 1e-6 * std::abs(rate.real()));
-    };
     if (found.grows_at_rest()) {
-        if (!oscillates(found.at_rest)) return Stability::uniform;
+        if (!oscillates(found.at_rest, found.resolution)) return Stability::uniform;
         const bool waves_lead = found.fastest.rate.real() > found.at_rest.real() + found.resolution;
-        return waves_lead && !oscillates(found.fastest.rate) ? Stability::both : Stability::hopf;
+        return waves_lead && !oscillates(found.fastest.rate, found.resolution) ? Stability::both
+                                                                               : Stability::hopf;
     }
     if (!found.has_growing_waves()) return Stability::stable;
-    return oscillates(found.fastest.rate) ? Stability::wave : Stability::turing;
+    return oscillates(found.fastest.rate, found.resolution) ? Stability::wave : Stability::turing;
 }
 
 }  // namespace
+
+bool oscillates(Complex rate, double resolution) {
+    return std::abs(rate.imag()) > std::max(resolution, 1e-6 * std::abs(rate.real()));
+}
 
 double GrowingWave::cells() const {
     return phase > 0 ? 2 * std::numbers::pi / phase : std::numeric_limits<double>::infinity();

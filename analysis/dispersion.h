@@ -22,6 +22,9 @@ struct GrowingWave {
     double cells() const;  ///< Its length in cells; infinite at phase 0.
 };
 
+/// Does a rate have an imaginary part that is not rounding?
+bool oscillates(Complex rate, double resolution);
+
 /// Waves between two lengths, all of which grow.
 struct GrowingBand {
     double least = 0, most = 0;  ///< Their phases. A band may begin at 0 or end at the shortest

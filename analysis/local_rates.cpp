@@ -35,6 +35,11 @@ Matrix matrix_of(const std::vector<double>& entries, std::size_t first, Eigen::I
 
 }  // namespace
 
+bool all_finite(const Matrices& matrices) {
+    return std::all_of(matrices.begin(), matrices.end(),
+                       [](const Matrix& matrix) { return matrix.allFinite(); });
+}
+
 LocalRates::LocalRates(const LinearModel& model)
     : model_(model),
       start_(model.algebra, starts_of(model, &StartValue::value), inputs_of(model)),

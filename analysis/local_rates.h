@@ -15,6 +15,7 @@ using Matrix = Eigen::MatrixXd;
 
 /// The matrices of a model in a state, in the order of its terms.
 using Matrices = std::vector<Matrix>;
+bool all_finite(const Matrices& matrices);
 
 class LocalRates {
 public:

@@ -3,6 +3,7 @@
 #include "analysis/outlook.h"
 
 #include "analysis/stage_analysis.h"
+#include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
 
@@ -53,6 +54,24 @@ bool starts_with_noise_alone(const LinearModel& model) {
     return has_noise;
 }
 
+/// False, without any calculus, for most stages that starts_with_noise_alone() does not take: those
+/// that draw nothing and those that go on from the pattern of an earlier stage.
+bool may_start_with_noise(const Program& program, std::uint32_t number) {
+    const Stage& stage = program.stages[number];
+    const auto is_noise = [](const Node& node) {
+        return is_draw(node) || node.calls(Function::noise);
+    };
+    const auto is_pattern = [&](const Node& node) {
+        const auto* there = node.as<StageItem>();
+        return there != nullptr && program.system_of(there->stage).is_species(there->item);
+    };
+    for (const ItemId item : program.system_of(number).species()) {
+        if (holds_in(stage.items[item], is_pattern)) return false;
+    }
+    return std::any_of(stage.items.begin(), stage.items.end(),
+                       [&](const Formula& formula) { return holds_in(formula, is_noise); });
+}
+
 bool is_weak(const Vector& scatter, const Vector& state, const Vector& start) {
     const double largest = state.cwiseAbs().maxCoeff();
     const Vector sizes = state.cwiseAbs().cwiseMax(weak * largest);
@@ -93,12 +112,8 @@ std::string remedy(const LinearModel& model, const Matrices& matrices) {
 std::optional<double> duration_of(const LinearModel& model) {
     const Stage& stage = model.program->stages[model.stage];
     if (stage.time.duration) return stage.time.duration;
-    const StartValue& speed = model.starts[model.system().speed_item()];
-    const auto* step = model.algebra[speed.value].as<double>();
-    if (stage.time.chooses_steps() || stage.time.has_duration() || stage.time.open_end ||
-        speed.differs || speed.is_unknown || step == nullptr) {
-        return std::nullopt;
-    }
+    const std::optional<double> step = fixed_step(model);
+    if (!step || stage.time.has_duration() || stage.time.open_end) return std::nullopt;
     return *step * static_cast<double>(stage.iterations);
 }
 
@@ -112,7 +127,9 @@ std::string lengths(const Dispersion& relation) {
 }  // namespace
 
 std::optional<std::string> why_nothing_grows(const Program& program, std::uint32_t stage) {
-    if (has_values_at_sides(program, stage)) return std::nullopt;
+    if (has_values_at_sides(program, stage) || !may_start_with_noise(program, stage)) {
+        return std::nullopt;
+    }
     const auto model = linear_model(program, stage);
     if (!model || !starts_with_noise_alone(*model)) return std::nullopt;
     const LocalRates rates(*model);
@@ -121,9 +138,7 @@ std::optional<std::string> why_nothing_grows(const Program& program, std::uint32
     const auto state = flat_state_near(rates, start, conserved_totals(rates));
     if (!state || !is_weak(rates.scatter(), *state, start)) return std::nullopt;
     const Matrices matrices = rates.matrices(*state);
-    for (const Matrix& matrix : matrices) {
-        if (!matrix.allFinite()) return std::nullopt;
-    }
+    if (!all_finite(matrices)) return std::nullopt;
     const Dispersion relation = dispersion(*model, matrices);
     if (relation.grows_at_rest()) return std::nullopt;
     const std::string where = values_text(*model, *state);

@@ -39,9 +39,7 @@ public:
         if (place.state && !has_totals && is_far(*place.state, guess)) place.state.reset();
         if (!place.state) return place;
         const Matrices matrices = rates_.matrices(*place.state);
-        for (const Matrix& matrix : matrices) {
-            if (!matrix.allFinite()) return {};
-        }
+        if (!all_finite(matrices)) return {};
         const Dispersion relation = quick_dispersion(model_, matrices);
         place.stability = relation.stability;
         if (std::isfinite(relation.fastest.cells())) place.cells = relation.fastest.cells();

@@ -3,10 +3,7 @@
 
 namespace cascade::analysis {
 
-namespace {
-
-/// The length of the stage's steps, if it is the same in all cells and not chosen by the stage.
-std::optional<double> step_of(const LinearModel& model) {
+std::optional<double> fixed_step(const LinearModel& model) {
     const Stage& stage = model.program->stages[model.stage];
     const StartValue& speed = model.starts[model.system().speed_item()];
     const auto* number = model.algebra[speed.value].as<double>();
@@ -15,24 +12,20 @@ std::optional<double> step_of(const LinearModel& model) {
     return *number;
 }
 
-}  // namespace
-
 Result<StageAnalysis> analyze_stage(const Program& program, std::uint32_t stage) {
     auto model = linear_model(program, stage);
     if (!model) return tl::unexpected(model.error());
     StageAnalysis analysis{std::move(*model), {}, false, {}, {}};
     const LocalRates rates(analysis.model);
     analysis.start = rates.start();
-    analysis.step = step_of(analysis.model);
+    analysis.step = fixed_step(analysis.model);
     FlatStates states = flat_states(rates);
     analysis.has_conserved_totals = states.conserved.rows() > 0;
     for (FlatState& state : states.found) {
         StateAnalysis each;
         each.matrices = rates.matrices(state.species);
         each.state = std::move(state);
-        bool is_finite = true;
-        for (const Matrix& matrix : each.matrices) is_finite = is_finite && matrix.allFinite();
-        if (!is_finite) continue;
+        if (!all_finite(each.matrices)) continue;
         each.relation = dispersion(analysis.model, each.matrices);
         each.steps = stable_steps(decaying_rates(analysis.model, each.matrices));
         analysis.states.push_back(std::move(each));

@@ -27,6 +27,9 @@ struct StageAnalysis {
     std::optional<double> step;         ///< Of the time, if it is one number.
 };
 
+/// The length of the stage's steps, if it is the same in all cells and not chosen by the stage.
+std::optional<double> fixed_step(const LinearModel& model);
+
 /// Fails where linear_model() does. The program must outlive the result.
 Result<StageAnalysis> analyze_stage(const Program& program, std::uint32_t stage);
 
