@@ -2,8 +2,10 @@
 
 usage: same_picture.py ONE OTHER
 
-Processors differ in the last bits of the reciprocals that Embree's rays are computed with. So all chunks but the
-pixels must be equal, and samples may differ by four levels of 255, in one of 1000 at most. Exits with 1 otherwise.
+Processors differ in the last bits of the reciprocals that Embree's rays are computed with, so a ray along the edge of
+a thorn or a scale may hit it on one processor and miss it on another. All chunks but the pixels must be equal. One
+sample of 1000 may differ, one of 5000 by more than four levels of 255, and none by more than 64. Exits with 1
+otherwise.
 """
 import struct
 import sys
@@ -61,7 +63,9 @@ def main():
     if one != other or len(a) != len(b):
         return 1
     apart = [abs(x - y) for x, y in zip(a, b) if x != y]
-    return 0 if max(apart, default=0) <= 4 and 1000 * len(apart) <= len(a) else 1
+    at_edges = sum(levels > 4 for levels in apart)
+    alike = 1000 * len(apart) <= len(a) and 5000 * at_edges <= len(a) and max(apart, default=0) <= 64
+    return 0 if alike else 1
 
 
 sys.exit(main())
