@@ -22,9 +22,9 @@ using Slope = std::map<OperatorProduct, NodeId>;
 using Slopes = std::vector<Slope>;  ///< By species.
 
 struct Part {
-    /// Of a number the first; the components of a vector; the entries 11, 12 and 22 of a tensor.
-    std::array<NodeId, 3> value{};
-    Slopes slopes;  ///< Of a number.
+    std::array<NodeId, 3> value{};  ///< Of a number the first; the components of a vector.
+    TensorMatrix matrix{};          ///< Of a tensor.
+    Slopes slopes;                  ///< Of a number.
     /// Of a vector, by the axis across which faces lie, and by component.
     std::array<std::array<Slopes, 3>, 3> at_faces;
 };
@@ -127,15 +127,14 @@ private:
     }
 
     Result<void> add_tensor(const Node& node, Part& part) {
-        for (std::size_t n = 0; n < 3; ++n) {
+        Node valued = node;
+        for (std::size_t n = 0; n < node.operand_count; ++n) {
             if (!is_flat(this->part(node, n).slopes)) {
                 return failure("a tensor in its rates changes with a species");
             }
+            valued.operands[n] = this->part(node, n).value[0];
         }
-        const TensorEntries entries =
-            tensor_entries(algebra_, this->part(node, 0).value[0], this->part(node, 1).value[0],
-                           this->part(node, 2).value[0]);
-        part.value = {entries.a11, entries.a12, entries.a22};
+        part.matrix = tensor_matrix(algebra_, algebra_.add(valued));
         return {};
     }
 
@@ -222,9 +221,9 @@ private:
     }
 
     void turn(Part& product, const Part& tensor, const Part& vector) {
-        for (std::size_t row = 0; row < 2; ++row) {
-            for (std::size_t column = 0; column < 2; ++column) {
-                const NodeId entry = tensor.value[row + column];
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (std::size_t column = 0; column < 3; ++column) {
+                const NodeId entry = tensor.matrix[row][column];
                 product.value[row] =
                     algebra_.sum(product.value[row], algebra_.product(entry, vector.value[column]));
                 at_each_face([&](std::size_t axis, std::size_t component) {
@@ -262,6 +261,7 @@ private:
             case Function::lap: part.slopes = through(first, Kind::laplacian); return {};
             case Function::grad2: return {};  // A square, and 0 in a flat state.
             case Function::advect: add_advection(node, part); return {};
+            case Function::transport: add_transport(node, part); return {};
             case Function::diffuse: add_diffusion(node, part); return {};
             case Function::div:
                 for (std::size_t each = 0; each < 3; ++each) {
@@ -307,6 +307,17 @@ private:
                 algebra_.maximum(velocity, zero_));
             add(part.slopes, through(carried, Kind::forward, axis),
                 algebra_.call(Function::min, {velocity, zero_}));
+        }
+    }
+
+    /// By central differences, which have the same speed of long waves. Limited slopes are not
+    /// linear in the values; the little that they damp is left out.
+    void add_transport(const Node& node, Part& part) {
+        const std::size_t velocities = node.operand_count - 1;
+        const Slopes& carried = this->part(node, velocities).slopes;
+        for (std::size_t axis = 0; axis < velocities; ++axis) {
+            add(part.slopes, through(carried, Kind::central, axis),
+                this->part(node, axis).value[0]);
         }
     }
 
@@ -395,7 +406,7 @@ Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
     for (const ItemId item : system.species()) model.species.push_back(item);
     if (model.species.empty()) return failure("it has no species");
     model.starts = start_values(model.algebra, program, stage, varied);
-    const FlatRates rates(system);
+    const FlatRates rates(system, FieldSpace::of(program, system));
     Lineariser parts(model);
     for (const NodeId id : ids_below<NodeId>(rates.count)) {
         if (auto done = parts.add(rates.algebra[id]); !done) return tl::unexpected(done.error());

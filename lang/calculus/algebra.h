@@ -32,10 +32,12 @@ inline constexpr std::size_t most_calculus_nodes = 100'000;
 /// The rates of a system in one graph.
 struct FlatRates {
     Algebra algebra;  ///< Holds the nodes of the rates first, then nodes made from them.
-    Flattening flattening{algebra};
+    Flattening flattening;
     std::size_t count = 0;  ///< The nodes below this number belong to the rates.
 
-    explicit FlatRates(const System& system) {
+    /// With a space, vectors of fields are written out.
+    explicit FlatRates(const System& system, const std::optional<FieldSpace>& space = {})
+        : flattening(algebra, space) {
         flattening.add_rates(system);
         count = algebra.size();
     }

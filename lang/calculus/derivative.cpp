@@ -161,7 +161,8 @@ private:
 
 std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage, ItemId of,
                                        ItemId by) {
-    FlatRates rates(program.system_of(stage));
+    const System& system = program.system_of(stage);
+    FlatRates rates(system, FieldSpace::of(program, system));
     SlopeRules rules(rates.algebra, program, nullptr);
     const auto slopes = slopes_of(rates, rules, by);
     if (!slopes) return std::nullopt;
@@ -172,7 +173,7 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
                                             const ModelFacts* model) {
     CHECK(!program.domain.model || model, "a bound on a model depends on its cells");
     const System& system = program.system_of(stage);
-    FlatRates rates(system);
+    FlatRates rates(system, FieldSpace::of(program, system));
     Algebra& algebra = rates.algebra;
     SlopeRules rules(algebra, program, model);
     const auto species = system.species();

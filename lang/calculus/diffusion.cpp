@@ -129,7 +129,7 @@ IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::
     IdVector<SpeciesId, SpeciesDiffusion> result;
     for (const ItemId item : system.species()) {
         SpeciesDiffusion& of_species = result.emplace_back();
-        FlatRates rates(system);
+        FlatRates rates(system, FieldSpace::of(program, system));
         const IdVector<NodeId, Operators> found = Linearisation(rates, item).run();
         if (rates.rate(item) >= found.next()) continue;
         for (std::size_t k = 0; k < diffusion_terms; ++k) {

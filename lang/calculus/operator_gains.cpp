@@ -128,11 +128,14 @@ std::array<NodeId, 3> OperatorGains::components_of(const Node& node) {
             return is_first ? algebra_.product(of(a, axis), b) : algebra_.product(a, of(b, axis));
         });
     }
-    const Node tensor = algebra_[a];
-    const auto [a11, a12, a22] =
-        tensor_entries(algebra_, tensor.operands[0], tensor.operands[1], tensor.operands[2]);
-    return {algebra_.sum(algebra_.product(a11, of(b, 0)), algebra_.product(a12, of(b, 1))),
-            algebra_.sum(algebra_.product(a12, of(b, 0)), algebra_.product(a22, of(b, 1))), zero_};
+    const TensorMatrix matrix = tensor_matrix(algebra_, a);
+    return each([&](auto row) {
+        NodeId sum = zero_;
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum = algebra_.sum(sum, algebra_.product(matrix[row][k], of(b, k)));
+        }
+        return sum;
+    });
 }
 
 }  // namespace cascade

@@ -32,7 +32,7 @@ public:
           system_(program.system_of(stage)),
           side_(side),
           species_(system_.species()),
-          rates_(system_),
+          rates_(system_, FieldSpace::of(program, system_)),
           algebra_(rates_.algebra),
           zero_(algebra_.number(0)),
           values_(species_.size()) {}
@@ -213,7 +213,8 @@ Conductivity conductivity_at(const System& system,
     const IdVector<NodeId, bool> needed = needed_by(rates.algebra, {&rate, 1});
     for (const NodeId id : ids_below<NodeId>(needed.size())) {
         const Node& node = rates.algebra[id];
-        if (needed[id] && (node.calls(Function::diffuse) || node.calls(Function::tensor)))
+        if (needed[id] && (node.calls(Function::diffuse) || node.calls(Function::tensor) ||
+                           node.calls(Function::symmetric)))
             return {std::nullopt, "diffuses in a direction"};
     }
     const SpeciesDiffusion& diffusion = diffusion_of_all[species];
@@ -264,7 +265,7 @@ const Node* beyond_reach_of_side(const System& system, const Formula& formula) {
     const IdVector<NodeId, bool> changes = changing_nodes(system, formula);
     for (const NodeId id : changes.ids()) {
         const Node& node = formula.nodes[id];
-        if (!changes[id] || !node.is<Call>()) continue;
+        if (!changes[id] || !node.is<Call>() || node.calls(Function::vector)) continue;
         if (varies_by_cell(node.function) || info(node.function).is_aggregate) return &node;
     }
     return nullptr;

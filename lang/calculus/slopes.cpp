@@ -3,6 +3,7 @@
 
 #include "lang/calculus/derivative_rules.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace cascade {
@@ -97,7 +98,8 @@ std::optional<Slope> SlopeRules::of_number(const Node& node,
     switch (node.function) {
         case Function::div: return of_divergence(first);
         case Function::grad2: return of_squared_gradient(node, first[0]);
-        case Function::advect: return of_advection(node, before);
+        case Function::advect:
+        case Function::transport: return of_advection(node, before);
         case Function::diffuse:
             for (std::size_t n = 1; n < 4; ++n) {
                 if (!is_zero(before[node.operands[n]][0])) return std::nullopt;
@@ -136,7 +138,8 @@ Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     return slope;
 }
 
-/// Upwind, v (c − W) / h: diffusion of the gain −2 |v| / h, and waves of |v| / h.
+/// Upwind, v (c − W) / h: diffusion of the gain −2 |v| / h, and waves of |v| / h. Limited slopes
+/// at most double the differences.
 Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>& before) {
     const std::size_t velocities = node.operand_count - 1;
     const NodeId carried = node.operands[velocities];
@@ -156,6 +159,7 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
                                                      gains_.of_gradient(axis)));
     }
     if (velocity_changes) slope.own = algebra_.add(by_change);
+    if (node.calls(Function::transport)) speed = algebra_.product(algebra_.number(2), speed);
     const Slope& inner = before[carried][0];
     Slope carries = through_diffusion(inner, speed);
     for (NodeId& each : carries.diffusion) each = algebra_.negative(each);
@@ -254,21 +258,32 @@ std::optional<Slopes> SlopeRules::of_product(const Node& node,
     return slopes;
 }
 
-/// For a gradient the diagonal is enough: in units of 4/h², with sines p and q, the symbol of div(A
-/// grad e) is p² a11 + q² a22 + 2 p q √(1 − p²) √(1 − q²) a12, which never exceeds a11 + a22 if
-/// a12² ≤ a11 a22.
+/// For a gradient the diagonal is enough. In units of 4/h², with sines s and cosines c along the
+/// axes, the symbol of div(A grad e) is Σ a_ii s_i² + 2 Σ a_ij s_i c_i s_j c_j. If A is not
+/// negative, then |a_ij| ≤ √(a_ii a_jj), and the symbol is at most the largest eigenvalue of
+/// diag(s_i⁴) + v vᵀ with v_i = s_i c_i times the trace of A: 1 in the plane, and 9/8 in space, at
+/// s_i² = 3/4.
 Slopes SlopeRules::times_tensor(NodeId tensor, const Slopes& flux) {
     const Node node = algebra_[tensor];
-    const auto [a11, a12, a22] =
-        tensor_entries(algebra_, node.operands[0], node.operands[1], node.operands[2]);
-    Slopes slopes{scaled(flux[0], a11), scaled(flux[1], a22), zero()};
-    const bool is_gradient = !gains_.has_metric() && flux[0].own == zero_ && flux[1].own == zero_ &&
-                             flux[0].other == zero_ && flux[1].other == zero_;
-    if (is_gradient) return slopes;
-    for (const std::size_t axis : {0, 1}) {
-        Slope across = scaled(flux[1 - axis], a12);
-        across.diffusion.clear();
-        add(slopes[axis], across);
+    const bool in_space = node.calls(Function::symmetric) && node.operand_count == 6;
+    const std::size_t size = in_space ? 3 : 2;
+    const TensorMatrix matrix = tensor_matrix(algebra_, tensor);
+    const auto is_of_gradient = [&](const Slope& slope) {
+        return slope.own == zero_ && slope.other == zero_;
+    };
+    const bool is_gradient =
+        !gains_.has_metric() && std::all_of(flux.begin(), flux.end(), is_of_gradient);
+    Slopes slopes{zero(), zero(), zero()};
+    for (std::size_t axis = 0; axis < size; ++axis) {
+        NodeId along = matrix[axis][axis];
+        if (in_space) along = algebra_.product(algebra_.number(9.0 / 8), along);
+        slopes[axis] = scaled(flux[axis], along);
+        for (std::size_t other = 0; other < size && !is_gradient; ++other) {
+            if (other == axis) continue;
+            Slope across = scaled(flux[other], matrix[axis][other]);
+            across.diffusion.clear();
+            add(slopes[axis], across);
+        }
     }
     return slopes;
 }

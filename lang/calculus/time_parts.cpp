@@ -39,7 +39,7 @@ Kind kind_of(const Node& node, const IdVector<NodeId, Kind>& before, const Progr
 
 std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
-    FlatRates rates(system);
+    FlatRates rates(system, FieldSpace::of(program, system));
     IdVector<NodeId, Kind> kinds;
     std::vector<NodeId> found;
     const auto note = [&](NodeId id) {

@@ -136,8 +136,7 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     scope.last_stage = last_stage;
     auto checked = checking::check_expression(work, script, expression, scope);
     if (!checked) return std::nullopt;
-    if (!has_meaning_on_domain(program, checked->formula, is_of_cells(program, stage),
-                               diagnostics)) {
+    if (!has_meaning_on_domain(program, checked->formula, program.system_of(stage), diagnostics)) {
         return std::nullopt;
     }
     return std::move(checked->formula);

@@ -27,6 +27,7 @@ std::string number_of_values(Arity arity) {
         return fmt::format("groups of {} values{}", arity.least,
                            arity.most > arity.least ? ", and perhaps one more" : "");
     }
+    if (arity.is_range) return fmt::format("{} to {} values", arity.least, arity.most);
     if (arity.least != arity.most) {
         return fmt::format("{} or {} values", arity.least, arity.most);
     }
@@ -264,14 +265,15 @@ void ExpressionChecker::check_types(const Node& node) {
 
 void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
     const ValueType type = formula_.nodes[a].type;
-    const bool is_chosen = type == ValueType::number || type == ValueType::colour ||
-                           (type == ValueType::vector && in_cells());
+    const bool is_chosen =
+        type == ValueType::number || type == ValueType::colour || type == ValueType::vector;
     if ((type != formula_.nodes[b].type || !is_chosen) && !parts_.back().has_error) {
         return error(formula_.nodes[b].span,
-                     fmt::format("{} chooses between two numbers{} or two colours",
-                                 info(node.function).spelling, in_cells() ? ", two vectors" : ""));
+                     fmt::format("{} chooses between two numbers, two vectors or two colours",
+                                 info(node.function).spelling));
     }
     node.type = type;
+    parts_.back().turned = parts_[a].turned || parts_[b].turned;
 }
 
 void ExpressionChecker::check_palette(const Node& node) {

@@ -123,6 +123,9 @@ void ExpressionChecker::take(std::optional<Node> node) {
         return;
     }
     if (const auto* number = node->as<double>()) parts_.back() = {false, true, *number};
+    if (const auto* id = node->as<DefinitionId>(); id != nullptr && work_.on_surface) {
+        parts_.back().turned = is_turned(*id);
+    }
     formula_.nodes.back() = *node;
 }
 
@@ -132,6 +135,10 @@ void ExpressionChecker::visit(const ast::Unary& unary) {
 
 void ExpressionChecker::visit(const ast::Binary& binary) {
     apply(binary.op, {part_of(binary.left), part_of(binary.right)}, 2);
+}
+
+void ExpressionChecker::visit(const ast::Component& component) {
+    apply(Function::component, {part_of(component.operand), part_of(component.axis)}, 2);
 }
 
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
@@ -163,7 +170,7 @@ std::optional<CheckedExpression> check_vector(Workspace& work, const ast::Script
     auto checked = check_expression(work, script, expression, scope);
     if (!checked || checked->type() == ValueType::vector) return checked;
     work.diagnostics.error(checked->formula.nodes.back().span, "a vector is needed here",
-                           vectors_are);
+                           vectors_are(is_of_cells(work, scope)));
     return std::nullopt;
 }
 

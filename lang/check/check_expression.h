@@ -35,7 +35,7 @@ std::optional<CheckedExpression> check_parts(Workspace& work, const ast::Script&
 std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
-/// The same for an expression that must be a vector of a system of cells.
+/// The same for an expression that must be a vector.
 std::optional<CheckedExpression> check_vector(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
@@ -44,8 +44,10 @@ struct TypeWords {
     std::string_view name, hint;
 };
 TypeWords words_of(ValueType type, bool in_cells);
-/// The hint where a vector of a system of cells is expected.
-inline constexpr const char* vectors_are = "such as p, normal or vector(1, 0, 0)";
+/// The hint where a vector is expected.
+constexpr const char* vectors_are(bool in_cells) {
+    return in_cells ? "such as p, normal or vector(1, 0, 0)" : "such as grad(e) or vector(ex, ey)";
+}
 
 /// The most levels of nested operators; each level takes a pass over the grid.
 inline constexpr std::uint32_t most_nested_operators = 32;

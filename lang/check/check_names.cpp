@@ -362,6 +362,12 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
         return std::nullopt;
     }
     if (!scope.stage && !is_of_cells(work, scope)) {
+        const Meaning* own = find(work.names[scope.system], qualified.stage.text);
+        if (own != nullptr && own->type == ValueType::vector) {
+            report(work, qualified.name.span, "a vector has the components x, y and z",
+                   fmt::format("write {}.x", qualified.stage.text));
+            return std::nullopt;
+        }
         report(work, span, "a system cannot read a stage",
                "a system does not know what ran before it");
         return std::nullopt;

@@ -25,7 +25,7 @@ namespace cascade::checking {
 struct Meaning {
     std::variant<ItemId, DefinitionId> id;
     bool has_error = false;  ///< Its declaration had an error, which has been reported.
-    /// Vectors are in systems of cells only. One of items has the id of the first of three.
+    /// A vector of items has the id of the first of three.
     ValueType type = ValueType::number;
 
     bool is_definition() const { return std::holds_alternative<DefinitionId>(id); }

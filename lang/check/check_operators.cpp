@@ -1,8 +1,8 @@
 // Operators of derivatives, and the vectors and tensors that some of them take.
 //
-// In a system of fields a vector is a flux: grad(e), vector(ex, ey), or the result of numbers,
-// tensors, + and - applied to vectors. div turns it into a number. In a system of cells it is a
-// place or a direction in space; arithmetic is the same.
+// Vectors and tensors have the same arithmetic in all systems: they are added, and multiplied by
+// numbers, and a tensor multiplies a vector. In a system of fields div takes vectors at the faces
+// of cells; in a system of cells that crawl vectors are places and directions in space.
 #include "lang/check/expression_checker.h"
 
 #include <fmt/format.h>
@@ -15,81 +15,129 @@ TypeWords words_of(ValueType type, bool in_cells) {
         case ValueType::colour: return {"a colour", ""};
         case ValueType::text: return {"a text", ""};
         case ValueType::vector:
-            return {"a vector", in_cells ? "dot(a, b) and length(v) make a number of it"
-                                         : "div(…) makes a number of it"};
+            return {"a vector", in_cells
+                                    ? "dot(a, b) and length(v) make a number of it"
+                                    : "div(v), dot(v, w), length(v) and v.x make a number of it"};
         case ValueType::tensor:
             return {"a tensor", "it multiplies a vector: div(tensor(a1, a2, theta) * grad(e))"};
     }
     return {"", ""};
 }
 
-/// Checks arithmetic of vectors. False if no operand is a vector or a tensor.
+namespace {
+
+/// The type of an operator applied to numbers, vectors and tensors; nothing where it has no
+/// meaning.
+std::optional<ValueType> type_of_result(Function function, ValueType left, ValueType right) {
+    const bool is_left_number = left == ValueType::number,
+               is_right_number = right == ValueType::number;
+    switch (function) {
+        case Function::negate: return left;
+        case Function::multiply:
+            if (is_left_number) return right;
+            if (is_right_number) return left;
+            if (left == ValueType::tensor && right == ValueType::vector) return right;
+            return std::nullopt;
+        case Function::divide: return is_right_number ? std::optional(left) : std::nullopt;
+        default: return left == right ? std::optional(left) : std::nullopt;
+    }
+}
+
+}  // namespace
+
+/// Checks arithmetic of vectors and tensors. False if no operand is a vector or a tensor.
 bool ExpressionChecker::check_vectors(const Node& node) {
-    const auto type_of = [&](std::size_t k) { return formula_.nodes[node.operands[k]].type; };
     const auto is_geometric = [](ValueType type) {
         return type == ValueType::vector || type == ValueType::tensor;
     };
     if (info(node.function).kind != FunctionKind::arithmetic) return false;
-    const ValueType left = type_of(0);
-    if (node.function == Function::negate) {
-        if (left != ValueType::vector) return false;
-        formula_.nodes.back().type = ValueType::vector;
-        parts_.back().turned = parts_[node.operands[0]].turned;
-        return true;
-    }
-    const ValueType right = type_of(1);
+    const NodeId first = node.operands[0], last = node.reads().back();
+    const ValueType left = formula_.nodes[first].type, right = formula_.nodes[last].type;
     if (!is_geometric(left) && !is_geometric(right)) return false;
-    const Span span = node.span;
-    const auto words = [&](ValueType type) { return words_of(type, in_cells()).name; };
-    bool fits = false;
-    std::string message, hint;
-    switch (node.function) {
-        case Function::multiply:
-            fits = (left == ValueType::number && right == ValueType::vector) ||
-                   (left == ValueType::vector && right == ValueType::number) ||
-                   (left == ValueType::tensor && right == ValueType::vector);
-            message = fmt::format("{} cannot be multiplied by {}", words(left), words(right));
-            if (left == ValueType::vector && right == ValueType::tensor) {
-                hint = "the tensor stands before the vector";
-            } else if (in_cells()) {
-                hint = "dot(a, b) and cross(a, b) are products of two vectors";
-            } else {
-                hint = "a number or a tensor can multiply a vector";
-            }
-            break;
-        case Function::divide:
-            fits = left == ValueType::vector && right == ValueType::number;
-            message = fmt::format("{} cannot be divided by {}", words(left), words(right));
-            break;
-        default:
-            fits = left == ValueType::vector && right == ValueType::vector;
-            message = fmt::format("{} and {} cannot be {}", words(left), words(right),
-                                  node.function == Function::add ? "added" : "subtracted");
-    }
-    const bool by_tensor = left == ValueType::tensor;
-    const bool is_turned = parts_[node.operands[0]].turned || parts_[node.operands[1]].turned;
-    if (fits && by_tensor && is_turned && work_.on_surface) {
-        error(span, "on a surface a tensor cannot multiply what a tensor has multiplied",
+    const auto type = is_geometric(left) || left == ValueType::number
+                          ? type_of_result(node.function, left, right)
+                          : std::nullopt;
+    const bool by_tensor = left == ValueType::tensor && right == ValueType::vector;
+    const bool is_turned = parts_[first].turned || parts_[last].turned;
+    if (type && by_tensor && is_turned && work_.on_surface) {
+        error(node.span, "on a surface a tensor cannot multiply what a tensor has multiplied",
               "make one tensor of the two");
-    } else if (fits) {
-        formula_.nodes.back().type = ValueType::vector;
+    } else if (type) {
+        formula_.nodes.back().type = *type;
         parts_.back().turned = by_tensor || is_turned;
     } else {
-        error(span, std::move(message), std::move(hint));
+        refuse_product(node.function, node.span, left, right);
     }
     return true;
+}
+
+void ExpressionChecker::refuse_product(Function function, Span span, ValueType left,
+                                       ValueType right) {
+    const std::string_view a = words_of(left, in_cells()).name,
+                           b = words_of(right, in_cells()).name;
+    switch (function) {
+        case Function::multiply: {
+            const char* hint = "a number or a tensor can multiply a vector";
+            if (left == ValueType::vector && right == ValueType::tensor) {
+                hint = "the tensor stands before the vector";
+            } else if (left == ValueType::vector && right == ValueType::vector) {
+                hint = "dot(a, b) and cross(a, b) are products of two vectors";
+            } else if (in_cells()) {
+                hint = "dot(a, b) and cross(a, b) are products of two vectors";
+            }
+            return error(span, fmt::format("{} cannot be multiplied by {}", a, b), hint);
+        }
+        case Function::divide: return error(span, fmt::format("{} cannot be divided by {}", a, b));
+        default:
+            return error(span, fmt::format("{} and {} cannot be {}", a, b,
+                                           function == Function::add ? "added" : "subtracted"));
+    }
+}
+
+/// Has a tensor multiplied the definition, or a vector that it reads?
+bool ExpressionChecker::is_turned(DefinitionId definition) const {
+    const auto& definitions = work_.program.systems[scope_.system].definitions;
+    IdVector<DefinitionId, bool> seen(definitions.size(), false);
+    std::vector<DefinitionId> waiting{definition};
+    seen[definition] = true;
+    while (!waiting.empty()) {
+        const Formula& formula = definitions[waiting.back()].formula;
+        waiting.pop_back();
+        for (const Node& node : formula.nodes) {
+            if (node.type != ValueType::vector) continue;
+            if (node.calls(Function::multiply) &&
+                formula.nodes[node.operands[0]].type == ValueType::tensor) {
+                return true;
+            }
+            const auto* const id = node.as<DefinitionId>();
+            if (id == nullptr || seen[*id]) continue;
+            seen[*id] = true;
+            waiting.push_back(*id);
+        }
+    }
+    return false;
 }
 
 void ExpressionChecker::need_vector(NodeId part) {
     const Node& operand = formula_.nodes[part];
     if (operand.type == ValueType::vector || parts_.back().has_error) return;
-    error(operand.span, "a vector is needed here", vectors_are);
+    error(operand.span, "a vector is needed here", vectors_are(in_cells()));
 }
 
 void ExpressionChecker::check_geometry(Node& node) {
+    if (node.function == Function::component) {
+        const Node& operand = formula_.nodes[node.operands[0]];
+        if (operand.type == ValueType::vector) return;
+        const std::string_view name = words_of(operand.type, in_cells()).name;
+        return error(operand.span, fmt::format("{} has no components", name),
+                     "grad(e).x is the first component of a vector");
+    }
     for (const NodeId operand : node.reads()) need_vector(operand);
     const bool is_vector = node.function == Function::cross || node.function == Function::unit;
     if (is_vector) node.type = ValueType::vector;
+    for (const NodeId operand : node.reads()) {
+        if (is_vector) parts_.back().turned = parts_.back().turned || parts_[operand].turned;
+    }
 }
 
 /// Reports the derivative of a constant, which is probably a mistake.
@@ -102,6 +150,35 @@ bool ExpressionChecker::is_same_everywhere(NodeId part) {
     return true;
 }
 
+/// advect(v, e) and advect(vx, vy, e).
+void ExpressionChecker::check_carrying(const Node& node) {
+    const NodeId carried = node.reads().back();
+    need(carried, ValueType::number);
+    if (node.operand_count == 2) {
+        need_vector(node.operands[0]);
+    } else {
+        for (const NodeId operand : node.reads()) need(operand, ValueType::number);
+    }
+    if (!parts_.back().has_error) is_same_everywhere(carried);
+}
+
+void ExpressionChecker::check_curl(const Node& node) {
+    const NodeId of = node.operands[0];
+    const bool in_space = work_.program.domain.grid.depth > 1;
+    Node& result = formula_.nodes.back();
+    if (formula_.nodes[of].type == ValueType::vector) {
+        if (in_space) result.type = ValueType::vector;
+        return;
+    }
+    need(of, ValueType::number);
+    if (parts_.back().has_error || is_same_everywhere(of)) return;
+    if (in_space) {
+        return error(formula_.nodes[of].span, "in space curl takes a vector",
+                     "curl(vector(0, 0, e)) is (dy(e), -dx(e), 0)");
+    }
+    result.type = ValueType::vector;
+}
+
 void ExpressionChecker::check_operator(const Node& node) {
     if (node.function == Function::div) {
         const Node& flux = formula_.nodes[node.operands[0]];
@@ -109,10 +186,20 @@ void ExpressionChecker::check_operator(const Node& node) {
         return error(flux.span, "div takes a vector",
                      "such as grad(e), d * grad(e) or vector(ex, ey)");
     }
+    if (node.function == Function::curl) return check_curl(node);
+    if (node.function == Function::advect || node.function == Function::transport) {
+        return check_carrying(node);
+    }
     for (const NodeId operand : node.reads()) need(operand, ValueType::number);
     if (parts_.back().has_error) return;
     switch (node.function) {
         case Function::vector: formula_.nodes.back().type = ValueType::vector; return;
+        case Function::symmetric:
+            if (work_.on_surface && node.operand_count == 6) {
+                return error(node.span, "on a surface a tensor has three entries",
+                             "symmetric(axx, axy, ayy)");
+            }
+            [[fallthrough]];
         case Function::tensor: formula_.nodes.back().type = ValueType::tensor; return;
         default: break;
     }

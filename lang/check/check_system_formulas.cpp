@@ -5,6 +5,8 @@
 #include "lang/check/typed_definitions.h"
 #include "lang/program/order.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace cascade::checking {
@@ -15,13 +17,34 @@ std::vector<const Declaration*> SystemChecker::RateStatements::all() const {
     return statements;
 }
 
+void SystemChecker::report_type(const Declaration& declaration, const CheckedExpression& checked,
+                                Context context, ValueType wanted) {
+    const ValueType type = checked.type();
+    const Span span = checked.formula.nodes.back().span;
+    if (wanted == ValueType::vector) {
+        work_.diagnostics.error(span, "a vector is needed here", vectors_are(is_cells()));
+        return;
+    }
+    const TypeWords words = words_of(type, is_cells());
+    const bool is_parameter = context == Context::value && !is_cells() &&
+                              (type == ValueType::vector || type == ValueType::tensor);
+    work_.diagnostics.error(span, fmt::format("{} is not a number", words.name),
+                            is_parameter
+                                ? fmt::format("a definition can be one: {} = …", declaration.name)
+                                : std::string(words.hint));
+}
+
 /// The value of a declaration, a number or a vector; reports errors.
 std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
                                                             Context context, ValueType type) {
     if (!has_one_value(work_, *declaration.script, *declaration.statement)) return std::nullopt;
-    const auto check = type == ValueType::vector ? check_vector : check_number;
-    auto checked = check(work_, *declaration.script, declaration.statement->values[0],
-                         scope(context, declaration));
+    const Scope where = scope(context, declaration);
+    const ast::Expression value = declaration.statement->values[0];
+    auto checked = check_expression(work_, *declaration.script, value, where);
+    if (checked && checked->type() != type) {
+        report_type(declaration, *checked, context, type);
+        return std::nullopt;
+    }
     if (checked) mark_reads(work_, checked->formula, index_);
     return checked;
 }
@@ -45,11 +68,7 @@ void SystemChecker::check_values() {
 }
 
 void SystemChecker::check_definitions() {
-    if (is_cells()) return check_typed_definitions(work_, index_, Context::rate, definitions_);
-    for (const DefinitionId id : definitions_.ids()) {
-        auto checked = check_value(*definitions_[id], Context::rate);
-        if (checked) system().definitions[id].formula = std::move(checked->formula);
-    }
+    check_typed_definitions(work_, index_, Context::rate, definitions_);
 }
 
 namespace {

@@ -145,6 +145,10 @@ void Expander::visit(ast::ExprId part) {
     const ast::Expr& here = expr(part);
     if (const auto* name = std::get_if<ast::Name>(&here.node)) return visit_name(here, *name);
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return visit_call(part, *call);
+    if (const auto* component = std::get_if<ast::Component>(&here.node)) {
+        push(TaskKind::finish, part);
+        return push(TaskKind::visit, component->operand);
+    }
     if (const auto* over = std::get_if<ast::Over>(&here.node)) return visit_over(part, *over);
     if (const auto* unary = std::get_if<ast::Unary>(&here.node)) {
         push(TaskKind::finish, part);
@@ -286,6 +290,11 @@ void Expander::finish(const Task& task) {
         return emit(here.span, ast::Over{over->function, take(), over->index, distance});
     }
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return finish_call(here, *call);
+    if (const auto* component = std::get_if<ast::Component>(&here.node)) {
+        const ast::ExprId vector = take();
+        const ast::ExprId number = append(component->name.span, expr(component->axis).node);
+        return emit(here.span, ast::Component{vector, number, component->name});
+    }
     finish_member(here, std::get<ast::Indexed>(here.node), static_cast<std::size_t>(task.value));
 }
 

@@ -68,6 +68,7 @@ private:
     void visit(const ast::Call& call);
     void visit(const ast::Over& over);
     void visit(const ast::Indexed& indexed);
+    void visit(const ast::Component& component);
     void visit(const ast::Garbage&) { parts_.back().has_error = true; }
 
     void take(std::optional<Node> node);
@@ -88,6 +89,10 @@ private:
     bool has_places(NodeId root);
     void need_vector(NodeId part);
     void check_operator(const Node& node);
+    void refuse_product(Function function, Span span, ValueType left, ValueType right);
+    void check_carrying(const Node& node);
+    void check_curl(const Node& node);
+    bool is_turned(DefinitionId definition) const;
     bool is_same_everywhere(NodeId part);
     void need(NodeId part, ValueType type);
     void fold_constants(const Node& node);

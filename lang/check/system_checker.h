@@ -57,6 +57,8 @@ private:
     void report_no_rates();
 
     // Formulas.
+    void report_type(const Declaration& declaration, const CheckedExpression& checked,
+                     Context context, ValueType wanted);
     std::optional<CheckedExpression> check_value(const Declaration& declaration, Context context,
                                                  ValueType type = ValueType::number);
     Formula sum_of(const RateStatements& rate, ValueType type = ValueType::number);

@@ -1,4 +1,5 @@
-// The names that a definition reads are found in its text, before it can be checked.
+// The names that a definition reads are found in its text, before it can be checked. Members of
+// families are known only when it is, so a reader of one waits for the whole family.
 #include "lang/check/typed_definitions.h"
 
 #include "lang/check/check_blocks.h"
@@ -6,33 +7,76 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+#include <unordered_map>
+
 namespace cascade::checking {
 
 namespace {
 
 using Declarations = IdVector<DefinitionId, const Declaration*>;
 
-std::vector<DefinitionId> order_of(const Declarations& definitions, const NameTable& names) {
-    Dependencies reads(definitions.size());
-    for (const DefinitionId id : definitions.ids()) {
-        if (definitions[id] == nullptr) continue;
-        const Declaration& from = *definitions[id];
+/// The nodes of the dependencies: definitions by their ids, and then one for each family, which
+/// depends on all its members.
+class Readers {
+public:
+    Readers(const Declarations& definitions, const NameTable& names)
+        : definitions_(definitions), names_(names), reads_(definitions.size()) {
+        for (const DefinitionId id : definitions.ids()) {
+            const std::string_view family = family_of(id);
+            if (family.empty()) continue;
+            const auto [place, is_new] =
+                families_.try_emplace(family, static_cast<std::uint32_t>(reads_.size()));
+            if (is_new) reads_.emplace_back();
+            reads_[place->second].push_back(id.index());
+        }
+        for (const DefinitionId id : definitions.ids()) find_reads(id);
+    }
+
+    const Dependencies& reads() const { return reads_; }
+
+private:
+    std::string_view family_of(DefinitionId id) const {
+        if (definitions_[id] == nullptr || definitions_[id]->statement->index.empty()) return {};
+        return definitions_[id]->statement->name.text;
+    }
+
+    void find_reads(DefinitionId id) {
+        if (definitions_[id] == nullptr) return;
+        const Declaration& from = *definitions_[id];
         const ast::Expression value = from.statement->values[0];
         for (ast::ExprId part = value.first; part <= value.root; ++part) {
             const auto& node = from.script->expressions[part].node;
-            const auto* const name = std::get_if<ast::Name>(&node);
-            const auto* const own = std::get_if<ast::Bracketed>(&node);
-            if (name == nullptr && own == nullptr) continue;
-            const Meaning* meaning = find(names, name != nullptr ? name->name : own->name.text);
-            if (meaning == nullptr || !meaning->is_definition()) continue;
-            reads[id.index()].push_back(std::get<DefinitionId>(meaning->id).index());
+            if (const auto* name = std::get_if<ast::Name>(&node)) add(id, name->name);
+            if (const auto* own = std::get_if<ast::Bracketed>(&node)) add(id, own->name.text);
         }
     }
-    const Order order = topological_order(reads);
+
+    /// A member of the reader's own family is one before it, as in the order of writing.
+    void add(DefinitionId reader, std::string_view name) {
+        const auto family = families_.find(name);
+        if (family != families_.end() && family_of(reader) != name) {
+            reads_[reader.index()].push_back(family->second);
+        }
+        const Meaning* meaning = find(names_, name);
+        if (meaning == nullptr || !meaning->is_definition()) return;
+        reads_[reader.index()].push_back(std::get<DefinitionId>(meaning->id).index());
+    }
+
+    const Declarations& definitions_;
+    const NameTable& names_;
+    Dependencies reads_;
+    std::unordered_map<std::string_view, std::uint32_t> families_;
+};
+
+std::vector<DefinitionId> order_of(const Declarations& definitions, const NameTable& names) {
+    const Order order = topological_order(Readers(definitions, names).reads());
     std::vector<DefinitionId> ids;
-    for (const std::uint32_t id : order.order) ids.emplace_back(id);
-    if (!order.cycles.empty()) {
-        ids.clear();
+    if (order.cycles.empty()) {
+        for (const std::uint32_t node : order.order) {
+            if (node < definitions.size()) ids.emplace_back(node);
+        }
+    } else {
         for (const DefinitionId id : definitions.ids()) ids.push_back(id);
     }
     return ids;
@@ -53,7 +97,7 @@ void check_definition(Workspace& work, SystemId system, Context context, Definit
         return;
     }
     const ValueType type = checked->type();
-    if (type != ValueType::number && type != ValueType::vector) {
+    if (type == ValueType::text || type == ValueType::colour) {
         const TypeWords words = words_of(type, true);
         work.diagnostics.error(checked->formula.nodes.back().span,
                                fmt::format("{} is neither a number nor a vector", words.name));

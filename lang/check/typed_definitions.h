@@ -1,4 +1,4 @@
-// Definitions that may be numbers or vectors, as of cells that crawl and of shapes (internal to the
+// Definitions that may be numbers, vectors or, in systems of fields, tensors (internal to the
 // checker).
 #pragma once
 

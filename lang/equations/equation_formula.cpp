@@ -99,6 +99,14 @@ private:
                     write_call(node, least);
                 } else if constexpr (std::is_same_v<Node, ast::Over>) {
                     write_over(node, least);
+                } else if constexpr (std::is_same_v<Node, ast::Component>) {
+                    const std::string axis(node.name.text);
+                    const auto* const vector = as<ast::Name>(node.operand);
+                    if (tex_ && vector != nullptr) {
+                        text_ += symbols_.family_in_tex(vector->name) + "_{" + axis + "}";
+                    } else {
+                        push({Operand{node.operand, an_atom}, both("_" + axis, "_{" + axis + "}")});
+                    }
                 } else if constexpr (std::is_same_v<Node, ast::Indexed>) {
                     write_member(node, least);
                 }
@@ -253,7 +261,9 @@ private:
             return write_power(operands[0], operands[1], least);
         }
         if (operands.size() == 3 && function == "if") return write_choice(operands);
-        if (operands.size() >= 3 && function == "advect") return write_advection(operands, least);
+        if (operands.size() >= 2 && (function == "advect" || function == "transport")) {
+            return write_advection(operands, least);
+        }
         if (operands.size() == 4 && function == "diffuse") {
             return push_operator(
                 {both("A(", "\\mathsf{A}\\left("), Operand{operands[1], anything}, ", ",
@@ -263,7 +273,7 @@ private:
         }
         std::string head = function_symbol(function);
         if (function == "vector") head = "";
-        if (function == "tensor") head = both("A", "\\mathsf{A}");
+        if (function == "tensor" || function == "symmetric") head = both("A", "\\mathsf{A}");
         write_arguments(head, operands);
     }
     std::string function_symbol(std::string_view function) const {
@@ -291,12 +301,18 @@ private:
     }
     /// v · ∇e
     void write_advection(std::span<const ast::ExprId> operands, int least) {
-        std::vector<Piece> pieces = {both("(", "\\left(")};
-        for (std::size_t k = 0; k + 1 < operands.size(); ++k) {
-            if (k > 0) pieces.emplace_back(", ");
-            pieces.emplace_back(Operand{operands[k], anything});
+        std::vector<Piece> pieces;
+        if (operands.size() == 2) {
+            pieces.emplace_back(Operand{operands[0], an_atom});
+            pieces.emplace_back(both("·∇", " \\cdot \\nabla "));
+        } else {
+            pieces.emplace_back(both("(", "\\left("));
+            for (std::size_t k = 0; k + 1 < operands.size(); ++k) {
+                if (k > 0) pieces.emplace_back(", ");
+                pieces.emplace_back(Operand{operands[k], anything});
+            }
+            pieces.emplace_back(both(")·∇", "\\right) \\cdot \\nabla "));
         }
-        pieces.emplace_back(both(")·∇", "\\right) \\cdot \\nabla "));
         pieces.emplace_back(Operand{operands.back(), an_atom});
         push_operator(std::move(pieces), a_product, least);
     }

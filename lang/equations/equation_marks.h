@@ -56,6 +56,7 @@ inline constexpr Prefix prefixes[] = {
     {"lap", "∇²", "\\nabla^2 "},
     {"grad", "∇", "\\nabla "},
     {"div", "∇·", "\\nabla \\cdot "},
+    {"curl", "∇×", "\\nabla \\times "},
 };
 
 /// The row of a function; null if there is none.

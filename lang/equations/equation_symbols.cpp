@@ -120,7 +120,11 @@ std::optional<std::string> subscript(std::string_view text) { return replaced(be
 std::string Symbols::name(std::string_view name) const {
     const Parts parts = parts_of(name);
     if (notation == Notation::tex) {
-        const std::string stem = tex_word(parts.stem);
+        const std::string word = tex_word(parts.stem);
+        const bool is_greek = !greek_letter(parts.stem).empty();
+        const std::string stem = !vectors.contains(name) ? word
+                                 : is_greek              ? "\\boldsymbol{" + word + "}"
+                                                         : "\\mathbf{" + tex_text(parts.stem) + "}";
         const std::string under = tex_below(parts.below);
         return under.empty() ? stem : stem + "_{" + under + "}";
     }

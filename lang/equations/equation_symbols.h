@@ -3,7 +3,9 @@
 
 #include "lang/equations/equations.h"
 
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -14,6 +16,7 @@ struct Symbols {
     Notation notation = Notation::unicode;
     /// Unicode has few subscript letters: names get subscripts only if all names of the system can.
     bool subscripts = true;
+    std::set<std::string, std::less<>> vectors;  ///< Names that TeX writes in bold.
 
     /// diff_u: diffᵤ, \mathrm{diff}_{u}; beta: β, \beta; p1: p₁, p_{1}.
     std::string name(std::string_view name) const;

@@ -7,6 +7,7 @@
 #include "lang/equations/equation_formula.h"
 #include "lang/equations/equation_lines.h"
 #include "lang/equations/mathml.h"
+#include "lang/equations/vector_names.h"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,7 @@ public:
             symbols_.subscripts = symbols_.subscripts && (is_setting(*said.statement) ||
                                                           has_subscript(said.statement->name.text));
         }
+        if (!system.is_cells()) symbols_.vectors = vector_names(system);
         for (const SaidStatement& said : system.all()) sort(said);
         add_functions();
     }

@@ -53,7 +53,17 @@ public:
     }
 
 private:
-    enum class Use { row, above, below, root, cubic_root, superscript, subscript, fence, cases };
+    enum class Use {
+        row,
+        numerator,
+        denominator,
+        root,
+        cubic_root,
+        superscript,
+        subscript,
+        fence,
+        cases
+    };
     struct Row {
         Use use = Use::row;
         std::vector<std::string> parts;
@@ -79,11 +89,11 @@ private:
         const std::string one = as_one(row.parts);
         switch (row.use) {
             case Use::row: return add(one);
-            case Use::above: {
+            case Use::numerator: {
                 skip("{");
-                return open(Use::below, one);
+                return open(Use::denominator, one);
             }
-            case Use::below: return add(element("mfrac", row.before + one));
+            case Use::denominator: return add(element("mfrac", row.before + one));
             case Use::root: return add(element("msqrt", one));
             case Use::cubic_root: return add(element("mroot", one + element("mn", "3")));
             case Use::fence: {
@@ -182,7 +192,7 @@ private:
         const std::string_view word = command();
         if (word == "\\frac") {
             skip("{");
-            return open(Use::above);
+            return open(Use::numerator);
         }
         if (word == "\\sqrt") {
             const bool is_cubic = skip("[3]");
@@ -212,7 +222,10 @@ private:
         if (word == "\\mathrm" || word == "\\operatorname" || word == "\\mathsf") {
             return add_and_close("<mi mathvariant=\"normal\">" + plain() + "</mi>");
         }
-        if (word == "\\Bigl" || word == "\\Bigr") return;
+        if (word == "\\mathbf") {
+            return add_and_close("<mi mathvariant=\"bold\">" + plain() + "</mi>");
+        }
+        if (word == "\\Bigl" || word == "\\Bigr" || word == "\\boldsymbol") return;
         if (const std::string_view sign = sign_of(word); !sign.empty()) {
             return add_and_close(element("mo", sign));
         }

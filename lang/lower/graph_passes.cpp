@@ -3,13 +3,15 @@
 
 #include "lang/program/models.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 namespace cascade::lowering {
 
 namespace {
 
-/// Replaces tensor(a1, a2, theta) by its entries; diffuse takes a tensor.
+/// Replaces tensor(a1, a2, theta) and symmetric(…) by a tensor of entries; diffuse takes a tensor.
 class Tensors : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -21,11 +23,53 @@ class Tensors : public GraphPass {
     NodeId image_of(const Node& node) override {
         const auto& [a, b, c, d, e, f] = node.operands;
         if (node.calls(Function::tensor)) return tensor(a, b, c);
+        if (node.calls(Function::symmetric)) {
+            Node entries = node;
+            entries.function = Function::tensor;
+            return keep(entries);
+        }
         if (!node.calls(Function::diffuse)) return keep(node);
         Node diffuse = node;
         diffuse.operands = {tensor(b, c, d), a};
         diffuse.operand_count = 2;
         return keep(diffuse);
+    }
+};
+
+/// Writes transport out: along each axis the upwind difference of e, and half of that of the slopes
+/// of e between cells, which are limited. The values at faces are thus those of the scheme MUSCL, e
+/// plus or minus half of the slope on the side where it flows from.
+class Limiters : public GraphPass {
+    using GraphPass::GraphPass;
+
+    NodeId along(Function function, int axis, std::initializer_list<NodeId> operands) {
+        Node node;
+        node.kind = Call{static_cast<std::uint8_t>(axis)};
+        node.function = function;
+        std::ranges::copy(operands, node.operands.begin());
+        node.operand_count = static_cast<std::uint8_t>(operands.size());
+        return graph().add(node);
+    }
+
+    NodeId image_of(const Node& node) override {
+        if (!node.calls(Function::transport)) return keep(node);
+        const NodeId of = node.reads().back();
+        const NodeId zero = graph().number(0);
+        const Stencil stencil = context().grid().stencil();
+        const std::array has_axis{stencil.x, stencil.y, stencil.z};
+        NodeId sum = zero;
+        for (int axis = 0; axis + 1 < node.operand_count; ++axis) {
+            if (!has_axis[static_cast<std::size_t>(axis)]) continue;
+            const NodeId velocity = node.operands[static_cast<std::size_t>(axis)];
+            const NodeId half = call(Function::if_, {call(Function::less, {zero, velocity}),
+                                                     graph().number(0.5), graph().number(-0.5)});
+            const NodeId slope = along(Function::limited, axis, {of});
+            const NodeId first = along(Function::upwind, axis, {velocity, of});
+            const NodeId second = along(Function::upwind, axis, {velocity, slope});
+            const NodeId term = call(Function::add, {first, times(half, second)});
+            sum = graph().is_number(sum) ? term : call(Function::add, {sum, term});
+        }
+        return sum;
     }
 };
 
@@ -127,6 +171,10 @@ IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassCon
 
 Expressions write_out_tensors(const Expressions& from, const PassContext& context) {
     return Tensors(from, context).run();
+}
+
+Expressions write_out_limiters(const Expressions& from, const PassContext& context) {
+    return Limiters(from, context).run();
 }
 
 Expressions take_out_even_weights(const Expressions& from, const PassContext& context) {

@@ -95,6 +95,7 @@ private:
 Expressions lay_on_tissue(const Expressions& from, const PassContext& context);
 Expressions write_out_tensors(const Expressions& from, const PassContext& context);
 Expressions lay_on_surface(const Expressions& from, const PassContext& context);
+Expressions write_out_limiters(const Expressions& from, const PassContext& context);
 Expressions spread_over_links(const Expressions& from, const PassContext& context);
 Expressions take_out_even_weights(const Expressions& from, const PassContext& context);
 Expressions weigh_by_areas(const Expressions& from, const PassContext& context);

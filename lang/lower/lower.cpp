@@ -133,7 +133,7 @@ SidePlans plan_side(const Program& program, const SideSetting& setting, Side sid
     CHECK(setting.kind != SideKind::flux, "lowering: a flux has been made a slope");
     const PassContext context{program, stage};
     const std::array formula{&setting.value};
-    Expressions lowered = lower_expressions(flat_formulas(formula), context);
+    Expressions lowered = lower_expressions(flat_formulas(formula, context), context);
     if (setting.kind == SideKind::slope) {
         lowered.roots[0] = across_side(lowered.graph, context, lowered.roots[0], side);
     }
@@ -155,7 +155,7 @@ SidePlans plan_side(const Program& program, const SideSetting& setting, Side sid
 StepPlan plan_view(const Program& program, std::span<const Formula* const> formulas,
                    std::uint32_t stage, const PlanOptions& options) {
     const PassContext context{program, stage};
-    const PlanGraph graph(lower_expressions(flat_formulas(formulas), context), context);
+    const PlanGraph graph(lower_expressions(flat_formulas(formulas, context), context), context);
     PlanBuilder builder({graph, graph.roots(), options});
     static constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
     for (const NodeId root : graph.roots()) {
@@ -206,7 +206,8 @@ StepPlan plan_mask(const Program& program) {
     const PassContext context{program, 0, Extent::grid};
     const std::array formula{&program.domain.mask->formula};
     const PlanGraph graph(
-        lower_expressions(flat_formulas(formula, {"mask", false, "domain"}), context), context);
+        lower_expressions(flat_formulas(formula, context, {"mask", false, "domain"}), context),
+        context);
     PlanBuilder builder({graph, graph.roots(), {}});
     builder.result("mask", builder.value(graph.roots()[0])[0]);
     return std::move(builder).finish();

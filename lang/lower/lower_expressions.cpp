@@ -19,8 +19,10 @@ bool has_mask(const PassContext& context) { return context.has_mask(); }
 
 bool any_node(const Node&) { return true; }
 bool is_tensor(const Node& node) {
-    return node.calls(Function::tensor) || node.calls(Function::diffuse);
+    return node.calls(Function::tensor) || node.calls(Function::symmetric) ||
+           node.calls(Function::diffuse);
 }
+bool is_transport(const Node& node) { return node.calls(Function::transport); }
 bool is_operator(const Node& node) { return node.is<Call>() && differentiates(node.function); }
 bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>(); }
 
@@ -31,13 +33,15 @@ constexpr std::array passes{
     // numbers:
     // the operands of `theirs` are in planes.
     PassInfo{"tissue", is_tissue, any_node, lay_on_tissue},
-    // After this pass a tensor's operands are its entries a11, a12 and a22; diffuse has two
-    // operands, a tensor and the value to differentiate.
+    // After this pass a tensor's operands are its entries, a11, a12 and a22 or in space a11, a12,
+    // a13, a22, a23 and a33; diffuse has two operands, a tensor and the value to differentiate.
     PassInfo{"tensors", always, is_tensor, write_out_tensors},
     // After this pass lap, grad2 and derivatives along the surface are differences along columns
     // and rows times planes of the metric. Vectors are fluxes through faces, not directions along
     // the surface.
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
+    // After this pass there are no limiters but slopes along an axis, in planes of their own.
+    PassInfo{"limiters", always, is_transport, write_out_limiters},
     // After this pass places and normals are planes of the model. There are no vectors: the operand
     // of div has become a sum of lap(weight, e).
     PassInfo{"links", is_on_model, is_of_cell, spread_over_links},
@@ -49,22 +53,24 @@ constexpr std::array passes{
     PassInfo{"mask", has_mask, is_aggregate, leave_out_masked_cells},
 };
 
-Expressions with_roots(Expressions expressions, const Flattening& flattening,
+/// The flattening refers to the graph, so that the expressions move last.
+Expressions with_roots(Expressions&& expressions, const Flattening& flattening,
                        std::vector<NodeId> roots) {
     expressions.roots = std::move(roots);
     expressions.origins = flattening.origins();
     expressions.names = flattening.names();
-    return expressions;
+    return std::move(expressions);
 }
 
 }  // namespace
 
 Expressions flat_start(const Program& program, std::uint32_t stage, std::span<const ItemId> items) {
     Expressions flat;
-    Flattening flattening(flat.graph);
+    const System& system = program.system_of(stage);
+    Flattening flattening(flat.graph, FieldSpace::of(program, system));
     std::vector<NodeId> roots;
     for (const ItemId item : items) {
-        const std::string name(program.system_of(stage).draw_name(item));
+        const std::string name(system.draw_name(item));
         roots.push_back(flattening.add(program.stages[stage].items[item], {name, false}));
         flattening.set_item(item, roots.back());
     }
@@ -74,7 +80,7 @@ Expressions flat_start(const Program& program, std::uint32_t stage, std::span<co
 Expressions flat_step(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     Expressions flat;
-    Flattening flattening(flat.graph);
+    Flattening flattening(flat.graph, FieldSpace::of(program, system));
     std::vector<NodeId> roots;
     flattening.add_rates(system);
     for (const ItemId item : system.rate_order) roots.push_back(flattening.rate(item));
@@ -86,9 +92,11 @@ Expressions flat_step(const Program& program, std::uint32_t stage) {
     return with_roots(std::move(flat), flattening, std::move(roots));
 }
 
-Expressions flat_formulas(std::span<const Formula* const> formulas, const Noise& noise) {
+Expressions flat_formulas(std::span<const Formula* const> formulas, const PassContext& context,
+                          const Noise& noise) {
     Expressions flat;
-    Flattening flattening(flat.graph);
+    const System& system = context.program.system_of(context.stage);
+    Flattening flattening(flat.graph, FieldSpace::of(context.program, system));
     std::vector<NodeId> roots;
     for (const Formula* formula : formulas) roots.push_back(flattening.add(*formula, noise));
     return with_roots(std::move(flat), flattening, std::move(roots));
@@ -121,7 +129,7 @@ void watch_lowering(const Program& program, const LoweringWatch& watch) {
         };
         lower("starting values", flat_start(program, k, program.stages[k].order));
         lower("one step", flat_step(program, k));
-        if (!view[0]->nodes.empty()) lower("picture", flat_formulas(view));
+        if (!view[0]->nodes.empty()) lower("picture", flat_formulas(view, context));
     }
 }
 

@@ -18,7 +18,8 @@ Expressions flat_start(const Program& program, std::uint32_t stage, std::span<co
 /// invariants. All plans of a step thus number their nodes alike.
 Expressions flat_step(const Program& program, std::uint32_t stage);
 /// The values of formulas.
-Expressions flat_formulas(std::span<const Formula* const> formulas, const Noise& noise = {});
+Expressions flat_formulas(std::span<const Formula* const> formulas, const PassContext& context,
+                          const Noise& noise = {});
 
 /// A pass of lowering: the domains on which it is needed, the nodes that it changes, and the
 /// function that turns one graph into another.

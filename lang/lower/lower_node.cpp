@@ -43,8 +43,11 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
             return {in.number(0), in.number(1), in.number(2)};
         default: break;
     }
-    // A tensor is its three entries.
-    if (node.function == Function::tensor) return {in.number(0), in.number(1), in.number(2)};
+    if (node.function == Function::tensor) {  // It is its entries.
+        Value entries{};
+        for (std::size_t k = 0; k < node.operand_count; ++k) entries[k] = in.number(k);
+        return entries;
+    }
     // `if` and `mix` of colours work channel by channel.
     const std::size_t channels = node.type == ValueType::colour ? 3 : 1;
     Value value{};

@@ -9,8 +9,8 @@
 
 namespace cascade::lowering {
 
-/// A value in a cell: one number, or the three of a colour or a tensor.
-using Value = std::array<ValueId, 3>;
+/// A value in a cell: one number, the three of a colour, or the three or six of a tensor.
+using Value = std::array<ValueId, 6>;
 
 /// A node in the cell at an offset.
 struct NodeInCell {

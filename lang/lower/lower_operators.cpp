@@ -29,6 +29,8 @@ private:
     ValueId cross_difference(NodeId operand, int first, int second);
     ValueId squared_gradient(NodeId operand);
     ValueId advection(const Node& node);
+    ValueId upwind(const Node& node);
+    ValueId limited(const Node& node);
     ValueId anisotropic(const Node& node);
 
     FieldSlot slot_of_plane(NodeId id) { return assembly_.field_slot(pass_.plane(id)); }
@@ -60,6 +62,8 @@ ValueId Stencils::stencil(const Node& node) {
         case Function::grad2: return squared_gradient(operand);
         case Function::advect: return advection(node);
         case Function::diffuse: return anisotropic(node);
+        case Function::upwind: return upwind(node);
+        case Function::limited: return limited(node);
         default: break;
     }
     CHECK(false, "lowering: every operator has its differences");
@@ -162,6 +166,32 @@ ValueId Stencils::advection(const Node& node) {
         sum = sum ? builder_.add(*sum, term) : term;
     }
     return scaled(sum.value_or(builder_.number(0)), 1 / grid_.spacing);
+}
+
+/// v · (v > 0 ? c − W : E − c) / h along one axis.
+ValueId Stencils::upwind(const Node& node) {
+    const int axis = std::get<Call>(node.kind).detail;
+    const NodeId operand = node.operands[1];
+    const ValueId velocity = own(node.operands[0]), centre = own(operand);
+    const ValueId backward = builder_.subtract(centre, beside(operand, Offset::along(axis, -1)));
+    const ValueId forward = builder_.subtract(beside(operand, Offset::along(axis, 1)), centre);
+    const ValueId flows_forwards = builder_.apply(Op::less, builder_.number(0), velocity);
+    return scaled(builder_.multiply(velocity, builder_.select(flows_forwards, backward, forward)),
+                  1 / grid_.spacing);
+}
+
+/// The harmonic mean of a = E − c and b = c − W, 2ab / (a + b), if both have the same sign, else 0
+/// (van Leer's limiter).
+ValueId Stencils::limited(const Node& node) {
+    const int axis = std::get<Call>(node.kind).detail;
+    const NodeId operand = node.operands[0];
+    const ValueId centre = own(operand), zero = builder_.number(0);
+    const ValueId a = builder_.subtract(beside(operand, Offset::along(axis, 1)), centre);
+    const ValueId b = builder_.subtract(centre, beside(operand, Offset::along(axis, -1)));
+    const ValueId is_monotone = builder_.apply(Op::less, zero, builder_.multiply(a, b));
+    const ValueId share = builder_.divide(b, builder_.add(a, b));
+    const ValueId mean = builder_.multiply(builder_.multiply(builder_.number(2), a), share);
+    return builder_.select(is_monotone, mean, zero);
 }
 
 /// a11 ∂²c/∂x² + a22 ∂²c/∂y² + 2 a12 ∂²c/∂x∂y with y down (Witkin & Kass, eq 7).

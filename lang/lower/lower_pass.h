@@ -94,6 +94,9 @@ private:
 ValueId lower_stencil(const PassView& pass, KernelAssembly& assembly, const NodeValues& values,
                       NodeId id);
 
+/// The number of rows of a tensor whose operands are its entries.
+int tensor_size(const Node& tensor);
+
 /// Lowers vectors at faces, and their divergence (lower_vectors.cpp).
 class Fluxes {
 public:

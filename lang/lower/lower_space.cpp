@@ -82,7 +82,7 @@ ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& in) {
         }
         case Function::noise:
             return smooth_noise(builder, place.space(), in.number(0),
-                                std::get<Call>(in.node().kind).octaves, draw);
+                                std::get<Call>(in.node().kind).detail, draw);
         case Function::lattice:
         case Function::diamond: {
             const bool is_diamond = in.node().function == Function::diamond;

@@ -9,6 +9,19 @@
 
 namespace cascade::lowering {
 
+namespace {
+
+/// The place of an entry in the list a11, a12, a22 or a11, a12, a13, a22, a23, a33.
+std::size_t entry_of(int size, int row, int column) {
+    constexpr std::array<std::array<std::size_t, 3>, 3> in_space{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+    if (size == 2) return static_cast<std::size_t>(row + column);
+    return in_space[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+}
+
+}  // namespace
+
+int tensor_size(const Node& tensor) { return tensor.operand_count == 6 ? 3 : 2; }
+
 Fluxes::Fluxes(const PassView& pass, KernelAssembly& assembly, const NodeValues& values)
     : graph_(pass.graph),
       axes_(pass.planner.axes()),
@@ -71,13 +84,12 @@ ValueId Fluxes::at_face(NodeId id, Face where) const {
         default: CHECK(false, "lowering: every vector has its faces");
     }
     if (graph_[a].type == ValueType::tensor) {
-        if (where.component > 1) return builder_.number(0);
+        const int size = tensor_size(graph_[a]);
+        if (where.component >= size) return builder_.number(0);
         std::optional<ValueId> sum;
-        for (const int column : {0, 1}) {
-            // 0 is a11, 1 is a12, 2 is a22.
-            const auto entry = static_cast<std::size_t>(where.component + column);
+        for (int column = 0; column < size; ++column) {
             const ValueId term =
-                builder_.multiply(tensor_entry(a, entry, where),
+                builder_.multiply(tensor_entry(a, entry_of(size, where.component, column), where),
                                   values_.face(b, {where.axis, column, where.side}));
             sum = sum ? builder_.add(*sum, term) : term;
         }

@@ -101,9 +101,10 @@ private:
             } else if (!by_tensor) {
                 need(operand, faces);
             } else {
+                const int size = tensor_size(graph_[node.operands[0]]);
                 for_each_face(faces, [&](Face face) {
-                    if (face.component > 1) return;
-                    for (const int component : {0, 1}) {
+                    if (face.component >= size) return;
+                    for (int component = 0; component < size; ++component) {
                         const Face at{face.axis, component, face.side};
                         need(operand, std::uint32_t{1} << at.number());
                     }

@@ -67,6 +67,9 @@ Offsets stencil_offsets(const Node& stencil, const Axes& axes) {
     if (order == 1) return axes.pair(first);
     if (order == 2)
         return first == second ? own_cell | axes.pair(first) : axes.diagonal(first, second);
+    if (stencil.calls(Function::limited) || stencil.calls(Function::upwind)) {
+        return own_cell | axes.pair(std::get<Call>(stencil.kind).detail);
+    }
     if (!stencil.calls(Function::diffuse)) return axes.crosswise();
     return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
 }

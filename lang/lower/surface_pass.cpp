@@ -137,10 +137,11 @@ class SurfaceOperators : public GraphPass {
                 const NodeId along = along_row(first), across = across_row(first);
                 return sum_of_products(along, along, across, across);
             }
-            case Function::advect: {
+            case Function::advect:
+            case Function::transport: {
                 const NodeId column = in_columns(first, second);
                 const NodeId row = times(r(), second);
-                return call(Function::advect, {column, row, node.operands[2]});
+                return call(node.function, {column, row, node.operands[2]});
             }
             case Function::diffuse: return call(Function::diffuse, {in_cells(first), second});
             case Function::multiply:

@@ -81,6 +81,9 @@ private:
         begin(fmt::format("{} over {}", node.function.text, node.index.text), std::move(operands));
     }
     void print_head(const ast::Indexed& node) { begin("member", {node.base, node.index}); }
+    void print_head(const ast::Component& node) {
+        begin(fmt::format(".{}", node.name.text), {node.operand});
+    }
     void print_head(const ast::Garbage&) { text_ += "<unreadable>"; }
 
     const ast::Script& script_;

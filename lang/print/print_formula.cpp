@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <variant>
 
 namespace cascade {
@@ -81,6 +82,7 @@ private:
     }
 
     void write_call(const Node& node) {
+        if (node.calls(Function::component)) return write_component(node);
         const std::string_view spelling = info(node.function).spelling;
         if (const std::size_t name = spelling.find(' '); name != std::string_view::npos) {
             text_ += fmt::format("{}(", spelling.substr(0, name));
@@ -101,6 +103,13 @@ private:
             push(Part{node.operands[i - 1], 0});
             if (i > 1) push(std::string_view(", "));
         }
+    }
+
+    void write_component(const Node& node) {
+        static constexpr std::array<std::string_view, 3> ends{".x", ".y", ".z"};
+        const auto* const axis = formula_.nodes[node.operands[1]].as<double>();
+        push(ends[static_cast<std::size_t>(axis != nullptr ? *axis : 0)]);
+        push(Part{node.operands[0], FunctionInfo::of_a_name});
     }
 
     std::string of_stage(StageItem each) const {

@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "lang/program/dependencies.h"
 
+#include <array>
 #include <utility>
 
 namespace cascade {
@@ -24,7 +25,8 @@ NodeId Flattening::add(const Formula& formula, Noise noise) {
             places.push_back(items_.at(*own));
         } else {
             for (NodeId& operand : node.reads()) operand = places[operand];
-            places.push_back(graph_.add(node, {number, places.next()}));
+            const Written written{number, places.next()};
+            places.push_back(vectors_ ? vectors_->add(node, written) : graph_.add(node, written));
         }
     }
     return places.back();
@@ -44,6 +46,20 @@ void Flattening::add_rates(const System& system) {
             names_.emplace_back(rates_[item], name);
         }
     }
+}
+
+std::vector<std::pair<NodeId, std::string>> Flattening::names() const {
+    static constexpr std::array<const char*, 3> ends{".x", ".y", ".z"};
+    auto names = names_;
+    if (!vectors_) return names;
+    for (const auto& [id, name] : names_) {
+        const auto* const parts = vectors_->known_components(id);
+        if (parts == nullptr) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!graph_.is_number((*parts)[k])) names.emplace_back((*parts)[k], name + ends[k]);
+        }
+    }
+    return names;
 }
 
 }  // namespace cascade

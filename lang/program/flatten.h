@@ -1,8 +1,9 @@
 // Puts formulas into one graph; definitions and rates are replaced by their expressions.
 #pragma once
 
-#include "lang/program/expression_graph.h"
+#include "lang/program/field_vectors.h"
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -26,7 +27,11 @@ struct Origin {
 /// Writes formulas into a graph one after another.
 class Flattening {
 public:
-    explicit Flattening(ExpressionGraph& graph) : graph_(graph) {}
+    /// With a space, vectors are written out (lang/program/field_vectors.h).
+    explicit Flattening(ExpressionGraph& graph, const std::optional<FieldSpace>& space = {})
+        : graph_(graph) {
+        if (space) vectors_.emplace(graph, *space);
+    }
 
     /// Adds a formula and returns the node of its value. Definitions, rates and items of the stage
     /// that it reads become the nodes known for them; items without a known node stay items.
@@ -38,11 +43,12 @@ public:
     NodeId rate(ItemId species) const { return rates_.at(species); }
     NodeId definition(DefinitionId id) const { return definitions_.at(id); }
     const std::vector<Origin>& origins() const { return origins_; }
-    /// The names of definitions and rates, by node.
-    const std::vector<std::pair<NodeId, std::string>>& names() const { return names_; }
+    /// The names of definitions and rates, by node; J.x of the components of a vector J.
+    std::vector<std::pair<NodeId, std::string>> names() const;
 
 private:
     ExpressionGraph& graph_;
+    std::optional<FieldVectors> vectors_;
     std::vector<Origin> origins_;
     std::unordered_map<ItemId, NodeId> items_, rates_;
     std::unordered_map<DefinitionId, NodeId> definitions_;

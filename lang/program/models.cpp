@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace cascade {
 
@@ -17,13 +18,13 @@ std::string_view reason_against(Function function) {
     if (includes(info(function).domains, Domains::model)) return "";
     switch (function) {
         case Function::advect:
+        case Function::transport:
             return "it needs columns and rows; "
-                   "vx * dx(e) + vy * dy(e) + vz * dz(e) is advection by central differences";
+                   "dot(v, grad(e)) is advection by central differences";
         case Function::diffuse:
         case Function::tensor:
-            return "its angle needs columns and rows, which a model does not have";
-        case Function::vector:
-            return "a flux on a model is made of gradients, as in div(a * grad(e))";
+        case Function::symmetric:
+        case Function::curl: return "it needs columns and rows, which a model does not have";
         case Function::field:
             return "a model has no rows and columns; "
                    "attr(\"name\") reads a number of its points";
@@ -42,10 +43,46 @@ std::optional<Function> of_model_only(const Program& program, const Node& node) 
     return std::nullopt;
 }
 
-bool has_meaning_on_model(const Formula& formula, Diagnostics& diagnostics) {
+/// Finds the vectors that are not sums of gradients times numbers: the flow through a link of a
+/// model is not known for them.
+class LooseVectors {
+public:
+    /// A system's definitions come after those that they read.
+    explicit LooseVectors(const System& system) {
+        for (const Definition& each : system.definitions) {
+            const auto found = in(each.formula);
+            definitions_.push_back(!found.empty() && found.back());
+        }
+    }
+
+    IdVector<NodeId, bool> in(const Formula& formula) const {
+        IdVector<NodeId, bool> is_loose;
+        for (const Node& node : formula.nodes) {
+            bool loose = node.calls(Function::vector) || node.calls(Function::cross);
+            const auto* const id = node.as<DefinitionId>();
+            if (id != nullptr) loose = *id < definitions_.next() && definitions_[*id];
+            for (const NodeId operand : node.reads()) loose = loose || is_loose[operand];
+            is_loose.push_back(loose && node.type == ValueType::vector);
+        }
+        return is_loose;
+    }
+
+private:
+    IdVector<DefinitionId, bool> definitions_;
+};
+
+bool has_meaning_on_model(const LooseVectors& loose, const Formula& formula,
+                          Diagnostics& diagnostics) {
     bool has_meaning = true;
+    const auto is_loose = loose.in(formula);
     for (const Node& node : formula.nodes) {
         if (!node.is<Call>()) continue;
+        if (node.calls(Function::div) && is_loose[node.operands[0]]) {
+            has_meaning = false;
+            diagnostics.error(formula.nodes[node.operands[0]].span,
+                              "div of this vector has no meaning on a model",
+                              "a flux on a model is made of gradients, as in div(a * grad(e))");
+        }
         const std::string_view reason = reason_against(node.function);
         if (reason.empty()) continue;
         has_meaning = false;
@@ -70,19 +107,18 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula,
     return has_meaning;
 }
 
-/// Calls `take(formula, is_of_cells)` for every formula that the stages compute; for those of a
-/// system once.
+/// Calls `take(formula, system)` for every formula that the stages compute; for those of a system
+/// once.
 template <typename Take>
 void for_each_formula(const Program& program, const Take& take) {
     IdVector<SystemId, bool> used(program.systems.size());
     for (const Stage& stage : program.stages) {
-        const bool is_of_cells = program.systems[stage.system].cells.has_value();
+        const System& system = program.systems[stage.system];
         const auto add = [&](const Formula& formula) {
-            if (!formula.nodes.empty()) take(formula, is_of_cells);
+            if (!formula.nodes.empty()) take(formula, system);
         };
         if (!used[stage.system]) {
             used[stage.system] = true;
-            const System& system = program.systems[stage.system];
             for (const Formula& rate : system.rates) add(rate);
             for (const Definition& definition : system.definitions) add(definition.formula);
             if (system.cells) {
@@ -155,24 +191,33 @@ std::optional<ModelPlane> model_plane_of(Builtin builtin) {
     return std::nullopt;
 }
 
-bool has_meaning_on_domain(const Program& program, const Formula& formula, bool is_of_cells,
+bool has_meaning_on_domain(const Program& program, const Formula& formula, const System& system,
                            Diagnostics& diagnostics) {
+    if (!program.domain.model) return has_meaning_on_plane(program, formula, diagnostics);
     // Functions that cells do not have are refused where they are written.
-    if (program.domain.model) return is_of_cells || has_meaning_on_model(formula, diagnostics);
-    return has_meaning_on_plane(program, formula, diagnostics);
+    return system.cells || has_meaning_on_model(LooseVectors(system), formula, diagnostics);
 }
 
 bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics) {
     bool has_meaning = true;
-    for_each_formula(program, [&](const Formula& formula, bool is_of_cells) {
-        has_meaning &= has_meaning_on_domain(program, formula, is_of_cells, diagnostics);
+    const System* known = nullptr;
+    std::optional<LooseVectors> loose;
+    for_each_formula(program, [&](const Formula& formula, const System& system) {
+        if (!program.domain.model) {
+            has_meaning &= has_meaning_on_plane(program, formula, diagnostics);
+        } else if (!system.cells) {
+            if (known != &system) loose.emplace(system);
+            known = &system;
+            has_meaning &= has_meaning_on_model(*loose, formula, diagnostics);
+        }
     });
     return has_meaning;
 }
 
 std::vector<const Formula*> formulas_of(const Program& program) {
     std::vector<const Formula*> formulas;
-    for_each_formula(program, [&](const Formula& formula, bool) { formulas.push_back(&formula); });
+    for_each_formula(program,
+                     [&](const Formula& formula, const System&) { formulas.push_back(&formula); });
     return formulas;
 }
 

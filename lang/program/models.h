@@ -32,7 +32,7 @@ std::optional<ModelPlane> model_plane_of(Builtin builtin);
 /// Adds an error for every function of a formula, of fields or of cells that crawl, that has no
 /// meaning on the domain, such as second derivatives by name on a model or distances along the
 /// surface on a plane. Returns true if there is none.
-bool has_meaning_on_domain(const Program& program, const Formula& formula, bool is_of_cells,
+bool has_meaning_on_domain(const Program& program, const Formula& formula, const System& system,
                            Diagnostics& diagnostics);
 /// The same for all formulas that the stages of the program compute.
 bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics);

@@ -98,7 +98,8 @@ struct InsideMask {
 
 /// A function of operands.
 struct Call {
-    std::uint8_t octaves = 0;  ///< Of noise.
+    /// Of noise its octaves; of the parts of `transport` the axis.
+    std::uint8_t detail = 0;
     bool operator==(const Call&) const = default;
 };
 
@@ -109,9 +110,10 @@ using NodeKind =
     std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, CellValue, DefinitionId,
                  Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
 
-/// In a system of fields a vector is a flux, known at the faces of cells, and div makes a number of
-/// it. In a system of cells that crawl it is three numbers, a place or a direction in space;
-/// lowering takes it apart first of all (lang/lower/tissue_pass.cpp). No formula has both.
+/// In a system of fields a vector has a value in each cell and, inside of div, a value at each face
+/// between cells (lang/program/field_vectors.h). In a system of cells that crawl it is three
+/// numbers, a place or a direction in space; lowering takes it apart first of all
+/// (lang/lower/tissue_pass.cpp). No formula has both.
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
 
 /// The position of a node in its formula or graph.

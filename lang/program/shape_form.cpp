@@ -81,6 +81,9 @@ void ShapeFunction::compute(NodeId id) {
         case Function::cross: value = cross(operand(0), operand(1)); return;
         case Function::length: value = {length(operand(0)), 0, 0}; return;
         case Function::unit: value = unit(operand(0)); return;
+        case Function::component:
+            value = {component(operand(0), static_cast<std::size_t>(operand(1).x)), 0, 0};
+            return;
         default: break;
     }
     std::array<double, 3> parts{};

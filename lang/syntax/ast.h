@@ -44,6 +44,8 @@ struct Over { Word function; ExprId operand; Word index; std::optional<ExprId> d
 /// u[index], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed, Qualified or
 /// RateOf of the family, directly before the nodes of the index.
 struct Indexed { ExprId base, index; };
+/// J.x; `axis` is the number 0, 1 or 2, the node before this. No stage has a value of that name.
+struct Component { ExprId operand, axis; Word name; };
 // clang-format on
 /// Stands for what could not be parsed. An error has been reported; later passes report nothing
 /// about it.
@@ -52,7 +54,7 @@ struct Garbage {};
 struct Expr {
     Span span;
     std::variant<Number, Text, Name, Bracketed, Qualified, RateOf, Unary, Binary, Call, Over,
-                 Indexed, Garbage>
+                 Indexed, Component, Garbage>
         node;
 };
 

@@ -85,7 +85,7 @@ ExpressionParser::Progress ExpressionParser::read_number() {
     return Progress::going_on;
 }
 
-/// name, name', stage.name, or the beginning of a call.
+/// name, name', stage.name, vector.x, or the beginning of a call.
 ExpressionParser::Progress ExpressionParser::read_name() {
     const Token token = cursor_.take();
     const ast::Word name = cursor_.word(token);
@@ -110,6 +110,11 @@ ExpressionParser::Progress ExpressionParser::read_name() {
                     "p of an earlier stage is written stage.p");
     }
     const Token part = cursor_.take();
+    if (const auto axis = component_named(cursor_.text(part))) {
+        push_operand(token.span, ast::Name{name.text});
+        push_component(*axis, cursor_.word(part));
+        return Progress::going_on;
+    }
     push_operand(join(token.span, part.span), ast::Qualified{name, cursor_.word(part)});
     return Progress::going_on;
 }

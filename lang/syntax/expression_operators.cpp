@@ -56,6 +56,9 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
             if (!begins_index()) break;
             push_bracket(PendingKind::index, cursor_.take(), {});
             return Progress::going_on;
+        case TokenKind::dot:
+            if (!begins_component()) break;
+            return read_component();
         case TokenKind::name:
             if (open_brackets_ > 0 && cursor_.at_name("over")) return read_over();
             break;
@@ -79,6 +82,38 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
 bool ExpressionParser::begins_index() const {
     const Token& before = cursor_.previous();
     return before.kind == TokenKind::name && before.span.end == cursor_.peek().span.begin;
+}
+
+/// True if a '.' here follows a bracket or a prime directly, as in grad(u).x.
+bool ExpressionParser::begins_component() const {
+    const Token& before = cursor_.previous();
+    const bool ends_operand = before.kind == TokenKind::close_round ||
+                              before.kind == TokenKind::close_square ||
+                              before.kind == TokenKind::prime;
+    return ends_operand && before.span.end == cursor_.peek().span.begin;
+}
+
+/// .x after the operand of a vector.
+ExpressionParser::Progress ExpressionParser::read_component() {
+    const Token dot = cursor_.take();
+    if (cursor_.at(TokenKind::garbage)) return fail_silently();
+    const auto axis =
+        cursor_.at(TokenKind::name) ? component_named(cursor_.text(cursor_.peek())) : std::nullopt;
+    if (!axis) {
+        const Span span = cursor_.at(TokenKind::name) ? cursor_.peek().span : dot.span;
+        return fail(span, "a vector has the components x, y and z", "write grad(u).x");
+    }
+    push_component(*axis, cursor_.word(cursor_.take()));
+    return Progress::going_on;
+}
+
+/// Makes a component of the last operand.
+void ExpressionParser::push_component(int axis, const ast::Word& name) {
+    const Operand vector = operands_.back();
+    operands_.pop_back();
+    const auto number = static_cast<ast::ExprId>(script_.expressions.size());
+    script_.expressions.push_back({name.span, ast::Number{static_cast<double>(axis)}});
+    push_operand(join(vector.outer, name.span), ast::Component{vector.id, number, name});
 }
 
 /// The ']' of u[…]. A prime after it makes it the member's rate.

@@ -73,6 +73,9 @@ private:
     Progress close_near();
     Progress close_over(const ast::Word& over, std::optional<ast::ExprId> distance);
     bool begins_index() const;
+    bool begins_component() const;
+    Progress read_component();
+    void push_component(int axis, const ast::Word& name);
     Progress unexpected_operator(bool on_new_line);
     Progress missing_operator(bool on_new_line);
     Progress unclosed();

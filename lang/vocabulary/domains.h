@@ -14,7 +14,6 @@ enum class Domains : std::uint8_t {
     bent = surface | model,
     fields = plane | surface | model,  ///< Cells have a place for ever.
     crawling = 8,                      ///< Cells move: those of a `cells` system, on any domain.
-    components = grid | crawling,      ///< Vectors have components.
     all = fields | crawling,
 };
 constexpr bool includes(Domains set, Domains one) {

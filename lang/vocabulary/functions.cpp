@@ -59,6 +59,11 @@ std::optional<CellValue> cell_value_named(std::string_view name) {
     return static_cast<CellValue>(found - cell_value_names.begin());
 }
 
+std::optional<int> component_named(std::string_view name) {
+    const bool is_axis = name.size() == 1 && name[0] >= 'x' && name[0] <= 'z';
+    return is_axis ? std::optional(name[0] - 'x') : std::nullopt;
+}
+
 std::optional<Builtin> builtin_named(std::string_view name) {
     const auto found = std::find(builtin_names.begin(), builtin_names.end(), name);
     if (found == builtin_names.end()) return std::nullopt;

@@ -33,21 +33,28 @@ enum class FunctionKind : std::uint8_t {
 enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
 enum class Contexts : std::uint8_t { any, cells, rates, steps, values, noisy, picture };
 
-/// The number of arguments of a function: a number, one of two, or groups of values.
+/// The number of arguments of a function: a number, one of two, a range, or groups of values.
 struct Arity {
     int least;
     int most;
     bool is_groups = false;  ///< Groups of `least` values; most − least values may follow them.
+    bool is_range = false;   ///< Any number from `least` to `most`.
 
     constexpr Arity(int count) : least(count), most(count) {}
     constexpr Arity(int fewer, int more) : least(fewer), most(more) {}
     constexpr bool takes(std::size_t count) const {
         const auto fewer = static_cast<std::size_t>(least), more = static_cast<std::size_t>(most);
+        if (is_range) return count >= fewer && count <= more;
         if (!is_groups) return count == fewer || count == more;
         return count >= fewer && (count % fewer == 0 || count % fewer == more - fewer);
     }
 };
 constexpr Arity either(int fewer, int more) { return {fewer, more}; }
+constexpr Arity up_to(int least, int most) {
+    Arity arity{least, most};
+    arity.is_range = true;
+    return arity;
+}
 /// Groups of `size` values; `after` more may follow them.
 constexpr Arity groups_of(int size, int after = 0) {
     Arity arity{size, size + after};
@@ -123,6 +130,9 @@ inline bool jumps_by(Function function, std::size_t n) {
     const Behaviour behaviour = info(function).behaviour;
     return behaviour == Behaviour::jumps || (behaviour == Behaviour::chooses && n == 0);
 }
+
+/// The axis of the component that a vector calls x, y or z.
+std::optional<int> component_named(std::string_view name);
 
 /// A derivative along the axes `first` and, if of second order, `second`: 0 is x, 1 y, 2 z.
 struct Derivative {

@@ -19,11 +19,13 @@ struct FunctionRow {
     Contexts places;
 };
 
-/// All functions but those of cells that crawl, of which no script here is.
+/// All functions but those of cells that crawl, of which no script here is, and those that only
+/// lowering makes.
 std::vector<FunctionRow> functions_of_fields() {
     std::vector<FunctionRow> rows;
     const auto add = [&](Function function, const FunctionRow& row) {
-        if (info(function).domains != Domains::crawling) rows.push_back(row);
+        const bool is_made = row.spelling.starts_with('(');
+        if (info(function).domains != Domains::crawling && !is_made) rows.push_back(row);
     };
 #define CASCADE_FUNCTION(id, spelling, arity, places) \
     add(Function::id, FunctionRow{spelling, arity, Contexts::places});
@@ -115,6 +117,15 @@ private:
             return fmt::format("{}({} over domain)", name, expression(place, depth - 1));
         }
         if (row.spelling == "div") return fmt::format("div({})", flux(place, depth - 1));
+        if (row.spelling == "dot") {
+            return fmt::format("dot({}, {})", flux(place, depth - 1), flux(place, depth - 1));
+        }
+        if (row.spelling == "length") {
+            static constexpr std::array<std::string_view, 3> components = {"x", "y", "z"};
+            if (stream_.chance(50)) return fmt::format("length({})", flux(place, depth - 1));
+            return fmt::format("({}).{}", flux(place, depth - 1),
+                               stream_.pick<std::string_view>(components));
+        }
         if (is_stencil(row.spelling)) return stencil(row, place, depth);
         std::string arguments = expression(place, depth - 1);
         if (!is_word(row.spelling) && row.arity.most == 1) {
@@ -137,9 +148,9 @@ private:
     }
 
     static bool is_stencil(std::string_view spelling) {
-        static constexpr std::array<std::string_view, 13> stencils = {
-            "lap", "dx",  "dy",  "dz",    "dxx",    "dyy",    "dzz",
-            "dxy", "dxz", "dyz", "grad2", "advect", "diffuse"};
+        static constexpr std::array<std::string_view, 14> stencils = {
+            "lap", "dx",  "dy",  "dz",    "dxx",    "dyy",     "dzz",
+            "dxy", "dxz", "dyz", "grad2", "advect", "diffuse", "transport"};
         return std::find(stencils.begin(), stencils.end(), spelling) != stencils.end();
     }
 
@@ -153,16 +164,23 @@ private:
             return fmt::format("diffuse({}, {}, {}, {})", varying(place, depth - 1), leaf(place),
                                leaf(place), expression(place, depth - 2));
         }
-        if (row.spelling != "advect") {
+        const bool carries = row.spelling == "advect" || row.spelling == "transport";
+        if (!carries) {
             return fmt::format("{}({})", row.spelling, varying(place, depth - 1));
         }
-        return fmt::format("advect({}, {}, {}{})", expression(place, depth - 2), leaf(place),
-                           stream_.chance(50) ? "0.5, " : "", varying(place, depth - 1));
+        if (stream_.chance(25)) {
+            return fmt::format("{}({}, {})", row.spelling, flux(place, depth - 2),
+                               varying(place, depth - 1));
+        }
+        return fmt::format("{}({}, {}, {}{})", row.spelling, expression(place, depth - 2),
+                           leaf(place), stream_.chance(50) ? "0.5, " : "",
+                           varying(place, depth - 1));
     }
 
     /// A vector.
     std::string flux(Place place, int depth) {
-        switch (depth > 0 ? stream_.below(8) : 0) {
+        const auto inner = [&] { return flux(place, depth - 1); };
+        switch (depth > 0 ? stream_.below(14) : 0) {
             case 1: return fmt::format("{} * ({})", leaf(place), flux(place, depth - 1));
             case 2: return fmt::format("({}) / (0.75 + {})", flux(place, depth - 1), leaf(place));
             case 3: return fmt::format("-({})", flux(place, depth - 1));
@@ -174,15 +192,24 @@ private:
             case 7:
                 return fmt::format("tensor({}, {}, {}) * ({})", leaf(place), leaf(place),
                                    expression(place, depth - 1), flux(place, depth - 1));
+            case 8: return fmt::format("unit({})", inner());
+            case 9: return fmt::format("cross({}, {})", inner(), inner());
+            case 10: return fmt::format("if({}, {}, {})", leaf(place), inner(), inner());
+            case 11: return fmt::format("mix({}, {}, {})", inner(), inner(), leaf(place));
+            case 12:
+                return fmt::format("symmetric({}, {}, {}) * ({})", leaf(place),
+                                   expression(place, depth - 1), leaf(place), inner());
+            case 13:
+                return fmt::format("(symmetric({}, {}, 1, 2, x, {}) - {} * tensor(1, 2, y)) * ({})",
+                                   leaf(place), leaf(place), leaf(place), leaf(place), inner());
             default: return fmt::format("grad({})", varying(place, depth - 1));
         }
     }
 
     bool fits(const FunctionRow& row, Place place) const {
         // In fluxes, and of points that are known.
-        static constexpr std::array<std::string_view, 5> only_elsewhere = {"grad", "vector",
-                                                                           "tensor", "distance",
-                                                                           "keys"};
+        static constexpr std::array<std::string_view, 9> only_elsewhere = {
+            "grad", "vector", "tensor", "symmetric", "cross", "unit", "curl", "distance", "keys"};
         if (std::find(only_elsewhere.begin(), only_elsewhere.end(), row.spelling) !=
             only_elsewhere.end()) {
             return false;

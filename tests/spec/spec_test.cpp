@@ -169,7 +169,9 @@ std::string words_of(Arity arity) {
     if (arity.is_groups) {
         return "groups of " + least + (arity.most > arity.least ? ", or one more" : "");
     }
-    return arity.least == arity.most ? least : least + " or " + std::to_string(arity.most);
+    const std::string most = std::to_string(arity.most);
+    if (arity.is_range) return least + " to " + most;
+    return arity.least == arity.most ? least : least + " or " + most;
 }
 
 TEST(FunctionsPage, HasARowForEveryFunction) {
@@ -207,8 +209,7 @@ std::string_view word_of(Domains domains) {
         case Domains::bent: return "bent";
         case Domains::all: return "all";
         case Domains::fields:
-        case Domains::crawling:
-        case Domains::components: break;  // Of functions only.
+        case Domains::crawling: break;  // Of functions only.
     }
     return "";
 }

@@ -42,12 +42,20 @@ TEST(OperatorsOfWaves, HaveTheSymbolsOfTheirDifferences) {
     expect_rate("div(vector(u^2, 0))", i * cx);  // Averaged at faces: 2u · (E − W) / 2h.
     expect_rate("advect(2, -1, u)",
                 2.0 * (1.0 - std::exp(-i * x)) / h - (std::exp(i * y) - 1.0) / h);
+    expect_rate("advect(vector(2, -1), u)",
+                2.0 * (1.0 - std::exp(-i * x)) / h - (std::exp(i * y) - 1.0) / h);
+    expect_rate("transport(2, -1, u)", i * (2 * cx - cy));
+    expect_rate("dot(vector(2, -1), grad(u))", i * (2 * cx - cy));
+    expect_rate("grad(u).y", i * cy);
     expect_rate("lap(u^3 - u)", (3 * 0.25 - 1) * (sx + sy));
     expect_rate("grad2(u)", 0);
     expect_rate("lap(u) + 3 * (mean(u over domain) - u)", sx + sy - 3);
     // Along the x axis.
     expect_rate("diffuse(u, 2, 1, 0)", 4 * sx + sy);
     expect_rate("div(tensor(2, 1, 0) * grad(u))", 4 * sx + sy);
+    expect_rate("div(symmetric(4, 0, 1) * grad(u))", 4 * sx + sy);
+    expect_rate("div((symmetric(1, 0, 1) + 2 * symmetric(0, 1, 0)) * grad(u))",
+                sx + sy - 4 * cx * cy);
 }
 
 TEST(OperatorsOfWaves, TellWhatIsTheSameInAllCells) {

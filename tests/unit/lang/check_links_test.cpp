@@ -78,8 +78,7 @@ TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
                 ::testing::EndsWith(
                     "there is no index 'touching' | cells that crawl have neighbours; "
                     "fields have none"));
-    EXPECT_THAT(fault("length(u)"),
-                ::testing::EndsWith("it belongs in a system of cells that crawl"));
+    EXPECT_THAT(fault("own(u)"), ::testing::EndsWith("it belongs in a system of cells that crawl"));
     EXPECT_THAT(fault("contact"),
                 ::testing::EndsWith("'contact' is known to cells that crawl only"));
     EXPECT_EQ(

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cascade::testing {
 namespace {
@@ -151,6 +152,45 @@ TEST(JacobianBound, GoesThroughFluxesAndTensors) {
         bound_at_start(*rates_of(" u' = div(k * grad(u))\n v' = -advect(2, 1, v)\n"));
     EXPECT_DOUBLE_EQ(of_fluxes, 24);
     EXPECT_DOUBLE_EQ(of_upwind, 3);
+}
+
+TEST(JacobianBound, GoesThroughDefinitionsThatAreVectors) {
+    const auto written = bound_at_start(
+        *rates_of(" u' = -div(-k * grad(v)) + dx(u) * v\n v' = div(k * grad(v)) - u\n"));
+    const auto defined =
+        bound_at_start(*rates_of(" u' = -div(J) + dot(grad(u), w)\n v' = div(k * slope) - u\n"
+                                 " J = -k * slope\n slope = grad(v)\n w = vector(v, 0)\n"));
+    EXPECT_EQ(defined, written);
+    const auto [all, growth] =
+        bound_at_start(*rates_of(" u' = -transport(2, 1, u)\n v' = -transport(vector(2, 1), v)\n"));
+    EXPECT_DOUBLE_EQ(all, 2 * 2 * (2 + 1));
+    EXPECT_DOUBLE_EQ(growth, 2 * (2 + 1));
+}
+
+/// The wave that a tensor of space damps most is damped as much as the bound says.
+TEST(JacobianBound, OfATensorInSpaceIsSharp) {
+    const auto checked = check_text(
+        "system s {\n u: x\n u' = div(symmetric(1, 1, 1, 1, 1, 1) * grad(u))\n}\n"
+        "stage one: s { }\ndomain { grid: 6, 6, 6 }\n");
+    ASSERT_TRUE(checked->program) << checked->faults().front();
+    const auto [whole, reaction] = bound_at_start(*checked);
+    EXPECT_DOUBLE_EQ(whole, 4 * 3 * 9.0 / 8);
+    EXPECT_DOUBLE_EQ(reaction, 0);
+    // Waves of 1/3 of a cycle in each cell along all axes: s² = sin²(π/3) = 3/4.
+    ScriptRun run(*checked->program);
+    run.start(0);
+    Field& u = run.field(0, "u");
+    const auto wave = [](std::int64_t i, std::int64_t j, std::int64_t k) {
+        return static_cast<float>(
+            std::cos(2 * std::numbers::pi / 3 * static_cast<double>(i + j + k)));
+    };
+    for (std::int64_t k = 0; k < 6; ++k) {
+        for (std::int64_t j = 0; j < 6; ++j) {
+            for (std::int64_t i = 0; i < 6; ++i) u.at(i, j, k) = wave(i, j, k);
+        }
+    }
+    const Field rate = std::move(run.rates(0)[0]);
+    EXPECT_NEAR(rate.at(0, 0, 0), -4 * 3 * 9.0 / 8, 1e-4);
 }
 
 TEST(JacobianBound, KnowsOfThresholds) {

@@ -57,6 +57,8 @@ TEST(Diffusion, OfFluxesAndDirections) {
     EXPECT_EQ(factors_of("div(k * grad(u)) - dx(u)"), Texts{"0: 2."});
     EXPECT_EQ(factors_of("div(-grad(u) / 4)"), Texts{"0: -0.25"});
     EXPECT_EQ(factors_of("div(h * grad(u))"), Texts{"0: 1.75"});
+    EXPECT_EQ(factors_of("-div(J)\n J = q - 2 * q\n q = h * grad(u)"), Texts{"0: 1.75"});
+    EXPECT_EQ(factors_of("lap(u) + dot(grad(v), grad(u))\n J = grad(u)"), Texts{"0: 1."});
     EXPECT_EQ(factors_of("div(u * grad(v))"), Texts{});
     EXPECT_EQ(factors_of("cos(t) * lap(u)"), Texts{"0: 1. changing"});
     EXPECT_EQ(factors_of("diffuse(u, 2, 1, 0)"), (Texts{"4: 4.", "5: 1."}));

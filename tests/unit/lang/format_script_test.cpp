@@ -43,6 +43,7 @@ TEST(FormatScript, PutsOneBlankAroundOperatorsAndNoneInsideBrackets) {
               "a: if(b < 4 and not c, min(b, c), [d])");
     EXPECT_EQ(statement("a: large . b ^ 2"), "a: large.b^2");
     EXPECT_EQ(statement("a: (b)^( c+1 )"), "a: (b)^(c + 1)");
+    EXPECT_EQ(statement("a: grad( u ).x+J . y*(v+w).z"), "a: grad(u).x + J.y*(v + w).z");
 }
 
 TEST(FormatScript, GluesASignToItsOperand) {

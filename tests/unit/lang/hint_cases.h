@@ -103,6 +103,8 @@ inline constexpr HintCase hint_cases[] = {
     {"stage", "k: (1]", "write ')' there", "k: (1)"},
     {"stage", "a.k: 1", "write the name without a stage", "k: 1"},
     {"stage", "u.lft: fixed(0)", "did you mean u.left?", "u.left: fixed(0); u.right: noflux"},
+    {"rate", "grad(u).w", "write grad(u).x", "grad(u).x"},
+    {"system", "u' = J.w\nJ = grad(v)", "write J.x", "u' = J.x\nJ = grad(v)"},
     {"system", "u' = v\nk == 2 * u", "write '='", "u' = v\nk = 2 * u"},
     {"system", "u' = v\nu > 0", "write '>='"},
     {"system", "u' = v\nu < 1", "write '<='"},

@@ -140,6 +140,11 @@ std::string advised(WordContext context, const std::string& advice) {
     const bool is_setting = text.find(": ") != std::string::npos;
     if (context == WordContext::boundary && !is_setting) return framed(frame, "boundary: " + text);
     if (context == WordContext::side && !is_setting) return framed(frame, "sides: " + text);
+    // The advice on functions of vectors calls the vector v, which is a number in the frame.
+    if (context == WordContext::function && text.ends_with("(v)")) {
+        const std::string of_vector = text.substr(0, text.size() - 2) + "vector(u, v))";
+        return framed(frame, text.starts_with("unit") ? "div(" + of_vector + ")" : of_vector);
+    }
     return framed(frame, text);
 }
 

@@ -78,6 +78,8 @@ TEST(Expressions, BindAsTheSpecificationSays) {
 
 TEST(Expressions, HaveManyKindsOfOperands) {
     EXPECT_EQ(expression_of("[p] + p + large.p + p'"), "(+ (+ (+ [p] p) large.p) p')");
+    EXPECT_EQ(expression_of("J.x * grad(u).y - (v + w).z^2 + J[2].x"),
+              "(+ (- (* (.x J) (.y (grad u))) (^ (.z (+ v w)) 2)) (.x (member J 2)))");
     EXPECT_EQ(expression_of("[ p ]"), "[p]");
     EXPECT_EQ(expression_of("if([frozen], 4, a)"), "(if [frozen] 4 a)");
     EXPECT_EQ(expression_of("f()"), "(f)");

@@ -56,6 +56,11 @@ private:
             return !is_place || !context_.has_links() || !is_laid_out();
         }
         if (!node.is<Call>()) return true;
+        if (node.calls(Function::symmetric)) return !is_past("tensors");
+        if (node.calls(Function::transport)) return !is_past("limiters");
+        if (node.calls(Function::limited) || node.calls(Function::upwind)) {
+            return is_past("limiters");
+        }
         if (node.calls(Function::domain_mean) && is_past("areas")) {
             return !context_.has_metric() && !context_.has_links();
         }
@@ -74,6 +79,9 @@ private:
 
     bool has_arity(const Node& node) const {
         if (node.calls(Function::diffuse) && is_past("tensors")) return node.operand_count == 2;
+        if (node.calls(Function::tensor) && is_past("tensors")) {
+            return node.operand_count == 3 || node.operand_count == 6;
+        }
         const bool is_weighted = node.calls(Function::lap) && node.operand_count == 2;
         if (is_weighted) return context_.has_links() && is_past("links");
         return info(node.function).arity.takes(node.operand_count);
@@ -83,7 +91,8 @@ private:
         switch (node.function) {
             case Function::grad:
             case Function::vector: return ValueType::vector;
-            case Function::tensor: return ValueType::tensor;
+            case Function::tensor:
+            case Function::symmetric: return ValueType::tensor;
             case Function::cross:
             case Function::unit: return ValueType::vector;
             case Function::rgb:

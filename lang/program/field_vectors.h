@@ -1,0 +1,88 @@
+// Vectors of systems of fields, written out in terms of what lowering and calculus know.
+//
+// A vector has two values. In a cell it is three numbers: grad(e) is (dx(e), dy(e), dz(e)), and
+// arithmetic is by components. Inside of div it is known at faces (lang/lower/lower_vectors.cpp),
+// where only these nodes exist: grad, vector, sums, differences and negatives of vectors, and
+// vectors times or divided by numbers, or multiplied by a tensor. So
+//
+//   v.x, dot, length, curl of a vector in the plane    become numbers, made of components;
+//   cross, curl                                        become vector(…) of such numbers;
+//   unit(v)                                            becomes (1 / length(v)) * v;
+//   if(c, v, w)                                        becomes if(c, 1, 0) * v + if(c, 0, 1) * w;
+//   mix(v, w, t)                                       becomes v + t * (w - v).
+//
+// Sums, differences and multiples of tensors become symmetric(…) of their entries.
+#pragma once
+
+#include "lang/program/expression_graph.h"
+
+#include <array>
+#include <optional>
+#include <unordered_map>
+
+namespace cascade {
+
+/// The entries of a symmetric tensor, by row and column.
+using TensorMatrix = std::array<std::array<NodeId, 3>, 3>;
+/// The matrix of a node tensor(a1, a2, theta) or symmetric(…). Entries of z of a tensor of the
+/// plane are 0.
+TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor);
+
+/// The directions in which the cells of a system of fields have neighbours.
+struct FieldSpace {
+    std::array<bool, 3> has_axis{};
+    bool has_metric = false;  ///< On a surface of a formula: x and y are directions along it.
+
+    /// Nothing for a system of cells that crawl, whose vectors lowering takes apart itself.
+    static std::optional<FieldSpace> of(const Program& program, const System& system);
+};
+
+class FieldVectors {
+public:
+    FieldVectors(ExpressionGraph& graph, const FieldSpace& space) : graph_(graph), space_(space) {}
+
+    /// Adds a node, or what stands for it. Its operands are nodes that have been added so.
+    NodeId add(const Node& node, Written written);
+
+    using Components = std::array<NodeId, 3>;
+    /// The numbers of a vector in a cell, if something has needed them.
+    const Components* known_components(NodeId vector) const {
+        const auto found = components_.find(vector);
+        return found == components_.end() ? nullptr : &found->second;
+    }
+
+private:
+    std::optional<NodeId> written_out(const Node& node);
+    const Components& components(NodeId vector);
+    Components components_of(const Node& node);
+    Components gradient(NodeId of);
+    NodeId dot(NodeId a, NodeId b);
+    NodeId length(NodeId vector);
+    NodeId curl(const Node& node);
+    NodeId choice(const Node& node);
+    std::optional<NodeId> of_tensors(const Node& node);
+    NodeId carried(const Node& node);
+
+    bool is_vector(NodeId id) const { return graph_[id].type == ValueType::vector; }
+    NodeId zero() { return graph_.number(0); }
+    bool is_zero(NodeId id) const { return graph_.is_number(id, 0); }
+    NodeId call(Function function, std::initializer_list<NodeId> operands) {
+        return graph_.call(function, operands);
+    }
+    NodeId vector_call(Function function, std::initializer_list<NodeId> operands) {
+        return graph_.call(function, operands, ValueType::vector);
+    }
+    NodeId vector_of(const Components& parts) {
+        return vector_call(Function::vector, {parts[0], parts[1], parts[2]});
+    }
+    // Terms that are known to be 0 are left out.
+    NodeId sum(NodeId a, NodeId b);
+    NodeId difference(NodeId a, NodeId b);
+    NodeId product(NodeId a, NodeId b);
+
+    ExpressionGraph& graph_;
+    FieldSpace space_;
+    std::unordered_map<NodeId, Components> components_;  ///< Of vectors, in a cell.
+};
+
+}  // namespace cascade
