@@ -172,8 +172,9 @@ void add_files(CLI::App& app, RunRequest& run) {
                    run.outputs.emplace_back(value_or_throw(parse_output_path(path), "--output"));
                }
            },
-           "The picture, .png; without it SCRIPT.png in this\nfolder; of a model also .ply, .obj, "
-           ".glb, .vtp, and its\ncells .npz, .cells.vtp; may be given again")
+           "The picture, .png; without it SCRIPT.png in this\nfolder; a film, .gif, .webp, .apng, "
+           ".mp4, .webm; of a\nmodel also .ply, .obj, .glb, .vtp, and its cells .npz,\n.cells.vtp; "
+           "may be given again")
         ->allow_extra_args(false)
         ->trigger_on_parse()
         ->type_name("FILE")
@@ -183,6 +184,14 @@ void add_files(CLI::App& app, RunRequest& run) {
         ->group(group);
     add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range", any_text,
               [&](auto path) { run.frames = path; })
+        ->group(group);
+    CLI::Option* const fps =
+        add_value(app, "--fps", "N", "Frames of films in a second, 0.1 to 60; without it 10",
+                  parse_frame_rate, [&](double rate) { run.film.frames_per_second = rate; })
+            ->group(group);
+    add_value(app, "--seconds", "S", "How long films last, instead of --fps", parse_film_length,
+              [&](double seconds) { run.film.seconds = seconds; })
+        ->excludes(fps)
         ->group(group);
     add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView",
               parse_vti_path, [&](auto path) { run.volume = path; })
@@ -196,7 +205,8 @@ void add_files(CLI::App& app, RunRequest& run) {
               parse_duration, [&](double seconds) { run.checkpoint_seconds = seconds; })
         ->needs(save)
         ->group(group);
-    add_value(app, "--turntable", "N", "Pictures from N places around, as NAME-001.png, …",
+    add_value(app, "--turntable", "N",
+              "Pictures from N places around, as NAME-001.png, …; a\nfilm turns once",
               whole_number(1, 9999), [&](auto count) { run.turntable = static_cast<int>(count); })
         ->group(group);
     app.add_flag("--retile", run.model_files.retile,

@@ -2,6 +2,7 @@
 #include "app/option_values.h"
 
 #include "core/near_name.h"
+#include "film/film.h"
 #include "run/pictures/frame_folder.h"
 
 #include <fmt/format.h>
@@ -166,6 +167,19 @@ Result<double> parse_measuring_time(std::string_view text) {
     return failure(fmt::format("'{}' is not a time to measure for", text), "0.001 to 3600 seconds");
 }
 
+Result<double> parse_frame_rate(std::string_view text) {
+    double rate = 0;
+    if (read_all(text, rate) && rate >= slowest_film && rate <= fastest_film) return rate;
+    return failure(fmt::format("'{}' is not a number of frames in a second", text),
+                   fmt::format("{} to {}", slowest_film, fastest_film));
+}
+
+Result<double> parse_film_length(std::string_view text) {
+    const auto seconds = parse_duration(text);
+    if (seconds && *seconds >= 0.1 && *seconds <= 3600) return *seconds;
+    return failure(fmt::format("'{}' is not the length of a film", text), "0.1 to 3600 seconds");
+}
+
 std::string describe_duration(double seconds) {
     if (seconds >= 3600) return fmt::format("{:.4g} h", seconds / 3600);
     return seconds >= 60 ? fmt::format("{:.4g} min", seconds / 60)
@@ -213,13 +227,12 @@ Result<float> parse_bump(std::string_view text) {
 Result<std::string> parse_output_path(std::string_view text) {
     if (output_kind(std::filesystem::path(text))) return std::string(text);
     if (is_called_like_a_movie(std::filesystem::path(text))) {
-        return failure(fmt::format("'{}' is named like a movie, but only pictures are written",
-                                   text),
-                       how_to_make_a_movie(std::filesystem::path(text)));
+        return failure(fmt::format("'{}' is a film in a format that is not written", text),
+                       "the endings of films are .gif, .webp, .apng, .mp4 and .webm");
     }
     return failure(
         fmt::format("'{}' has no ending of a file that can be written", text),
-        ".png is a picture; on a model, .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp "
+        ".png is a picture; .gif, .webp, .apng, .mp4 and .webm are films; on a model, .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp "
         "their cells");
 }
 

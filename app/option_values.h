@@ -43,6 +43,10 @@ Result<Tiling> parse_tiling(std::string_view text);
 Result<double> parse_duration(std::string_view text);
 /// "0.5", "2s": seconds to measure for, 0.001 … 3600.
 Result<double> parse_measuring_time(std::string_view text);
+/// "12.5": frames of a film in a second.
+Result<double> parse_frame_rate(std::string_view text);
+/// "8", "2m": seconds that a film lasts, 0.1 … 3600.
+Result<double> parse_film_length(std::string_view text);
 /// "2 h", "1.5 min", "90 s".
 std::string describe_duration(double seconds);
 

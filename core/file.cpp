@@ -3,6 +3,7 @@
 
 #include "core/descriptor.h"
 #include "core/file_failure.h"
+#include "core/link_target.h"
 #include "core/temporary_file.h"
 
 #include <cerrno>
@@ -24,23 +25,6 @@ int open_file(const fs::path& path, int flags, mode_t mode = 0) {
         number = ::open(path.c_str(), flags | O_CLOEXEC, mode);
     } while (number < 0 && errno == EINTR);
     return number;
-}
-
-fs::path folder_of(const fs::path& path) {
-    return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-/// The target of a write to `path`: follows symbolic links, including one to a file that does not
-/// exist yet. A cycle of links is left for the system to report.
-fs::path behind_links(const fs::path& path) {
-    fs::path target = path;
-    std::error_code error;
-    for (int link = 0; link < 40 && fs::is_symlink(target, error); ++link) {
-        const fs::path next = fs::read_symlink(target, error);
-        if (error) break;
-        target = folder_of(target) / next;  // An absolute `next` replaces the folder.
-    }
-    return target;
 }
 
 /// write_all for a descriptor opened with O_NONBLOCK. A signal that this process handles ends the

@@ -96,18 +96,15 @@ PngFormat png_format(const Image& image, PngDepth depth) {
             std::any_of(pixels.begin(), pixels.end(), is_transparent)};
 }
 
-std::vector<std::uint8_t> png_rows(const Image& image, const PngFormat& format) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const std::size_t pixel = format.pixel_bytes(), count = width * pixel;
-    const auto put = format.depth == PngDepth::eight ? sample_writer<PngDepth::eight>(format)
-                                                     : sample_writer<PngDepth::sixteen>(format);
+std::vector<std::uint8_t> filtered_rows(std::int64_t height, std::size_t count, std::size_t pixel,
+                                        const PutRow& put) {
     std::vector<Byte> row(pixel + count), above(pixel + count);
     std::array<std::vector<Byte>, filters> results;
     results.fill(std::vector<Byte>(count));
     std::vector<Byte> rows;
-    rows.reserve((1 + count) * static_cast<std::size_t>(image.height));
-    for (std::int64_t y = 0; y < image.height; ++y) {
-        put({&image.at(0, y), width}, row.data() + pixel);
+    rows.reserve((1 + count) * static_cast<std::size_t>(height));
+    for (std::int64_t y = 0; y < height; ++y) {
+        put(y, row.data() + pixel);
         filter(row.data() + pixel, above.data() + pixel, count, pixel, results);
         std::array<std::uint32_t, filters> sizes{};
         std::transform(results.begin(), results.end(), sizes.begin(), size_of);
@@ -118,6 +115,16 @@ std::vector<std::uint8_t> png_rows(const Image& image, const PngFormat& format) 
         std::swap(row, above);
     }
     return rows;
+}
+
+std::vector<std::uint8_t> png_rows(const Image& image, const PngFormat& format) {
+    const auto width = static_cast<std::size_t>(image.width);
+    const auto put = format.depth == PngDepth::eight ? sample_writer<PngDepth::eight>(format)
+                                                     : sample_writer<PngDepth::sixteen>(format);
+    return filtered_rows(image.height, width * format.pixel_bytes(), format.pixel_bytes(),
+                         [&](std::int64_t y, Byte* out) {
+                             put({&image.at(0, y), width}, out);
+                         });
 }
 
 }  // namespace cascade

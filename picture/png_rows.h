@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace cascade {
@@ -24,7 +25,16 @@ struct PngFormat {
 /// The format with the fewest channels that holds all pixels.
 PngFormat png_format(const Image& image, PngDepth depth);
 
-/// All rows, each as the number of its filter and its filtered bytes. Throws std::bad_alloc.
+/// Writes the samples of row `y` of a picture to `out`.
+using PutRow = std::function<void(std::int64_t y, std::uint8_t* out)>;
+
+/// `height` rows of `count` bytes, each as the number of its filter and its filtered bytes. A pixel
+/// has `pixel` bytes. Throws std::bad_alloc.
+std::vector<std::uint8_t> filtered_rows(std::int64_t height, std::size_t count, std::size_t pixel,
+                                        const PutRow& put);
+
+/// All rows of an image, each as the number of its filter and its filtered bytes. Throws
+/// std::bad_alloc.
 std::vector<std::uint8_t> png_rows(const Image& image, const PngFormat& format);
 
 }  // namespace cascade

@@ -15,9 +15,9 @@ foreach(name fmt tl nlohmann eigen3 fftw3.h)
 endforeach()
 
 list(APPEND CASCADE_WITHOUT
-  core/cache_sizes core/descriptor core/file core/floating_point core/granted_files core/kept_files
-  core/late_library core/open_below core/own_folder core/parallel core/plane_memory core/read_file
-  core/temporary_file core/transform_planner
+  core/cache_sizes core/descriptor core/file core/floating_point core/granted_files core/growing_file
+  core/kept_files core/late_library core/link_target core/open_below core/own_folder core/parallel
+  core/plane_memory core/read_file core/temporary_file core/transform_planner
   ir/tiered_backend
   mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_file mesh/half_edges mesh/isotropic_remesh
   surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile

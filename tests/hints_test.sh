@@ -34,7 +34,11 @@ hint_of_run() {
 hint_of_run "for a square write --grid 9x9" check s.cascade --grid 9
 "$CASCADE" check s.cascade --grid 9x9 2>&1 | grep -q warning && fail "a square gets a warning"
 hint "did you mean -o p.png?" run s.cascade p.png -- run s.cascade -q -o p.png
-hint "for a movie write --frames film, then ffmpeg" run s.cascade --frames film.mp4 -- run s.cascade -q --frames film
+hint "-o film.gif writes a film" run s.cascade --frames film.gif -- run s.cascade -q -o film.gif
+hint "the endings of films are .gif, .webp, .apng, .mp4 and .webm" run s.cascade -o film.mov -- run s.cascade -q -o film.apng
+hint "-o NAME.gif, .webp, .apng, .mp4 or .webm writes one" run s.cascade --fps 5 -- run s.cascade -q --fps 5 -o film.webp
+hint ".webp and .apng show up to 60" run s.cascade -o film.gif --fps 60 -- run s.cascade -q -o film.apng --fps 60
+"$CASCADE" run s.cascade -q --frames film || fail "frames"
 cp s.cascade t.cascade
 hint "name another one with --frames" run t.cascade -q --frames film -- run t.cascade -q --frames film3
 

@@ -101,8 +101,9 @@ Result<void> Runner::prepare() {
         if (!frames) return tl::unexpected(frames.error());
         earlier_frames_ = std::move(*frames);
     }
-    if (!request_.frames.empty() || request_.picture.space_time) {
-        auto frames = FrameRecorder::create(request_.frames, request_.picture.space_time);
+    const bool has_frames = !request_.frames.empty() || films_steps(request_);
+    if (has_frames || request_.picture.space_time) {
+        auto frames = FrameRecorder::create(has_frames, request_.picture.space_time);
         if (!frames) return tl::unexpected(frames.error());
         frames_ = std::move(*frames);
     }
@@ -188,8 +189,9 @@ Result<void> Runner::make_simulation() {
             go_on(*simulation_, nullptr, played->values(), Continuation::same, control_.cancel);
         if (!restored) return tl::unexpected(restored.error());
     }
-    return check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
-                              request_.simulation.memory_limit);
+    auto fits = check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
+                                   request_.simulation.memory_limit);
+    return fits ? check_film_sizes(script_, request_) : fits;
 }
 
 Result<StageEnd> Runner::run_stage(std::uint32_t k) {
@@ -335,7 +337,7 @@ Result<RunReport> Runner::run() {
         if (frames_ && frames_->holds_starts_alone()) {
             remark(fmt::format(
                 "{} nothing but starting values: 'interval' is longer than each stage",
-                request_.frames.empty() ? "the space-time picture shows" : "the frames show"));
+                request_.picture.space_time ? "the space-time picture shows" : "the frames show"));
         }
     }
     if (request_.features) {

@@ -24,14 +24,21 @@ struct StopAt {
     std::int64_t step = 0;
 };
 
+/// How long the frames of a film are shown.
+struct FilmRequest {
+    double frames_per_second = 0;  ///< 0 for 10, or what `seconds` gives.
+    double seconds = 0;            ///< Of the whole film; 0 for what its frames take.
+};
+
 struct RunRequest {
     SimulationOptions simulation;
     PictureRequest picture;
-    /// Pictures, models and cells, by their endings (output_kind); if empty, SCRIPT.png in the
-    /// current folder.
+    /// Pictures, films, models and cells, by their endings (output_kind); if empty, SCRIPT.png in
+    /// the current folder.
     std::vector<std::filesystem::path> outputs;
     ModelFileOptions model_files;
-    int turntable = 0;              ///< Number of pictures from all around; 0 for one.
+    int turntable = 0;  ///< Number of pictures from all around; 0 for one.
+    FilmRequest film;
     std::filesystem::path sheet;    ///< `--sheet FILE`; empty for none.
     std::filesystem::path frames;   ///< `--frames DIR`; empty for none.
     std::filesystem::path save;     ///< `--save DIR`; empty for none.
@@ -50,6 +57,9 @@ enum class RunStatus {
     stopped,    ///< At `stop_at`.
     cancelled,  ///< By the user.
 };
+
+/// True if a film of the run's steps is written, and not one of its end from all around.
+bool films_steps(const RunRequest& request);
 
 struct RunReport {
     RunStatus status = RunStatus::finished;

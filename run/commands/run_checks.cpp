@@ -5,7 +5,9 @@
 #include "core/file.h"
 #include "core/temporary_file.h"
 #include "export/bake.h"
+#include "film/film.h"
 #include "run/pictures/frame_folder.h"
+#include "run/pictures/picture_size.h"
 
 #include <fmt/format.h>
 
@@ -53,6 +55,11 @@ struct OutputFile {
     std::string_view what;
 };
 
+std::string_view name_of(OutputKind kind) {
+    if (kind == OutputKind::picture) return "the picture";
+    return kind == OutputKind::film ? "the film" : "the model";
+}
+
 /// Of cells that crawl.
 bool has_cells(const Script& script) {
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
@@ -75,7 +82,7 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
         } else if (request.model_files.is_baked(output)) {
             add(baked_paths(output, has_heights), "the baked model");
         } else {
-            add({&output, 1}, kind == OutputKind::picture ? "the picture" : "the model");
+            add({&output, 1}, name_of(kind));
         }
     }
     if (!request.sheet.empty()) files.push_back({request.sheet, "--sheet"});
@@ -94,6 +101,9 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
     std::set<std::filesystem::path> folders;
     for (const OutputFile& file : files) {
         if (auto good = check_writable(file.path); !good) return good;
+        if (file.what == name_of(OutputKind::film)) {
+            if (auto good = check_film(file.path); !good) return good;
+        }
         folders.insert(file.path.parent_path());
     }
     for (const auto& folder : folders) remove_dead_temporaries(folder);
@@ -108,6 +118,16 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
     if (twice == files.end()) return {};
     return failure(fmt::format("{} and {} are both to be written to {}", twice[0].what,
                                twice[1].what, twice->path.string()));
+}
+
+Result<void> check_film_sizes(const Script& script, const RunRequest& request) {
+    const PictureSize size =
+        picture_size(script.program->domain, request.picture, has_cells(script));
+    for (const auto& output : request.outputs) {
+        if (!is_film(output)) continue;
+        if (auto good = check_film_size(output, size.width, size.height); !good) return good;
+    }
+    return {};
 }
 
 Result<void> check_folders(const RunRequest& request, Folders folders) {
@@ -190,7 +210,7 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
     const ModelFileOptions& files = request.model_files;
     bool has_picture = request.outputs.empty(), is_baked = false, is_tiled = false;
     for (const auto& output : request.outputs) {
-        has_picture = has_picture || output_kind(output) == OutputKind::picture;
+        has_picture = has_picture || output_kind(output) == OutputKind::picture || is_film(output);
         is_baked = is_baked || files.is_baked(output);
         is_tiled =
             is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
@@ -201,7 +221,7 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
                       "-o NAME.glb writes one");
     options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
-                      "-o NAME.png draws pictures NAME-001.png, …");
+                      "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
 }
 
 constexpr std::string_view not_a_model = "the domain is not a model";
@@ -218,6 +238,7 @@ void check_without_model(OptionRefuser& options, const RunRequest& request) {
     const std::string message(not_a_model), hint(how_to_get_a_model);
     for (const auto& output : request.outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
+        if (is_film(output)) continue;
         options.refuse("-o", output.string(),
                        "only what grows on a model is written so, and " + message, hint);
     }
@@ -250,6 +271,33 @@ void check_with_cells(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(request.model_files.retile, "--retile", message, "");
 }
 
+/// Options for films without a film, and films that cannot be.
+void check_films(OptionRefuser& options, const RunRequest& request) {
+    const auto film = std::find_if(request.outputs.begin(), request.outputs.end(), is_film);
+    const bool has_film = film != request.outputs.end();
+    const FilmRequest& wanted = request.film;
+    const std::string message = "no film is written";
+    const std::string hint = "-o NAME.gif, .webp, .apng, .mp4 or .webm writes one";
+    options.refuse_if(wanted.frames_per_second > 0 && !has_film, "--fps", message, hint);
+    options.refuse_if(wanted.seconds > 0 && !has_film, "--seconds", message, hint);
+    if (!has_film) return;
+    options.refuse_if(request.picture.space_time, "--space-time",
+                      "a space-time picture is one picture, and no film", "-o NAME.png draws it");
+    for (const auto& output : request.outputs) {
+        if (film_format(output) != FilmFormat::gif || wanted.frames_per_second <= fastest_gif) {
+            continue;
+        }
+        options.refuse_if(true, "--fps",
+                          fmt::format("a GIF shows at most {} frames a second", fastest_gif),
+                          ".webp and .apng show up to 60");
+    }
+    if (request.session && request.turntable == 0) {
+        options.refuse("-o", film->string(),
+                       "a session is played to its end before anything is written",
+                       "of a surface, --turntable N films its end from all around");
+    }
+}
+
 /// What is written while a run takes its steps.
 void check_with_session(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "a session is played to its end before anything is written";
@@ -276,8 +324,10 @@ Result<void> check_request(Script& script, const RunRequest& request) {
     std::error_code error;
     options.refuse_if(is_called_like_a_movie(request.frames) &&
                           !std::filesystem::is_directory(request.frames, error),
-                      "--frames", "frames are pictures in a folder, and this is named like a movie",
-                      how_to_make_a_movie(request.frames));
+                      "--frames", "frames are pictures in a folder, and this is named like a film",
+                      film_format(request.frames)
+                          ? fmt::format("-o {} writes a film", request.frames.string())
+                          : "-o NAME.mp4 writes a film");
     options.refuse_if(request.picture.slice != Slice{} && domain.grid.depth == 1, "--slice",
                       "a plane has no slices", "grid: W, H, D makes a volume");
     if (has_cells(script)) {
@@ -291,6 +341,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         check_without_model(options, request);
         if (!domain.surface) check_on_plane(options, request);
     }
+    check_films(options, request);
     if (request.session) check_with_session(options, request);
     if (request.stop_at) check_stop_at(script, *request.stop_at);
     if (script.diagnostics.has_errors()) return failure("the request does not fit the script");

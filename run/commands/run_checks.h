@@ -24,6 +24,9 @@ Result<void> check_request(Script& script, const RunRequest& request);
 /// removes temporary files of killed runs.
 Result<void> check_outputs(const Script& script, const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
+/// Checks that the formats of the films hold frames of the size that the run draws.
+Result<void> check_film_sizes(const Script& script, const RunRequest& request);
+
 /// Creates the folders, and tests them for writing. Those that are tried are removed again.
 enum class Folders { tried, made };
 Result<void> check_folders(const RunRequest& request, Folders folders);

@@ -36,6 +36,12 @@ bool RunResults::has(OutputKind kind) const {
     });
 }
 
+/// True for models and cells.
+static bool is_of_model(const std::filesystem::path& output) {
+    const auto kind = output_kind(output);
+    return kind == OutputKind::model || kind == OutputKind::cells;
+}
+
 void RunResults::say(std::string what) const {
     if (!control.report) return;
     Progress progress;
@@ -50,17 +56,22 @@ Result<void> RunResults::write_final_picture(const std::filesystem::path& path,
                                                           : painter.image(canvas));
 }
 
-Result<void> RunResults::write_turntable(const std::filesystem::path& path, const Canvas& canvas) {
+/// The view of a picture of a turntable.
+View RunResults::turned_view(std::size_t number, std::size_t count) const {
     View view = request.picture.view;
     view.is_turning = true;
-    const float first = view.azimuth;
+    const double turn = 360.0 * static_cast<double>(number) / static_cast<double>(count);
+    view.azimuth =
+        static_cast<float>(std::remainder(static_cast<double>(view.azimuth) + turn, 360.0));
+    return view;
+}
+
+Result<void> RunResults::write_turntable(const std::filesystem::path& path, const Canvas& canvas) {
     Result<void> done;
     const auto paths = turntable_paths(path, request.turntable);
     for (std::size_t k = 0; k < paths.size() && done; ++k) {
         say(fmt::format("drawing {} of {}", k + 1, paths.size()));
-        const double turn = 360.0 * static_cast<double>(k) / static_cast<double>(paths.size());
-        view.azimuth = static_cast<float>(std::remainder(static_cast<double>(first) + turn, 360.0));
-        painter.set_view(view);
+        painter.set_view(turned_view(k, paths.size()));
         done = write_picture(paths[k], painter.image(canvas));
     }
     painter.set_view(request.picture.view);
@@ -90,7 +101,7 @@ Result<void> RunResults::write_model_files(const Canvas& canvas) {
                            texts(request.picture));
     std::optional<Failure> first;
     for (const auto& output : outputs) {
-        if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
+        if (!is_of_model(output)) continue;
         say(fmt::format("writing {}", output.filename().string()));
         auto written = writer.write(output);
         if (written) report.written.insert(report.written.end(), written->begin(), written->end());
@@ -110,7 +121,7 @@ Result<void> RunResults::write_cell_files(const Canvas& canvas) {
                            colours};
     std::optional<Failure> first;
     for (const auto& output : outputs) {
-        if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
+        if (!is_of_model(output)) continue;
         say(fmt::format("writing {}", output.filename().string()));
         const auto written =
             write_cells(output, cells, request.model_files, texts(request.picture));
@@ -135,19 +146,26 @@ Result<void> RunResults::write_outputs() {
         auto done = write_final_picture(output, canvas);
         if (result) result = done;
     }
+    if (has(OutputKind::film)) {
+        auto done = write_films(canvas);
+        if (result) result = done;
+    }
     if (!has(OutputKind::model) && !has(OutputKind::cells)) return result;
     auto done = canvas.cells ? write_cell_files(canvas) : write_model_files(canvas);
     return result ? done : result;
 }
 
+/// How many frames are drawn at a time. The limit of memory counts one picture.
+int RunResults::drawing_threads() const {
+    const SimulationOptions& options = request.simulation;
+    if (options.memory_limit > 0) return 1;
+    return options.threads > 0 ? options.threads : hardware_threads();
+}
+
 Result<void> RunResults::write_frames() {
     if (auto failed = frames->failure()) return tl::unexpected(*failed);
-    const SimulationOptions& options = request.simulation;
-    // The limit of memory counts one picture.
-    const int threads = options.memory_limit > 0 ? 1
-                        : options.threads > 0    ? options.threads
-                                                 : hardware_threads();
-    auto written = frames->write(painter, texts(request.picture), threads);
+    auto written =
+        frames->write(request.frames, painter, texts(request.picture), drawing_threads());
     if (!written) return tl::unexpected(written.error());
     report.written.insert(report.written.end(), written->begin(), written->end());
     if (const std::size_t stale = remove_stale_frames(earlier_frames, *written);

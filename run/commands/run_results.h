@@ -7,6 +7,8 @@
 
 namespace cascade {
 
+class FilmCrew;
+
 /// A run whose stages have ended or were cancelled, with everything that it recorded.
 struct RunResults {
     const Script& script;
@@ -30,12 +32,18 @@ private:
     Result<void> write_outputs();
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
     Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
+    View turned_view(std::size_t number, std::size_t count) const;
     Result<void> write_model_files(const Canvas& canvas);
     Result<void> write_cell_files(const Canvas& canvas);
     std::vector<Channel> channels(const Canvas& canvas) const;
     bool has(OutputKind kind) const;
     void say(std::string what) const;
     Result<void> write_frames();
+    Result<void> write_films(const Canvas& canvas);
+    Result<void> film_frames(FilmCrew& crew);
+    Result<void> film_turntable(FilmCrew& crew, const Canvas& canvas);
+    void note_end_of_films(const FilmCrew& crew, std::size_t count);
+    int drawing_threads() const;
     Result<void> write_saved_run();
     Result<void> write_volume();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);

@@ -1,6 +1,7 @@
 // Frames are recognised by the form of their names and by the script in their text chunks.
 #include "run/pictures/frame_folder.h"
 
+#include "film/film.h"
 #include "run/script/embedded_script.h"
 
 #include <fmt/format.h>
@@ -35,20 +36,12 @@ std::filesystem::path file_name(const std::string& script) {
 }  // namespace
 
 bool is_called_like_a_movie(const std::filesystem::path& path) {
-    constexpr std::array<std::string_view, 9> endings = {".mp4", ".gif",  ".webm", ".mov", ".avi",
-                                                         ".mkv", ".apng", ".ogv",  ".m4v"};
+    if (film_format(path)) return true;
+    constexpr std::array<std::string_view, 5> endings = {".mov", ".avi", ".mkv", ".ogv", ".m4v"};
     std::string ending = path.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
-}
-
-std::string how_to_make_a_movie(const std::filesystem::path& path) {
-    const std::string stem = path.stem().string();
-    return fmt::format(
-        "for a movie write --frames {0}, then ffmpeg -framerate 10 -pattern_type glob "
-        "-i '{0}/*.png' -pix_fmt yuv420p {1}",
-        stem, path.filename().string());
 }
 
 std::string frame_name(std::size_t number, const std::string& stage, std::int64_t step) {

@@ -1,4 +1,4 @@
-// The folder of --frames: earlier frames in it, and how to make a movie of the frames.
+// The folder of --frames, and earlier frames in it.
 #pragma once
 
 #include "core/result.h"
@@ -13,8 +13,6 @@ namespace cascade {
 
 /// True if the path has the ending of a movie (.mp4, .gif, .webm …), which a folder should not.
 bool is_called_like_a_movie(const std::filesystem::path& path);
-/// The commands that make a movie of that name, for a hint.
-std::string how_to_make_a_movie(const std::filesystem::path& path);
 
 /// "0012-large-0003400.png": the name of frame `number`.
 std::string frame_name(std::size_t number, const std::string& stage, std::int64_t step);

@@ -4,6 +4,7 @@
 
 #include "core/enough_memory.h"
 #include "core/parallel.h"
+#include "core/run_control.h"
 #include "core/write_encoded.h"
 #include "run/domain/free_memory.h"
 #include "run/pictures/frame_folder.h"
@@ -12,6 +13,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
+#include <numeric>
 
 namespace cascade {
 
@@ -27,11 +29,10 @@ float* storage(Field& field) { return field.origin() - field.layout().offset(0, 
 
 }  // namespace
 
-Result<FrameRecorder> FrameRecorder::create(const std::filesystem::path& folder, bool space_time) {
+Result<FrameRecorder> FrameRecorder::create(bool keep_values, bool space_time) {
     FrameRecorder recorder;
-    recorder.folder_ = folder;
     recorder.keep_rows_ = space_time;
-    if (folder.empty()) return recorder;
+    if (!keep_values) return recorder;
     recorder.file_.reset(std::tmpfile());
     if (!recorder.file_) {
         return cascade::failure("no temporary file can be made for the frames",
@@ -45,7 +46,7 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
     const PlaneLayout layout = canvas.fields[0].layout();
     if (const Field* number = canvas.number()) values_.add(spread_of(*number));
     frames_.push_back(
-        {stage, step, canvas.fields.size(), !canvas.relief.empty(), layout, canvas.cells});
+        {stage, step, canvas.fields.size(), !canvas.relief.empty(), layout, kept_, canvas.cells});
     if (file_) {
         bool is_kept = true;
         for (const Field& field : canvas.fields) is_kept = is_kept && keep(field);
@@ -70,12 +71,16 @@ bool FrameRecorder::holds_starts_alone() const {
 
 bool FrameRecorder::keep(const Field& field) {
     const std::size_t count = plane_size(field.layout());
+    kept_ += static_cast<std::int64_t>(count * sizeof(float));
     return std::fwrite(storage(field), sizeof(float), count, file_.get()) == count;
 }
 
 Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     Canvas canvas;
     canvas.cells = frame.cells;
+    if (::fseeko(file_.get(), frame.place, SEEK_SET) != 0) {
+        return cascade::failure("the frames cannot be read back");
+    }
     for (std::size_t plane = 0; plane < frame.planes + (frame.has_relief ? 1 : 0); ++plane) {
         Field field(frame.layout);
         const std::size_t count = plane_size(frame.layout);
@@ -103,42 +108,62 @@ int FrameRecorder::threads_for(const Painter& painter, int threads) const {
     return static_cast<int>(std::clamp<std::uint64_t>(fitting, 1, most));
 }
 
-Result<std::vector<std::filesystem::path>> FrameRecorder::write(Painter& painter,
-                                                                const PngTexts& texts,
-                                                                int threads) {
+Result<void> FrameRecorder::draw(Painter& painter, std::span<const std::size_t> numbers,
+                                 int threads, const std::atomic<bool>& cancel,
+                                 const UseImage& use) {
     const ValueRange range = automatic_range(values_);
-    const auto draw = [&](const Canvas& canvas) {
-        return encode_png(painter.image(canvas, range), painter.request().png_depth(), texts,
-                          PngMeaning::colours, PngEffort::fast);
-    };
     std::mutex mutex;  // Of the following, and of the file.
-    std::condition_variable is_written;
-    std::size_t begun = 0;
-    std::vector<std::filesystem::path> written;
+    std::condition_variable is_done;
+    std::size_t begun = 0, done = 0;
     std::optional<Failure> failed;
     const auto work = [&](int) {
         std::unique_lock lock(mutex);
-        while (!failed && begun < frames_.size()) {
-            const std::size_t number = begun++;
-            const Frame& frame = frames_[number];
-            Result<Canvas> canvas = enough_memory_for([&] { return read_back(frame); });
+        while (!failed && !cancel && begun < numbers.size()) {
+            const std::size_t turn = begun++;
+            const std::size_t number = numbers[turn];
+            Result<Canvas> canvas = enough_memory_for([&] { return read_back(frames_[number]); });
             lock.unlock();
-            Result<std::string> bytes = enough_memory_for([&] { return canvas.and_then(draw); });
+            Result<InOrder> finish = enough_memory_for([&]() -> Result<InOrder> {
+                if (!canvas) return tl::unexpected(canvas.error());
+                return use(number, painter.image(*canvas, range));
+            });
             lock.lock();
-            is_written.wait(lock, [&] { return failed || written.size() == number; });
+            is_done.wait(lock, [&] { return failed || done == turn; });
             if (failed) return;
             lock.unlock();
-            const auto path = folder_ / frame_name(number, frame.stage, frame.step);
-            const auto done = write_encoded(path, [&] { return std::move(bytes); });
+            const Result<void> finished =
+                finish.and_then([](const InOrder& rest) { return enough_memory_for(rest); });
             lock.lock();
-            if (done) written.push_back(path);
-            else failed = done.error();
-            is_written.notify_all();
+            if (finished) ++done;
+            else failed = finished.error();
+            is_done.notify_all();
         }
     };
-    std::rewind(file_.get());
     Team(threads_for(painter, threads)).run(work);
     if (failed) return tl::unexpected(*failed);
+    return {};
+}
+
+Result<std::vector<std::filesystem::path>> FrameRecorder::write(const std::filesystem::path& folder,
+                                                                Painter& painter,
+                                                                const PngTexts& texts,
+                                                                int threads) {
+    std::vector<std::size_t> all(frames_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::vector<std::filesystem::path> written;
+    const auto use = [&](std::size_t number, const Image& image) -> Result<InOrder> {
+        const Frame& frame = frames_[number];
+        const auto path = folder / frame_name(number, frame.stage, frame.step);
+        auto bytes = encode_png(image, painter.request().png_depth(), texts, PngMeaning::colours,
+                                PngEffort::fast);
+        return [&written, path, bytes = std::move(bytes)]() -> Result<void> {
+            auto done = write_encoded(path, [&] { return bytes; });
+            if (done) written.push_back(path);
+            return done;
+        };
+    };
+    auto drawn = draw(painter, all, threads, never_cancelled, use);
+    if (!drawn) return tl::unexpected(drawn.error());
     return written;
 }
 

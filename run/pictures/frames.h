@@ -1,14 +1,17 @@
-// Frames: pictures at each interval, stored until their common range is known.
+// Frames: moments of a run, stored until the range of all of them is known.
 #pragma once
 
 #include "core/result.h"
 #include "run/pictures/painter.h"
 
+#include <atomic>
 #include <cstdint>
-#include <filesystem>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,9 +21,9 @@ namespace cascade {
 /// into memory, and draws them at the end.
 class FrameRecorder {
 public:
-    /// `folder` is for the pictures; empty for a space-time picture alone, whose rows are kept in
-    /// memory.
-    static Result<FrameRecorder> create(const std::filesystem::path& folder, bool space_time);
+    /// `keep_values` is for pictures and films; `space_time` for a space-time picture, whose rows
+    /// are kept in memory.
+    static Result<FrameRecorder> create(bool keep_values, bool space_time);
 
     /// Adds a frame. A full disk is remembered for failure().
     void record(const Canvas& canvas, const std::string& stage, std::int64_t step);
@@ -28,10 +31,22 @@ public:
     /// True if no frame is of a stage that has taken a step.
     bool holds_starts_alone() const;
 
-    /// Draws every frame as NUMBER-STAGE-STEP.png with one range for all, several at a time on at
-    /// most this number of threads. They are written in their order: on failure there are those
+    std::size_t count() const { return frames_.size(); }
+
+    /// What remains to be done with a picture once those before it are done.
+    using InOrder = std::function<Result<void>()>;
+    /// Takes the picture of frame `number`, on several threads at once.
+    using UseImage = std::function<Result<InOrder>(std::size_t number, const Image& image)>;
+
+    /// Draws frames, whose numbers rise, with one range for all, several at a time on at most this
+    /// number of threads. After a failure, and once `cancel` is set, no more are done.
+    Result<void> draw(Painter& painter, std::span<const std::size_t> numbers, int threads,
+                      const std::atomic<bool>& cancel, const UseImage& use);
+
+    /// Draws every frame as NUMBER-STAGE-STEP.png into the folder. On failure there are those
     /// before the one that failed, and no others.
-    Result<std::vector<std::filesystem::path>> write(Painter& painter, const PngTexts& texts,
+    Result<std::vector<std::filesystem::path>> write(const std::filesystem::path& folder,
+                                                     Painter& painter, const PngTexts& texts,
                                                      int threads);
 
     /// The rows of a one-row grid, stacked vertically, the first frame at the top.
@@ -44,6 +59,7 @@ private:
         std::size_t planes = 1;
         bool has_relief = false;  ///< As an additional plane.
         PlaneLayout layout;
+        std::int64_t place = 0;                   ///< Of its values in the file, in bytes.
         std::shared_ptr<const DrawnCells> cells;  ///< Of a stage of cells that crawl.
     };
     struct CloseFile {
@@ -54,9 +70,9 @@ private:
     bool keep(const Field& field);
     Result<Canvas> read_back(const Frame& frame);
 
-    std::filesystem::path folder_;
     bool keep_rows_ = false;
     std::unique_ptr<std::FILE, CloseFile> file_;
+    std::int64_t kept_ = 0;  ///< Bytes in the file.
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
     Spread values_;  ///< Of all frames.

@@ -8,6 +8,7 @@
 #include "export/model_writer.h"
 #include "export/point_values.h"
 #include "export/refine.h"
+#include "film/film.h"
 #include "run/pictures/model_picture.h"
 #include "surface/blur_cells.h"
 #include "surface/retile.h"
@@ -39,6 +40,7 @@ std::string in_lower_case(std::string text) {
 std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
     const std::string ending = in_lower_case(path.extension().string());
     if (ending == ".png") return OutputKind::picture;
+    if (film_format(path)) return OutputKind::film;
     if (ending == ".npz") return OutputKind::cells;
     if (ending == ".vtp" && in_lower_case(path.stem().extension().string()) == ".cells") {
         return OutputKind::cells;

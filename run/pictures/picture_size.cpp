@@ -8,25 +8,48 @@
 
 namespace cascade {
 
+namespace {
+
+bool is_drawn(const DomainSettings& domain, const PictureRequest& picture) {
+    return domain.model || (domain.surface && !picture.flat);
+}
+
+/// One pixel for each cell of what is shown, or the usual size of drawn pictures.
+PictureSize unscaled_size(const DomainSettings& domain, const PictureRequest& picture,
+                          bool is_drawn) {
+    if (is_drawn) return {DrawOptions().width, DrawOptions().height};
+    if (domain.grid.depth == 1) return {domain.grid.width, domain.grid.height};
+    const Grid grid = slice_grid(PlaneLayout(domain.grid), picture.slice);
+    return {grid.width, grid.height};
+}
+
+}  // namespace
+
+PictureSize picture_size(const DomainSettings& domain, const PictureRequest& picture,
+                         bool has_cells) {
+    PictureSize size = unscaled_size(domain, picture, has_cells || is_drawn(domain, picture));
+    size.width *= picture.scale;
+    size.height *= picture.scale;
+    return size;
+}
+
 Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,
                                 double memory, std::uint64_t memory_limit) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-    Grid grid = domain.grid;
-    // A picture of a surface has a size of its own.
-    const bool is_drawn = domain.model || (domain.surface && !picture.flat);
-    if (is_drawn) grid = Grid{DrawOptions().width, DrawOptions().height};
-    else if (grid.depth > 1) grid = slice_grid(PlaneLayout(grid), picture.slice);
+    const bool is_scene = is_drawn(domain, picture);
+    const PictureSize size = unscaled_size(domain, picture, is_scene);
+    const std::int64_t count = size.width * size.height;
     const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
-    const char* const hint = is_drawn ? "use a smaller --scale" : "use a smaller grid or --scale";
-    if (grid.cell_count() > most_pixels / pixels_per_cell) {
+    const char* const hint = is_scene ? "use a smaller --scale" : "use a smaller grid or --scale";
+    if (count > most_pixels / pixels_per_cell) {
         return failure(fmt::format("a picture of {} × {} {} at scale {} has more than {} pixels",
-                                   grid.width, grid.height, is_drawn ? "pixels" : "cells",
+                                   size.width, size.height, is_scene ? "pixels" : "cells",
                                    picture.scale, most_pixels),
                        hint);
     }
     // An enlarged picture is painted at one pixel per cell first.
     const std::int64_t pixels_of_cell = pixels_per_cell > 1 ? 1 + pixels_per_cell : 1;
-    const auto pixels = static_cast<double>(grid.cell_count() * pixels_of_cell);
+    const auto pixels = static_cast<double>(count * pixels_of_cell);
     const double bytes = memory + pixels * sizeof(Colour);
     if (memory_limit == 0 || bytes <= static_cast<double>(memory_limit)) return {};
     return failure(fmt::format("with a picture at scale {} this run needs {}, but {} are the limit "

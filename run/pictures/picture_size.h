@@ -9,6 +9,15 @@
 
 namespace cascade {
 
+struct PictureSize {
+    std::int64_t width = 0, height = 0;  ///< In pixels.
+};
+
+/// The size of pictures of a domain. Those of models, surfaces and `has_cells`, of cells that
+/// crawl, are drawn from a place in space, and have a size of their own.
+PictureSize picture_size(const DomainSettings& domain, const PictureRequest& picture,
+                         bool has_cells = false);
+
 /// Refuses pictures of more than 2²⁸ pixels, and those that do not fit into memory; `memory` is
 /// what the run needs without them, in bytes, and 0 no limit.
 Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,

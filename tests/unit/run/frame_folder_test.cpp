@@ -144,7 +144,7 @@ TEST_F(FrameFolder, IsNotCalledLikeAMovie) {
     EXPECT_FALSE(is_called_like_a_movie("mp4"));
     Script script = load(spots);
     run_badly(script, frames_in("film.mp4"));
-    EXPECT_THAT(script.messages(false), HasSubstr("--frames film, then ffmpeg"));
+    EXPECT_THAT(script.messages(false), HasSubstr("film.mp4 writes a film"));
     EXPECT_FALSE(std::filesystem::exists(path("film.mp4")));
 }
 

@@ -16,6 +16,9 @@ TEST(ModelFiles, the_ending_says_what_a_file_holds) {
     for (const char* name : {"a.png", "b/c.PNG", "a.cells.png"}) {
         EXPECT_EQ(output_kind(name), OutputKind::picture) << name;
     }
+    for (const char* name : {"a.gif", "a.WebP", "a.apng", "a.mp4", "a.cells.webm"}) {
+        EXPECT_EQ(output_kind(name), OutputKind::film) << name;
+    }
     for (const char* name : {"a.ply", "a.Obj", "a.glb", "a.vtp", "cells.vtp", "a.cells.b.vtp"}) {
         EXPECT_EQ(output_kind(name), OutputKind::model) << name;
     }

@@ -1,0 +1,149 @@
+// ffmpeg is started directly, without a shell, in a process group of its own, so that Ctrl-C does
+// not end it before it has the frames that are drawn. It writes to a temporary file.
+#include "film/ffmpeg.h"
+
+#include "core/check.h"
+#include "core/growing_file.h"
+#include "film/child_process.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <sstream>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+/// The program of that name in the folders of PATH; empty if there is none.
+std::filesystem::path program_named(const std::string& name) {
+    const char* const path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        // Others would be below the current folder, where a stranger's file may lie.
+        if (!folder.starts_with('/')) continue;
+        const std::filesystem::path program = std::filesystem::path(folder) / name;
+        if (is_program(program)) return program;
+    }
+    return {};
+}
+
+std::vector<std::string> encoder(FilmFormat format) {
+    // The quality is such that noise of a pattern stays sharp; VP9 needs the bit rate 0 for it.
+    if (format == FilmFormat::mp4) {
+        return {"-c:v",   "libx264",   "-crf",       "16", "-preset",
+                "medium", "-movflags", "+faststart", "-f", "mp4"};
+    }
+    return {"-c:v",    "libvpx-vp9", "-crf",      "24", "-b:v", "0",
+            "-row-mt", "1",          "-cpu-used", "3",  "-f",   "webm"};
+}
+
+std::vector<std::string> arguments(FilmFormat format, double frames_per_second, std::int64_t width,
+                                   std::int64_t height) {
+    std::vector<std::string> words = {
+        "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt",
+        "rgb24", "-video_size", fmt::format("{}x{}", width, height), "-framerate",
+        fmt::format("{:.6f}", frames_per_second), "-i", "pipe:0",
+        // Players take the matrix of HDTV where the file says so; the transfer curve is sRGB.
+        "-vf",
+        "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,"
+        "format=yuv420p",
+        "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
+        "-color_range", "tv"};
+    for (std::string& word : encoder(format)) words.push_back(std::move(word));
+    return words;
+}
+
+std::int64_t even(std::int64_t side) { return side + side % 2; }
+
+class FfmpegWriter : public FilmWriter {
+public:
+    explicit FfmpegWriter(std::filesystem::path path) : path_(std::move(path)) {}
+
+    /// Without a file ffmpeg drops what it encodes.
+    Result<void> begin(FilmFormat format, const FilmSettings& settings, std::int64_t width,
+                       std::int64_t height, std::unique_ptr<GrowingFile> file) {
+        if (auto found = find_ffmpeg(path_); !found) return found;
+        file_ = std::move(file);
+        auto words = arguments(format, settings.frames_per_second, even(width), even(height));
+        if (!file_) words.insert(words.end(), {"-f", "null"});
+        // "file:" keeps ffmpeg from reading a protocol or an option into a name.
+        words.push_back(file_ ? "file:" + file_->temporary_path().string() : "-");
+        auto process = ChildProcess::start(program_named("ffmpeg"), words);
+        if (!process) return tl::unexpected(process.error());
+        process_ = *std::move(process);
+        return {};
+    }
+
+    Result<void> add(const FilmFrame& frame) override {
+        std::string row, bytes;
+        for (std::int64_t y = 0; y < even(frame.height); ++y) {
+            if (y < frame.height) row = colours_of(frame, y);
+            bytes += row;
+        }
+        if (process_->write(bytes)) return {};
+        return outcome();
+    }
+
+    Result<void> finish() override {
+        if (auto done = outcome(); !done) return done;
+        return file_ ? file_->complete() : Result<void>();
+    }
+
+private:
+    static std::string colours_of(const FilmFrame& frame, std::int64_t y) {
+        std::string row;
+        const unsigned char* pixel = frame.row(y);
+        for (std::int64_t x = 0; x < even(frame.width); ++x) {
+            row.append(reinterpret_cast<const char*>(pixel), 3);
+            if (x + 1 < frame.width) pixel += FilmFrame::pixel_bytes;
+        }
+        return row;
+    }
+
+    /// What became of ffmpeg, which has got all that it will get.
+    Result<void> outcome() {
+        const ChildProcess::End end = process_->end();
+        if (end.is_good) return {};
+        return failure(fmt::format("ffmpeg could not write '{}': {}", path_.string(),
+                                   end.last_words),
+                       "the endings .gif, .webp and .apng need no ffmpeg");
+    }
+
+    std::filesystem::path path_;
+    std::unique_ptr<GrowingFile> file_;
+    std::unique_ptr<ChildProcess> process_;
+};
+
+}  // namespace
+
+Result<void> find_ffmpeg(const std::filesystem::path& film) {
+    if (!program_named("ffmpeg").empty()) return {};
+    return failure(fmt::format("'{}' needs the program ffmpeg, which is not installed",
+                               film.string()),
+                   "on Debian: apt-get install ffmpeg; the endings .gif, .webp and .apng do "
+                   "without it");
+}
+
+Result<void> try_ffmpeg(const std::filesystem::path& film, FilmFormat format, std::int64_t width,
+                        std::int64_t height) {
+    FfmpegWriter writer(film);
+    if (auto begun = writer.begin(format, {}, width, height, nullptr); !begun) return begun;
+    const FilmFrame white = film_frame(Image(width, height));
+    if (auto done = writer.add(white); !done) return done;
+    return writer.finish();
+}
+
+Result<std::unique_ptr<FilmWriter>> begin_ffmpeg(const std::filesystem::path& path,
+                                                 FilmFormat format, const FilmSettings& settings,
+                                                 std::int64_t width, std::int64_t height) {
+    auto file = GrowingFile::create(path);
+    if (!file) return tl::unexpected(file.error());
+    auto film = std::make_unique<FfmpegWriter>(path);
+    if (auto begun = film->begin(format, settings, width, height, *std::move(file)); !begun) {
+        return tl::unexpected(begun.error());
+    }
+    return film;
+}
+
+}  // namespace cascade

@@ -1,0 +1,22 @@
+// Films that the program ffmpeg encodes.
+#pragma once
+
+#include "film/film.h"
+
+namespace cascade {
+
+/// Fails, and says what to install, if there is no program ffmpeg in the folders of PATH.
+Result<void> find_ffmpeg(const std::filesystem::path& film);
+
+/// Lets ffmpeg encode a white frame of this size, and drops it.
+Result<void> try_ffmpeg(const std::filesystem::path& film, FilmFormat format, std::int64_t width,
+                        std::int64_t height);
+
+/// A film in MP4 (H.264) or WebM (VP9). ffmpeg gets the frames through a pipe. Sides of an odd
+/// number of pixels get one more, since both formats have colours for squares of two by two: the
+/// last row or column once more. Writing fails by a signal unless the program ignores SIGPIPE.
+Result<std::unique_ptr<FilmWriter>> begin_ffmpeg(const std::filesystem::path& path,
+                                                 FilmFormat format, const FilmSettings& settings,
+                                                 std::int64_t width, std::int64_t height);
+
+}  // namespace cascade

@@ -1,0 +1,81 @@
+// Films: frames that are written one after the other, in the format of the file's ending.
+#pragma once
+
+#include "core/result.h"
+#include "film/film_frame.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace cascade {
+
+/// The formats by their endings. GIF, WebP and APNG are written by Cascade itself, the others by
+/// the program ffmpeg.
+enum class FilmFormat { gif, webp, apng, mp4, webm };
+
+/// By the ending, regardless of case; nothing for a file that is no film.
+std::optional<FilmFormat> film_format(const std::filesystem::path& path);
+
+inline constexpr double slowest_film = 0.1;  ///< Frames per second.
+inline constexpr double fastest_film = 60;
+/// Browsers show faster GIF films slowly.
+inline constexpr double fastest_gif = 50;
+
+struct FilmSettings {
+    double frames_per_second = 10;  ///< slowest_film … fastest_film; of a GIF at most fastest_gif.
+    PngTexts texts;                 ///< Written into APNG files.
+};
+
+/// A film that is being written. Frames have one size; each is on its way to the disk when add()
+/// returns.
+class FilmWriter {
+public:
+    virtual ~FilmWriter() = default;
+    /// Adds a frame.
+    virtual Result<void> add(const FilmFrame& frame) = 0;
+    /// Completes the file, which gets its name only now. There must be a frame. Nothing may follow.
+    virtual Result<void> finish() = 0;
+};
+
+/// Checks before any work that a film of this name can be begun: its name is not that of a pipe or
+/// a device, and ffmpeg is there if it is needed.
+Result<void> check_film(const std::filesystem::path& path);
+
+/// Checks that the format holds frames of this size; lets ffmpeg encode one.
+Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
+                             std::int64_t height);
+
+/// Begins a film of frames of the size of the samples, of which there is at least one. A GIF has
+/// 256 colours, which are chosen for the samples: frames from all over the film, so that colours
+/// keep still from frame to frame.
+Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path,
+                                               const FilmSettings& settings,
+                                               std::span<const FilmFrame> samples);
+
+/// Begins a film of one format.
+Result<std::unique_ptr<FilmWriter>> begin_gif(const std::filesystem::path& path,
+                                              const FilmSettings& settings,
+                                              std::span<const FilmFrame> samples);
+Result<std::unique_ptr<FilmWriter>> begin_apng(const std::filesystem::path& path,
+                                               const FilmSettings& settings, std::int64_t width,
+                                               std::int64_t height);
+Result<std::unique_ptr<FilmWriter>> begin_webp(const std::filesystem::path& path,
+                                               const FilmSettings& settings, std::int64_t width,
+                                               std::int64_t height);
+
+/// How long each frame is shown in whole ticks, so that rounding errors do not add up.
+class FrameTimes {
+public:
+    FrameTimes(double frames_per_second, double ticks_per_second)
+        : ticks_per_frame_(ticks_per_second / frames_per_second) {}
+    std::int64_t next();
+
+private:
+    double ticks_per_frame_;
+    std::int64_t frames_ = 0;
+};
+
+}  // namespace cascade

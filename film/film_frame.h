@@ -1,0 +1,43 @@
+// A frame of a film in bytes, and what changes from one to the next.
+#pragma once
+
+#include "picture/image.h"
+
+#include <cstdint>
+#include <string>
+
+namespace cascade {
+
+/// Red, green, blue and alpha of each pixel, a byte each, rows from the top. Alpha is 0 or 255;
+/// transparent pixels are white, for players that ignore it.
+struct FilmFrame {
+    std::int64_t width = 0, height = 0;
+    std::string pixels;
+
+    static constexpr std::size_t pixel_bytes = 4;
+    /// The bytes of row y, beginning at pixel x.
+    const unsigned char* row(std::int64_t y, std::int64_t x = 0) const {
+        return reinterpret_cast<const unsigned char*>(pixels.data()) +
+               static_cast<std::size_t>(y * width + x) * pixel_bytes;
+    }
+};
+
+/// The image with each colour rounded as in PNG files of 8 bits. Throws std::bad_alloc.
+FilmFrame film_frame(const Image& image);
+
+/// True if a pixel is transparent.
+bool has_holes(const FilmFrame& frame);
+
+/// A part of a frame, in pixels.
+struct FramePart {
+    std::int64_t x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const FramePart&) const = default;
+};
+
+inline FramePart whole_of(const FilmFrame& frame) { return {0, 0, frame.width, frame.height}; }
+
+/// The smallest rectangle outside of which two frames of one size are the same; the first pixel if
+/// they are the same everywhere, since films have no empty pictures.
+FramePart changed_part(const FilmFrame& before, const FilmFrame& now);
+
+}  // namespace cascade

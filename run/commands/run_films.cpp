@@ -1,0 +1,106 @@
+// The films of a run: of its frames, or of its end from all around.
+#include "core/enough_memory.h"
+#include "run/commands/film_crew.h"
+#include "run/commands/run_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace cascade {
+
+bool films_steps(const RunRequest& request) {
+    return request.turntable == 0 &&
+           std::any_of(request.outputs.begin(), request.outputs.end(), is_film);
+}
+
+namespace {
+
+/// Set by a Ctrl-C that has not ended the run before.
+const std::atomic<bool>& stop_of(const RunControl& control, const RunReport& report) {
+    return report.status == RunStatus::cancelled ? never_cancelled : control.cancel;
+}
+
+}  // namespace
+
+/// Ctrl-C while frames are drawn ends the films there. After one that has ended the run, all frames
+/// of the run are drawn.
+Result<void> RunResults::write_films(const Canvas& canvas) {
+    std::vector<std::filesystem::path> paths;
+    std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(paths), is_film);
+    FilmSettings settings;
+    settings.texts = texts(painter.request());
+    FilmCrew crew(std::move(paths), std::move(settings));
+    auto filmed = request.turntable > 0 ? film_turntable(crew, canvas) : film_frames(crew);
+    if (!filmed) return filmed;
+    const auto written = crew.finish();
+    report.written.insert(report.written.end(), written.begin(), written.end());
+    if (crew.failure()) return tl::unexpected(*crew.failure());
+    return {};
+}
+
+/// Notes where Ctrl-C has ended the films, if so.
+void RunResults::note_end_of_films(const FilmCrew& crew, std::size_t count) {
+    if (crew.frames() < count && stop_of(control, report)) {
+        report.status = RunStatus::cancelled;
+        report.where =
+            fmt::format("frame {} of {} of {}", crew.frames(), count, crew.first().string());
+    }
+}
+
+Result<void> RunResults::film_frames(FilmCrew& crew) {
+    if (auto failed = frames->failure()) return tl::unexpected(*failed);
+    if (frames->count() == 0) {
+        return failure(fmt::format("'{}' has no frames, because the run took no step",
+                                   crew.first().string()),
+                       "a film has a frame at the start of a stage and at each 'interval'");
+    }
+    const FilmPlan plan = film_plan(request.film, frames->count(), crew.has_gif());
+    const auto draw_one = [&](std::size_t number) -> Result<FilmFrame> {
+        FilmFrame frame;
+        const auto keep = [&](std::size_t, const Image& image) -> Result<FrameRecorder::InOrder> {
+            frame = film_frame(image);
+            return [] { return Result<void>(); };
+        };
+        auto drawn = frames->draw(painter, {&number, 1}, 1, never_cancelled, keep);
+        if (!drawn) return tl::unexpected(drawn.error());
+        return frame;
+    };
+    if (auto begun = crew.begin(plan, draw_one); !begun) return begun;
+    const auto add = [&](std::size_t, const Image& image) -> Result<FrameRecorder::InOrder> {
+        return [&, frame = film_frame(image)] {
+            say(fmt::format("drawing {} of {}", crew.frames() + 1, plan.frames.size()));
+            return crew.add(frame);
+        };
+    };
+    auto drawn =
+        frames->draw(painter, plan.frames, drawing_threads(), stop_of(control, report), add);
+    if (drawn) note_end_of_films(crew, plan.frames.size());
+    return drawn;
+}
+
+Result<void> RunResults::film_turntable(FilmCrew& crew, const Canvas& canvas) {
+    const auto count = static_cast<std::size_t>(request.turntable);
+    const FilmPlan plan = film_plan(request.film, count, crew.has_gif());
+    const auto draw_one = [&](std::size_t number) -> Result<FilmFrame> {
+        painter.set_view(turned_view(number, count));
+        return film_frame(painter.image(canvas));
+    };
+    Result<void> done = crew.begin(plan, draw_one);
+    for (const std::size_t number : plan.frames) {
+        if (!done || stop_of(control, report)) break;
+        say(fmt::format("drawing {} of {}", crew.frames() + 1, plan.frames.size()));
+        if (const FilmFrame* frame = crew.drawn(number)) {
+            done = crew.add(*frame);
+            continue;
+        }
+        auto frame = enough_memory_for([&] { return draw_one(number); });
+        done = frame ? crew.add(*frame) : Result<void>(tl::unexpected(frame.error()));
+    }
+    painter.set_view(request.picture.view);
+    if (done) note_end_of_films(crew, plan.frames.size());
+    return done;
+}
+
+}  // namespace cascade

@@ -1,0 +1,91 @@
+#!/bin/bash
+# Films from the command line: what is written, what is said, and what is left after Ctrl-C.
+set -u
+failed=0
+fail() {
+    echo "film: $*"
+    failed=1
+}
+
+cat > spots.cascade <<'END'
+domain { grid: 24, 16 }
+stage s: turing_spots { iterations: 60; interval: 20 }
+END
+
+# The number of frames of a GIF: each has a control block.
+gif_frames() { LC_ALL=C grep -aoP '\x21\xf9\x04' "$1" | wc -l; }
+
+"$CASCADE" run spots.cascade -o film.gif -o film.webp -o film.apng >out 2>err || fail "$(cat err)"
+for ending in gif webp apng; do
+    grep -q "^wrote film.$ending$" out || fail "nothing is said of film.$ending"
+done
+[ "$(gif_frames film.gif)" = 4 ] || fail "the GIF has $(gif_frames film.gif) frames"
+[ "$(head -c 6 film.gif)" = GIF89a ] || fail "the GIF is none"
+[ "$(head -c 12 film.webp | tail -c 4)" = WEBP ] || fail "the WebP is none"
+grep -aq acTL film.apng || fail "the APNG is not animated"
+[ ! -e spots.png ] || fail "a film brings a picture"
+
+# The film of a script is that of the picture that an APNG is.
+cp film.apng again.png
+"$CASCADE" run again.png -q -o again.gif || fail "an APNG does not run again"
+cmp -s film.gif again.gif || fail "the film of an APNG is another one"
+
+# Bits do not depend on threads.
+for ending in gif webp apng; do
+    "$CASCADE" run spots.cascade -q --threads 1 -o "one.$ending" || fail "one thread"
+    "$CASCADE" run spots.cascade -q --threads 4 -o "four.$ending" || fail "four threads"
+    cmp -s "one.$ending" "four.$ending" || fail "threads change a film ($ending)"
+done
+
+# Refused, with a reason, and nothing is left.
+refused() {
+    local text=$1
+    shift
+    rm -f bad.*
+    "$CASCADE" run spots.cascade "$@" >/dev/null 2>err && fail "$* is taken"
+    grep -qF -- "$text" err || fail "$*: no '$text' in: $(cat err)"
+    compgen -G 'bad.*' >/dev/null && fail "$* leaves $(echo bad.*)"
+    compgen -G '.cascade-*' >/dev/null && fail "$* leaves a temporary file"
+}
+refused "is a film in a format that is not written" -o bad.avi
+refused "a GIF shows at most 50 frames a second" -o bad.gif --fps 55
+refused "no film is written" --fps 5 -o bad.png
+refused "no film is written" --seconds 5 --sheet bad.png
+refused "has no frames" -o bad.gif --steps 0
+refused "cannot hold frames of 16384 × 64 pixels" --grid 256x1 --scale 64 -o bad.webp
+refused "there is no folder 'none'" -o none/bad.gif
+refused "the domain is not a surface" -o bad.gif --turntable 4
+refused "does not end in .png" --sheet bad.gif
+PATH=/none "$CASCADE" run spots.cascade -o bad.mp4 >/dev/null 2>err && fail "an MP4 without ffmpeg"
+grep -q "needs the program ffmpeg, which is not installed" err || fail "without ffmpeg: $(cat err)"
+grep -q "apt-get install ffmpeg" err || fail "without ffmpeg: $(cat err)"
+[ ! -e bad.mp4 ] || fail "there is an MP4 without ffmpeg"
+for command in sweep check view; do
+    "$CASCADE" "$command" spots.cascade --fps 5 >/dev/null 2>err && fail "$command takes --fps"
+    grep -q "there is no option --fps" err || fail "$command: $(cat err)"
+done
+if [ "$(id -u)" != 0 ]; then
+    mkdir -p closed && chmod 500 closed
+    refused "Permission denied" -o closed/bad.gif
+    chmod 700 closed
+fi
+
+# Ctrl-C leaves the film up to there.
+timeout --preserve-status -s INT 2 "$CASCADE" run spots.cascade --set iterations=1000000000 \
+    --set interval=1000 -o stopped.gif >out 2>err
+status=$?
+[ "$status" = 130 ] || fail "a stopped run has status $status"
+[ "$(gif_frames stopped.gif)" -ge 1 ] || fail "a stopped run has no film"
+[ "$(tail -c 1 stopped.gif)" = ';' ] || fail "the film of a stopped run has no end"
+
+# With ffmpeg, if it is there.
+if command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null; then
+    for ending in mp4 webm; do
+        "$CASCADE" run spots.cascade -q -o "film.$ending" --fps 12.5 || fail "$ending"
+        found=$(ffprobe -v error -count_frames -of csv=p=0 \
+            -show_entries stream=width,height,nb_read_frames,r_frame_rate "film.$ending")
+        [ "$found" = 24,16,25/2,4 ] || fail "film.$ending: $found"
+    done
+    compgen -G '.cascade-*' >/dev/null && fail "ffmpeg leaves a temporary file"
+fi
+exit $failed

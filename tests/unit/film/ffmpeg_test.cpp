@@ -1,0 +1,122 @@
+// Films by ffmpeg, if it is there; and what is said if it is not there or fails.
+#include "film_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+namespace cascade {
+namespace {
+
+using testing::HasSubstr;
+
+/// The folders in which programs are looked for, for as long as it exists.
+class SearchedFolders {
+public:
+    explicit SearchedFolders(const std::string& folders) : before_(std::getenv("PATH")) {
+        ::setenv("PATH", folders.c_str(), 1);
+    }
+    ~SearchedFolders() { ::setenv("PATH", before_.c_str(), 1); }
+
+private:
+    std::string before_;
+};
+
+class Ffmpeg : public FilmTest {
+protected:
+    void SetUp() override {
+        FilmTest::SetUp();
+        std::signal(SIGPIPE, SIG_IGN);
+    }
+
+    /// Makes a program of that name in the folder bin.
+    void make_program(const std::string& text) const {
+        std::filesystem::create_directories(path("bin"));
+        ASSERT_TRUE(write_file(path("bin/ffmpeg"), "#!/bin/sh\n" + text));
+        std::filesystem::permissions(path("bin/ffmpeg"), std::filesystem::perms::owner_all);
+    }
+
+    /// All pixels of a film in red, green and blue, by ffmpeg's own decoder.
+    std::string decoded(const std::string& name) const {
+        const std::string command =
+            "ffmpeg -v error -i '" + path(name).string() + "' -f rawvideo -pix_fmt rgb24 -";
+        std::FILE* const pipe = ::popen(command.c_str(), "r");
+        std::string pixels;
+        for (int byte = std::fgetc(pipe); byte != EOF; byte = std::fgetc(pipe)) {
+            pixels += static_cast<char>(byte);
+        }
+        ::pclose(pipe);
+        return pixels;
+    }
+};
+
+TEST_F(Ffmpeg, WritesWhatItsDecoderShows) {
+    if (!check_film(path("a.mp4"))) GTEST_SKIP() << "ffmpeg is not installed";
+    // Odd sides get one more row and column.
+    std::vector<FilmFrame> frames;
+    for (int k = 0; k < 4; ++k) {
+        const float share = static_cast<float>(k) / 4;
+        frames.push_back(film_frame(Image(33, 21, {share, 0.75F, 1 - share})));
+    }
+    for (const std::string name : {"a.mp4", "a.webm"}) {
+        write(name, frames);
+        const std::string pixels = decoded(name);
+        ASSERT_EQ(pixels.size(), 4U * 34 * 22 * 3) << name;
+        for (std::size_t k = 0; k < frames.size(); ++k) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const auto level = [](char byte) { return static_cast<unsigned char>(byte); };
+                EXPECT_NEAR(level(pixels[(k * 34 * 22 + 340) * 3 + c]), level(frames[k].pixels[c]),
+                            4)
+                    << name << ", frame " << k << ", channel " << c;
+            }
+        }
+    }
+    EXPECT_EQ(files(), 2U);
+    EXPECT_TRUE(check_film_size(path("b.mp4"), 33, 21));
+    EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(Ffmpeg, IsAskedForWhereItIsMissing) {
+    const SearchedFolders nowhere("::relative:" + path("bin").string());
+    const auto checked = check_film(path("a.mp4"));
+    ASSERT_FALSE(checked);
+    EXPECT_THAT(checked.error().message, HasSubstr("needs the program ffmpeg"));
+    EXPECT_THAT(checked.error().hint, HasSubstr("apt-get install ffmpeg"));
+    EXPECT_TRUE(check_film(path("a.gif")));
+    EXPECT_FALSE(begin_film(path("a.webm"), {}, moving_disc()));
+    EXPECT_EQ(files(), 0U);
+}
+
+TEST_F(Ffmpeg, HasTheLastWordWhereItFails) {
+    make_program("echo first >&2; echo \"Unknown encoder 'libx264'\" >&2; exit 1\n");
+    const SearchedFolders folders(path("bin").string() + ":/bin:/usr/bin");
+    const auto tried = check_film_size(path("a.mp4"), 640, 480);
+    ASSERT_FALSE(tried);
+    EXPECT_THAT(tried.error().message, HasSubstr("a.mp4': Unknown encoder 'libx264'"));
+    // Many frames, so that the pipe breaks while they are written.
+    const std::vector<FilmFrame> frames(200, many_colours(0));
+    auto film = begin_film(path("a.mp4"), {}, frames);
+    ASSERT_TRUE(film);
+    std::optional<Failure> failed;
+    for (std::size_t k = 0; !failed && k < frames.size(); ++k) {
+        if (auto added = (*film)->add(frames[k]); !added) failed = added.error();
+    }
+    ASSERT_TRUE(failed);
+    EXPECT_THAT(failed->message, HasSubstr("Unknown encoder"));
+    film->reset();
+    EXPECT_EQ(files(), 1U) << "nothing but bin";
+}
+
+TEST_F(Ffmpeg, GetsNamesThatNoShellReads) {
+    if (!check_film(path("a.mp4"))) GTEST_SKIP() << "ffmpeg is not installed";
+    const std::string name = "-i $(touch x); 'a' http:b.mp4";
+    write(name, moving_disc(2));
+    EXPECT_GT(bytes(name).size(), 100U);
+    EXPECT_EQ(files(), 1U);
+}
+
+}  // namespace
+}  // namespace cascade
