@@ -103,6 +103,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
         work.on_surface = measures_on_surface(program.domain);
         check_systems(work, script, library);
         checking::functions_of(work, script);  // Functions that are never called are checked, too.
+        checking::check_names_of_constants(work, script);
         checking::check_stages(work, script);
         checking::check_stage_sides(work, script);
         checking::check_picture(work, script, checking::check_shapes(work, script, sources));

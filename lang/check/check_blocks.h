@@ -22,6 +22,9 @@ SystemId check_system(Workspace& work, const DerivedSystem& derived, std::option
 /// The statement if it gives a value, else null.
 const ast::Statement* value_statement(const ast::Statement& statement);
 
+/// What a `--set` gives to a constant, if it may: it names no stage, side or member. Else null.
+const ast::Statement* constant_statement(const ast::Override& change);
+
 /// The statement of an option for this setting; null if the option was not given.
 const ast::Statement* find_option(const ast::Script& script, std::string_view name);
 

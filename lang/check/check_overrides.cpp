@@ -1,5 +1,6 @@
 // Overrides from outside the script: options, and the stages that each --set applies to.
 #include "lang/check/check_blocks.h"
+#include "lang/check/user_functions.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,12 @@ const ast::Statement* value_statement(const ast::Statement& statement) {
     return usable ? &statement : nullptr;
 }
 
+const ast::Statement* constant_statement(const ast::Override& change) {
+    const ast::Statement& statement = change.statement;
+    const bool is_plain = change.stage.empty() && statement.side.empty() && statement.index.empty();
+    return is_plain ? value_statement(statement) : nullptr;
+}
+
 const ast::Statement* find_option(const ast::Script& script, std::string_view name) {
     const auto found =
         std::find_if(script.options.begin(), script.options.end(),
@@ -25,6 +32,12 @@ const ast::Statement* find_option(const ast::Script& script, std::string_view na
 }
 
 namespace {
+
+bool is_of_constant(Workspace& work, const ast::Script& script, const ast::Override& change) {
+    const ast::Statement* statement = constant_statement(change);
+    return statement != nullptr &&
+           functions_of(work, script).find_constant(statement->name.text) != nullptr;
+}
 
 /// True if the statement can set something in this stage.
 bool has_name(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
@@ -171,6 +184,7 @@ StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) 
     for (const ast::Override& change : script.overrides) {
         const ast::Statement* statement = value_statement(change.statement);
         if (statement == nullptr || as_side(work, change)) continue;
+        if (is_of_constant(work, script, change)) continue;
         if (!change.stage.empty()) {
             const auto found = work.stages.find(std::string(change.stage.text));
             if (found != work.stages.end()) {

@@ -37,8 +37,8 @@ private:
     enum class TaskKind : std::uint8_t {
         visit,    ///< Expand a node and its operands.
         finish,   ///< The operands are done: write the node itself.
-        call,     ///< The arguments are done: go on with the function's body.
-        leave,    ///< The function's body is done.
+        call,     ///< The arguments are done: go on with the body of the function or constant.
+        leave,    ///< The body is done.
         repeat,   ///< An aggregate: bind its index to `value` and expand the operand.
         combine,  ///< The operand is done for `value`.
     };
@@ -58,7 +58,7 @@ private:
     const ast::Script& script() const { return *frames_.back().script; }
     const ast::Expr& expr(ast::ExprId part) const { return script().expressions[part]; }
     void visit(ast::ExprId part);
-    void visit_name(const ast::Expr& expr, const ast::Name& name);
+    void visit_name(ast::ExprId part, const ast::Name& name);
     void visit_call(ast::ExprId part, const ast::Call& call);
     void visit_over(ast::ExprId part, const ast::Over& over);
     void finish(const Task& task);
@@ -67,6 +67,10 @@ private:
     void enter(ast::ExprId part);
     void repeat(const Task& task);
     void combine(const Task& task);
+    /// Does the name mean a constant of the script?
+    const UserFunction* find_constant(std::string_view name) {
+        return functions_of(work_, script()).find_constant(name);
+    }
     std::optional<std::int64_t> index_value(ast::ExprId first, ast::ExprId last, Span span);
 
     ast::ExprId append(Span span, decltype(ast::Expr::node) node);
@@ -143,7 +147,7 @@ ast::ExprId Expander::append(Span span, decltype(ast::Expr::node) node) {
 
 void Expander::visit(ast::ExprId part) {
     const ast::Expr& here = expr(part);
-    if (const auto* name = std::get_if<ast::Name>(&here.node)) return visit_name(here, *name);
+    if (const auto* name = std::get_if<ast::Name>(&here.node)) return visit_name(part, *name);
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return visit_call(part, *call);
     if (const auto* component = std::get_if<ast::Component>(&here.node)) {
         push(TaskKind::finish, part);
@@ -167,8 +171,9 @@ void Expander::visit(ast::ExprId part) {
     emit(here.span, here.node);
 }
 
-/// A parameter of the function, an index with a value, or any other name.
-void Expander::visit_name(const ast::Expr& here, const ast::Name& name) {
+/// A parameter of the function, a constant, an index with a value, or any other name.
+void Expander::visit_name(ast::ExprId part, const ast::Name& name) {
+    const ast::Expr& here = expr(part);
     const Frame& frame = frames_.back();
     if (frame.function != nullptr) {
         const auto parameter = frame.function->parameters.find(name.name);
@@ -176,8 +181,12 @@ void Expander::visit_name(const ast::Expr& here, const ast::Name& name) {
             results_.push_back(arguments_[frame.first_argument + parameter->second]);
             return;
         }
-        return emit(here.span, name);
     }
+    if (const UserFunction* constant = find_constant(name.name)) {
+        if (constant->has_error) return emit(here.span, ast::Garbage{});
+        return push(TaskKind::call, part);
+    }
+    if (frame.function != nullptr) return emit(here.span, name);
     const auto values = values_.find(name.name);
     if (values != values_.end() && !values->second.empty()) {
         return emit(here.span, ast::Number{static_cast<double>(values->second.back())});
@@ -203,15 +212,20 @@ void Expander::visit_call(ast::ExprId part, const ast::Call& call) {
 }
 
 void Expander::enter(ast::ExprId part) {
-    const auto& call = std::get<ast::Call>(expr(part).node);
-    const auto [function, home] = find_function(work_, script(), call.function.text);
-    Frame frame{home, function, arguments_.size(), frames_.back().call};
+    const auto* const call = std::get_if<ast::Call>(&expr(part).node);
+    const std::size_t count = call != nullptr ? call->argument_count : 0;
+    const FoundFunction found =
+        call != nullptr
+            ? find_function(work_, script(), call->function.text)
+            : FoundFunction{find_constant(std::get<ast::Name>(expr(part).node).name), &script()};
+    Frame frame{found.script, found.function, arguments_.size(), frames_.back().call};
     if (!frame.call) frame.call = expr(part).span;
-    arguments_.insert(arguments_.end(), results_.end() - call.argument_count, results_.end());
-    results_.resize(results_.size() - call.argument_count);
+    const auto first = results_.end() - static_cast<std::ptrdiff_t>(count);
+    arguments_.insert(arguments_.end(), first, results_.end());
+    results_.resize(results_.size() - count);
     frames_.push_back(frame);
     push(TaskKind::leave, part);
-    push(TaskKind::visit, function->definition->body.root);
+    push(TaskKind::visit, found.function->body.root);
 }
 
 void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
@@ -376,6 +390,7 @@ bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression
             if (over->index.text != "domain") return true;
         } else if (const auto* name = std::get_if<ast::Name>(&node)) {
             if (scope.index && scope.index->name == name->name) return true;
+            if (has_functions && functions_of(work, script).find_constant(name->name)) return true;
         } else if (const auto* call = std::get_if<ast::Call>(&node)) {
             if (has_functions && find_function(work, script, call->function.text)) return true;
         }

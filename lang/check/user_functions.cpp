@@ -1,7 +1,9 @@
-// Checks the functions of a script: their names, what they read, and that none is recursive.
+// Checks the functions and constants of a script: their names, what they read, and that none is
+// recursive.
 #include "lang/check/user_functions.h"
 
 #include "core/counted.h"
+#include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
 #include "lang/program/order.h"
 
@@ -14,7 +16,17 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr const char* what_it_reads = "a function reads its parameters and built-in values only";
+constexpr const char* what_functions_read =
+    "a function reads its parameters, constants and built-in values only";
+constexpr const char* what_constants_read = "a constant reads built-in values and constants only";
+
+const char* what_it_reads(const UserFunction& function) {
+    return function.definition->is_constant ? what_constants_read : what_functions_read;
+}
+
+const char* kind_of(const UserFunction& function) {
+    return function.definition->is_constant ? "constant" : "function";
+}
 
 }  // namespace
 
@@ -40,7 +52,8 @@ public:
 private:
     void declare(const ast::FunctionDefinition& definition);
     void check_body(std::uint32_t index);
-    void check_name(UserFunction& function, std::string_view name, Span span);
+    ast::Expression body_of(const ast::FunctionDefinition& definition) const;
+    void check_name(std::uint32_t index, std::string_view name, Span span);
     void check_call(std::uint32_t index, const ast::Call& call, Span span);
     void report_cycle(const std::vector<std::uint32_t>& cycle);
     /// Null in the functions of cells themselves.
@@ -63,10 +76,17 @@ private:
 void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
     UserFunction function;
     function.definition = &definition;
+    function.body = body_of(definition);
     const ast::Word& name = definition.name;
     if (is_function_name(name.text)) {
         work_.diagnostics.error(name.span,
                                 fmt::format("'{}' is a function of the language", name.text),
+                                "choose another name");
+        return;
+    }
+    if (definition.is_constant && (reserved(name.text) != Reserved::no ||
+                                   cell_value_named(name.text) || is_of_each_cell(name.text))) {
+        work_.diagnostics.error(name.span, fmt::format("'{}' belongs to the language", name.text),
                                 "choose another name");
         return;
     }
@@ -82,14 +102,30 @@ void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
     const auto [first, is_new] = table_.by_name_.try_emplace(name.text, index);
     if (!is_new) {
         report_twice(work_, name.span, table_.functions_[first->second].definition->name.span,
-                     fmt::format("there are two functions '{}'", name.text));
+                     fmt::format("there are two {} '{}'",
+                                 definition.is_constant ? "constants" : "functions", name.text));
     }
     table_.functions_.push_back(std::move(function));
 }
 
+/// The last `--set` of a constant without the name of a stage is its expression.
+ast::Expression FunctionTableMaker::body_of(const ast::FunctionDefinition& definition) const {
+    ast::Expression body = definition.body;
+    if (!definition.is_constant) return body;
+    for (const ast::Override& change : script_.overrides) {
+        if (const auto* constant = constant_statement(change);
+            constant != nullptr && constant->name.text == definition.name.text) {
+            body = constant->values.front();
+        }
+    }
+    return body;
+}
+
 void FunctionTableMaker::check_body(std::uint32_t index) {
     UserFunction& function = table_.functions_[index];
-    const ast::Expression body = function.definition->body;
+    const ast::Expression body = function.body;
+    const bool is_constant = function.definition->is_constant;
+    const std::string kind = kind_of(function);
     std::vector<bool> is_family(body.root - body.first + 1, false);
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const auto* member = std::get_if<ast::Indexed>(&script_.expressions[id].node);
@@ -99,41 +135,53 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
         const ast::Expr& part = script_.expressions[id];
         if (is_family[id - body.first]) continue;  // Reported with its index.
         if (const auto* name = std::get_if<ast::Name>(&part.node)) {
-            check_name(function, name->name, part.span);
+            check_name(index, name->name, part.span);
         } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {
             check_call(index, *call, part.span);
         } else if (const auto* over = std::get_if<ast::Over>(&part.node)) {
             const std::string_view what = over->index.text;
             if (what != "domain" && what != "touching" && what != "near") {
                 error(function, over->index.span,
-                      fmt::format("a function has no index '{}'", over->index.text),
-                      "give it the members or their sum as arguments");
+                      fmt::format("a {} has no index '{}'", kind, over->index.text),
+                      is_constant ? what_constants_read
+                                  : "give it the members or their sum as arguments");
             }
         } else if (std::holds_alternative<ast::Garbage>(part.node)) {
             function.has_error = true;
         } else if (std::holds_alternative<ast::Indexed>(part.node)) {
-            error(function, part.span, "a function cannot read the member of a family",
-                  "give it the member as an argument");
+            error(function, part.span, fmt::format("a {} cannot read the member of a family", kind),
+                  is_constant ? what_constants_read : "give it the member as an argument");
         } else if (std::holds_alternative<ast::Bracketed>(part.node) ||
                    std::holds_alternative<ast::Qualified>(part.node) ||
                    std::holds_alternative<ast::RateOf>(part.node)) {
-            error(function, part.span, "a function cannot read a stage or a system", what_it_reads);
+            error(function, part.span, fmt::format("a {} cannot read a stage or a system", kind),
+                  what_it_reads(function));
         }
     }
 }
 
-void FunctionTableMaker::check_name(UserFunction& function, std::string_view name, Span span) {
+void FunctionTableMaker::check_name(std::uint32_t index, std::string_view name, Span span) {
+    UserFunction& function = table_.functions_[index];
     if (function.parameters.contains(name)) return;
+    if (const UserFunction* constant = table_.find_constant(name)) {
+        calls_[index].push_back(static_cast<std::uint32_t>(constant - table_.functions_.data()));
+        return;
+    }
     const Reserved kind = reserved(name);
     if (kind == Reserved::builtin || cell_value_named(name)) return;
     if (work_.cell_functions != nullptr && is_of_each_cell(name)) return;
     std::vector<std::string> names;
     for (const ast::Word& each : function.definition->parameters) names.emplace_back(each.text);
+    for (const UserFunction& each : table_.functions_) {
+        if (each.definition->is_constant) names.emplace_back(each.definition->name.text);
+    }
     std::string hint = did_you_mean(work_, name, names);
-    if (hint.empty()) hint = what_it_reads;
+    if (hint.empty()) hint = what_it_reads(function);
+    const std::string_view own = function.definition->name.text;
     error(function, span,
-          fmt::format("'{}' is not a parameter of the function '{}'", name,
-                      function.definition->name.text),
+          function.definition->is_constant
+              ? fmt::format("'{}' is not known where the constant '{}' is defined", name, own)
+              : fmt::format("'{}' is not a parameter of the function '{}'", name, own),
           std::move(hint));
 }
 
@@ -152,24 +200,33 @@ void FunctionTableMaker::check_call(std::uint32_t index, const ast::Call& call, 
 
 void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
     std::vector<std::string> names;
+    bool has_constant = false;
     for (const std::uint32_t function : cycle) {
         table_.functions_[function].has_error = true;
         names.emplace_back(table_.functions_[function].definition->name.text);
+        has_constant |= table_.functions_[function].definition->is_constant;
     }
     // The place of the call in the first function of the cycle: of the next one, or of itself.
-    const ast::Expression body = table_.functions_[cycle[0]].definition->body;
+    const ast::Expression body = table_.functions_[cycle[0]].body;
     const std::string& next = names[1 % names.size()];
     Span span = table_.functions_[cycle[0]].definition->name.span;
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
-        const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
+        const ast::Expr& part = script_.expressions[id];
+        const auto* call = std::get_if<ast::Call>(&part.node);
+        const auto* name = std::get_if<ast::Name>(&part.node);
         if (call != nullptr && call->function.text == next) span = call->function.span;
+        if (name != nullptr && name->name == next) span = part.span;
     }
-    work_.diagnostics.error(span,
-                            cycle.size() == 1
-                                ? fmt::format("the function '{}' calls itself", names[0])
-                                : fmt::format("functions call each other in a cycle: {}",
-                                              describe_cycle(names)),
-                            "functions cannot be recursive");
+    const char* const reads = has_constant ? "reads" : "calls";
+    const std::string message =
+        cycle.size() == 1 ? fmt::format("the {} '{}' {} itself",
+                                        kind_of(table_.functions_[cycle[0]]), names[0], reads)
+                          : fmt::format("{} each other in a cycle: {}",
+                                        has_constant ? "constants read" : "functions call",
+                                        describe_cycle(names));
+    work_.diagnostics.error(span, message,
+                            fmt::format("{} cannot be recursive",
+                                        has_constant ? "constants" : "functions"));
 }
 
 const FunctionTable& functions_of(Workspace& work, const ast::Script& script) {
@@ -201,6 +258,25 @@ bool has_right_count(Workspace& work, const UserFunction& function, const ast::C
                                        counted(count, "value"), call.argument_count),
                            "it is defined as " + form + ")");
     return false;
+}
+
+void check_names_of_constants(Workspace& work, const ast::Script& script) {
+    const FunctionTable& functions = functions_of(work, script);
+    for (const ast::FunctionDefinition& definition : script.functions) {
+        const ast::Word& name = definition.name;
+        if (functions.find_constant(name.text) == nullptr) continue;
+        for (const SystemId id : work.names.ids()) {
+            const System& system = work.program.systems[id];
+            const bool is_index = std::ranges::any_of(system.indices, [&](const Index& index) {
+                return index.name == name.text;
+            });
+            if (!is_index && find(work.names[id], name.text) == nullptr) continue;
+            work.diagnostics.error(name.span,
+                                   fmt::format("'{}' is also a name in {}", name.text, system.name),
+                                   "choose another name");
+            break;
+        }
+    }
 }
 
 }  // namespace cascade::checking

@@ -1,8 +1,9 @@
-// Functions that a script defines, `fn bump(r, w) = exp(-(r/w)^2)` (internal to the checker).
+// Functions that a script defines, `fn bump(r, w) = exp(-(r/w)^2)`, and its constants, `let L = 10`
+// (internal to the checker).
 //
-// A function reads only its parameters, built-in values and other functions, and is not recursive.
-// So a call can be expanded: replaced by the function's body with the arguments in place of
-// parameters.
+// A function reads only its parameters, built-in values, constants and other functions, and is not
+// recursive. So a call can be expanded: replaced by the function's body with the arguments in place
+// of parameters. A constant is a function without parameters that is read without brackets.
 #pragma once
 
 #include "lang/check/check_names.h"
@@ -16,6 +17,7 @@ namespace cascade::checking {
 
 struct UserFunction {
     const ast::FunctionDefinition* definition = nullptr;
+    ast::Expression body;  ///< As defined, or of a constant as `--set` says.
     std::unordered_map<std::string_view, std::uint32_t> parameters;  ///< Their numbers, from 0.
     bool has_error = false;  ///< An error has been reported; calls are not.
 };
@@ -27,6 +29,11 @@ public:
     const UserFunction* find(std::string_view name) const {
         const auto found = by_name_.find(name);
         return found == by_name_.end() ? nullptr : &functions_[found->second];
+    }
+    /// Null if the script has no constant of this name.
+    const UserFunction* find_constant(std::string_view name) const {
+        const UserFunction* found = find(name);
+        return found != nullptr && found->definition->is_constant ? found : nullptr;
     }
     bool empty() const { return functions_.empty(); }
     std::vector<std::string> names() const;
@@ -59,7 +66,11 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
 bool has_right_count(Workspace& work, const UserFunction& function, const ast::Call& call,
                      Span span);
 
-/// The functions of a script; they are checked when first requested.
+/// The functions and constants of a script; they are checked when first requested.
 const FunctionTable& functions_of(Workspace& work, const ast::Script& script);
+
+/// Reports constants that have the name of a parameter, definition or index of a system: a reader
+/// could not tell which of the two an expression means.
+void check_names_of_constants(Workspace& work, const ast::Script& script);
 
 }  // namespace cascade::checking

@@ -4,6 +4,7 @@
 
 #include "core/utf8.h"
 #include "lang/equations/equation_marks.h"
+#include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/paper_notation.h"
 
 #include <fmt/core.h>
@@ -203,7 +204,7 @@ private:
     /// A number as its author wrote it.
     std::string digits(Span span, double value) const {
         const std::string_view text = sources_.text(span);
-        return is_raised(text) ? fmt::format("{}", value) : std::string(text);
+        return is_spelling_of_number(text) ? std::string(text) : fmt::format("{}", value);
     }
     void write_power(ast::ExprId base, ast::ExprId exponent, int least) {
         if (tex_) {

@@ -148,29 +148,39 @@ private:
         sum += is_negative ? term.substr(sign.size()) : term;
     }
 
-    /// Adds the script's own functions that are called, each once, in the order of their calls.
+    /// Adds the script's own functions and constants that are read, each once, in the order in
+    /// which they are first read.
     void add_functions() {
         for (const SaidStatement& said : system_.all()) {
             for (const ast::Expression& value : said.statement->values) note_calls(said, value);
         }
         for (std::size_t k = 0; k < called_.size(); ++k) {  // The list grows.
             const auto [said, function] = called_[k];
-            std::string symbol = function_symbol(function->name.text) + "(";
-            for (const ast::Word& parameter : function->parameters) {
-                if (&parameter != &function->parameters.front()) symbol += ", ";
-                symbol += symbols_.name(parameter.text);
-            }
-            definitions_.push_back({symbol + ")", "=", typeset_value(said, function->body)});
+            definitions_.push_back({call_of(*function), "=", typeset_value(said, function->body)});
             note_calls(said, function->body);
         }
+    }
+    std::string call_of(const ast::FunctionDefinition& function) const {
+        if (function.is_constant) return symbols_.name(function.name.text);
+        std::string symbol = function_symbol(function.name.text) + "(";
+        for (const ast::Word& parameter : function.parameters) {
+            if (&parameter != &function.parameters.front()) symbol += ", ";
+            symbol += symbols_.name(parameter.text);
+        }
+        return symbol + ")";
     }
     void note_calls(const SaidStatement& said, const ast::Expression& expression) {
         if (said.script->functions.empty()) return;
         for (ast::ExprId id = expression.first; id <= expression.root; ++id) {
-            const auto* const call = std::get_if<ast::Call>(&said.script->expressions[id].node);
-            if (call == nullptr || !called_names_.insert(call->function.text).second) continue;
+            const auto& node = said.script->expressions[id].node;
+            const auto* const call = std::get_if<ast::Call>(&node);
+            const auto* const constant = std::get_if<ast::Name>(&node);
+            if (call == nullptr && constant == nullptr) continue;
+            const std::string_view read = call != nullptr ? call->function.text : constant->name;
             for (const ast::FunctionDefinition& function : said.script->functions) {
-                if (function.name.text == call->function.text) called_.push_back({said, &function});
+                if (function.name.text != read || function.is_constant != (constant != nullptr))
+                    continue;
+                if (called_names_.insert(read).second) called_.push_back({said, &function});
             }
         }
     }

@@ -70,18 +70,21 @@ private:
             default: break;
         }
     }
-    /// u' = … becomes ∂u/∂t = …, another u' becomes u′.
+    /// u' = … becomes ∂u/∂t = …, u'' = … becomes ∂²u/∂t² = …; other primes become ′.
     void write_prime(std::size_t k) {
         words_[k].text = "′";
         const TokenKind next = kind(k + 1);
         if (next != TokenKind::assign && next != TokenKind::plus_assign) return;
-        std::size_t name = k - 1;
+        const bool is_second = kind(k - 1) == TokenKind::prime;
+        std::size_t name = k - (is_second ? 2 : 1);
         if (kind(name) == TokenKind::close_square && partner_[name] != no_partner) {
             name = partner_[name] - 1;
         }
         if (kind(name) != TokenKind::name || !is_on_one_line(name + 1, k)) return;
-        words_[name].text = kept_spelling("∂" + std::string(words_[name].text));
-        words_[k].text = "/∂t";
+        words_[name].text =
+            kept_spelling((is_second ? "∂²" : "∂") + std::string(words_[name].text));
+        words_[k].text = is_second ? "/∂t²" : "/∂t";
+        if (is_second) words_[k - 1].text = "";
     }
 
     /// The sign of a function with one operand; empty for other words.

@@ -116,12 +116,14 @@ std::string print_statement(const ast::Statement& statement, ExpressionPrinter& 
 }
 
 std::string print_function(const ast::FunctionDefinition& function, ExpressionPrinter& printer) {
+    const std::string body = printer.print(function.body.root);
+    if (function.is_constant) return fmt::format("let {} = {}\n", function.name.text, body);
     std::string result = fmt::format("fn {}(", function.name.text);
     for (const ast::Word& parameter : function.parameters) {
         if (&parameter != &function.parameters.front()) result += ", ";
         result += parameter.text;
     }
-    return result + fmt::format(") = {}\n", printer.print(function.body.root));
+    return result + fmt::format(") = {}\n", body);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "lang/check/check_names.h"
 #include "lang/check/system_statements.h"
 #include "lang/format/format_words.h"
+#include "lang/syntax/kept_spellings.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,10 @@ struct Row {
 
 /// The source text of a value, on one line.
 std::string source_of(const SaidStatement& said, const ast::Expression& value) {
-    const std::string_view text = said.sources->text(said.script->expressions[value.root].span);
+    const ast::Expr& root = said.script->expressions[value.root];
+    const std::string_view text = said.sources->text(root.span);
+    const auto* const number = std::get_if<ast::Number>(&root.node);
+    if (number != nullptr && !is_spelling_of_number(text)) return fmt::format("{}", number->value);
     std::string line;
     for (const char c : text) {
         const bool is_blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';

@@ -84,9 +84,11 @@ struct Range {
 struct Statement {
     StatementKind kind = StatementKind::value;
     Word name;
-    Word index;  ///< i of `u[i]: e`: a name or a number; empty without an index.
-    Word side;   ///< left of `u.left: e`; empty if there is none.
-    Word after;  ///< divide of `u: e after divide`; empty if there is none.
+    Word index;   ///< i of `u[i]: e`: a name or a number; empty without an index.
+    Word side;    ///< left of `u.left: e`; empty if there is none.
+    Word second;  ///< u of `u'' = e`, which becomes u_t' = e (lang/syntax/second_rates.h); else
+                  ///< empty.
+    Word after;   ///< divide of `u: e after divide`; empty if there is none.
     std::vector<Expression> values;  ///< At least one.
     std::optional<Range> range;      ///< Only for kind `value`.
     Span span;                       ///< From the name to the end of the last value.
@@ -119,12 +121,13 @@ struct Block {
     bool is_damaged = false;
 };
 
-/// fn name(parameters) = body
+/// fn name(parameters) = body, or let name = body, which is read without brackets.
 struct FunctionDefinition {
     Word name;
     std::vector<Word> parameters;
     Expression body;
-    Span span;  ///< From `fn` to the end of the body; empty if it could not be parsed.
+    Span span;  ///< From the keyword to the end of the body; empty if it could not be parsed.
+    bool is_constant = false;  ///< `let`.
     std::string doc;
 };
 

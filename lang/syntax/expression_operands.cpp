@@ -1,6 +1,7 @@
 // Expressions where an operand is expected: numbers, names in all forms, strings, signs, brackets.
 #include "core/decimal.h"
 #include "lang/syntax/expression_parser.h"
+#include "lang/syntax/second_rates.h"
 
 #include <fmt/core.h>
 
@@ -94,8 +95,13 @@ ExpressionParser::Progress ExpressionParser::read_name() {
         return Progress::going_on;
     }
     if (cursor_.at(TokenKind::prime)) {
-        const Token prime = cursor_.take();
-        push_operand(join(token.span, prime.span), ast::RateOf{name});
+        Token prime = cursor_.take();
+        ast::Word species = name;
+        if (cursor_.at(TokenKind::prime)) {  // u'' is the rate of u_t.
+            prime = cursor_.take();
+            species.text = name_of_rate(name.text);
+        }
+        push_operand(join(token.span, prime.span), ast::RateOf{species});
         return Progress::going_on;
     }
     if (!cursor_.at(TokenKind::dot)) {

@@ -1,6 +1,7 @@
 // Expressions after an operand: operators, commas, closing brackets, and the end.
 #include "lang/syntax/expression_parser.h"
 #include "lang/vocabulary/functions.h"
+#include "lang/syntax/second_rates.h"
 
 #include <fmt/core.h>
 
@@ -138,9 +139,13 @@ ExpressionParser::Progress ExpressionParser::close_index() {
         ast::Expr& family = script_.expressions[base.id];
         const auto* name = std::get_if<ast::Name>(&family.node);
         if (name == nullptr) return unexpected_operator(false);
-        const Span prime = cursor_.take().span;
-        whole = join(whole, prime);
-        family.node = ast::RateOf{ast::Word{family.span, name->name}};
+        ast::Word species{family.span, name->name};
+        whole = join(whole, cursor_.take().span);
+        if (cursor_.at(TokenKind::prime)) {  // u[i]'' is the rate of u_t[i].
+            whole = join(whole, cursor_.take().span);
+            species.text = name_of_rate(species.text);
+        }
+        family.node = ast::RateOf{species};
     }
     push_operand(whole, ast::Indexed{base.id, index.id});
     return Progress::going_on;

@@ -38,4 +38,8 @@ std::string_view kept_spelling(const std::string& text) {
     }
 }
 
+bool is_spelling_of_number(std::string_view text) {
+    return !text.empty() && (text[0] == '.' || (text[0] >= '0' && text[0] <= '9'));
+}
+
 }  // namespace cascade

@@ -45,6 +45,7 @@ private:
     /// What stands for `/∂t` or `/∂x` of a derivative.
     struct DerivativeEnd {
         TokenKind kind = TokenKind::prime;
+        bool is_second_prime = false;  ///< Of ∂²u/∂t², with two primes.
         Token last;
         std::size_t size = 0;  ///< Tokens of the source.
     };
@@ -91,7 +92,7 @@ private:
             kind(relation + 2) == TokenKind::close_square) {
             relation += 3;
         }
-        if (kind(relation) == TokenKind::prime) ++relation;
+        while (kind(relation) == TokenKind::prime) ++relation;
         return kind(relation) == TokenKind::colon || kind(relation) == TokenKind::assign ||
                kind(relation) == TokenKind::plus_assign;
     }
@@ -340,7 +341,7 @@ private:
                            "put the operator with its operand, or the power, in brackets");
     }
 
-    /// ∂u/∂t, ∂u/∂x, ∂²u/∂x², ∂²u/∂x∂y; u may be u[i].
+    /// ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x², ∂²u/∂x∂y; u may be u[i].
     void read_partial() {
         const std::size_t begin = at_;
         if (at_ > 0 && ends_operand(at_ - 1)) multiply();
@@ -356,14 +357,11 @@ private:
                               !axis.empty() && has_power && (!is_second || !other.empty());
         const bool is_mixed = is_second && kind(slash + 3) == TokenKind::partial;
         const std::size_t size = is_mixed ? 5 : is_second ? 4 : 3;
-        if (!is_whole || (is_second && (axis == "t" || other == "t"))) {
-            const bool is_of_time = is_whole && axis == other;
+        if (!is_whole || (is_second && axis != other && (axis == "t" || other == "t"))) {
             diagnostics_.error(is_whole ? join(token(begin).span, token(slash + size - 1).span)
                                         : token(begin).span,
-                               is_of_time ? "rates are first derivatives by time"
-                                          : "this is no derivative of the language",
-                               is_of_time ? "make the rate a species: write ∂u/∂t = v; ∂v/∂t = …"
-                                          : "write ∂u/∂t, ∂u/∂x, ∂²u/∂x² or ∂²u/∂x∂y");
+                               "this is no derivative of the language",
+                               "write ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x² or ∂²u/∂x∂y");
             put(TokenKind::garbage, token(begin).span, source(token(begin).span));
             const bool is_other = kind(slash) == TokenKind::slash &&
                                   kind(slash + 1) == TokenKind::partial;  // Such as ∂u/∂r.
@@ -377,7 +375,7 @@ private:
         const Token& last = token(slash + size - 1);
         if (axis == "t") {
             put(TokenKind::name, join(token(begin).span, token(name).span), token(name).text);
-            derivative_ends_[slash] = {TokenKind::prime, last, size};
+            derivative_ends_[slash] = {TokenKind::prime, is_second, last, size};
         } else {
             Token sign = token(begin);
             if (is_second) sign.span = join(sign.span, token(begin + 1).span);
@@ -386,7 +384,7 @@ private:
                               std::string(other.empty() ? other : std::max(axis, other))));
             put(TokenKind::open_round, after(sign), "(");
             put(token(name));
-            derivative_ends_[slash] = {TokenKind::close_round, last, size};
+            derivative_ends_[slash] = {TokenKind::close_round, false, last, size};
         }
         at_ = name + 1;
     }
@@ -416,6 +414,7 @@ private:
     void end_derivative(const DerivativeEnd& end) {
         const Span span = join(token(at_).span, end.last.span);
         put(end.kind, span, end.kind == TokenKind::prime ? "'" : ")");
+        if (end.is_second_prime) put(end.kind, after(end.last), "'");
         at_ += end.size;
         application_end_ = at_ - 1;
         end_operand();

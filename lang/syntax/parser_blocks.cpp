@@ -2,6 +2,7 @@
 #include "lang/syntax/script_parser.h"
 
 #include "core/near_name.h"
+#include "lang/syntax/second_rates.h"
 
 #include <fmt/core.h>
 
@@ -95,6 +96,7 @@ void ScriptParser::parse_block(std::string_view keyword) {
         parse_header_without_name();
     }
     parse_body(block);
+    complete_second_rates(script_, block);
     block.span = join(block.keyword.span, cursor_.previous().span);
     script_.blocks.push_back(std::move(block));
 }

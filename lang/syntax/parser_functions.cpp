@@ -1,4 +1,4 @@
-// What a script has outside of blocks: functions, and the files that it uses.
+// What a script has outside of blocks: functions, constants, and the files that it uses.
 #include "lang/syntax/script_parser.h"
 
 #include <fmt/core.h>
@@ -8,6 +8,7 @@ namespace cascade {
 namespace {
 
 constexpr const char* function_form = "write 'fn name(a, b) = expression'";
+constexpr const char* constant_form = "write 'let name = expression'";
 
 }  // namespace
 
@@ -37,29 +38,34 @@ bool ScriptParser::refuse_function_or_use() {
     return true;
 }
 
-/// fn NAME(a, b) = expression
+/// fn NAME(a, b) = expression, or let NAME = expression
 void ScriptParser::parse_function() {
     ast::FunctionDefinition function;
     function.doc = docs_before();
+    function.is_constant = cursor_.at_name("let");
+    const char* const kind = function.is_constant ? "constant" : "function";
+    const char* const form = function.is_constant ? constant_form : function_form;
     const Token keyword = cursor_.take();
     function.name = cursor_.word(cursor_.take());
-    if (!parse_parameters(function)) return keep_damaged(std::move(function));
+    if (!function.is_constant && !parse_parameters(function)) {
+        return keep_damaged(std::move(function));
+    }
     const std::string name = "'" + shortened(function.name.text) + "'";
     if (cursor_.at(TokenKind::colon) || cursor_.at(TokenKind::equal)) {
         const Token sign = cursor_.take();
-        cursor_.error(sign.span, "a function is written with '='", function_form);
+        cursor_.error(sign.span, fmt::format("a {} is written with '='", kind), form);
     } else if (!cursor_.take_if(TokenKind::assign)) {
         if (!cursor_.at(TokenKind::garbage)) {
             cursor_.error(function.name.span,
-                          fmt::format("'=' is missing after the function {}", name), function_form);
+                          fmt::format("'=' is missing after the {} {}", kind, name), form);
         }
         return keep_damaged(std::move(function));
     }
-    function.body = parse_after_operator("the value of the function " + name, {});
+    function.body = parse_after_operator(fmt::format("the value of the {} {}", kind, name), {});
     if (cursor_.at(TokenKind::dots) || cursor_.at(TokenKind::comma)) {
         cursor_.error(cursor_.peek().span,
-                      fmt::format("{} has no place in a function",
-                                  cursor_.describe(cursor_.peek())),
+                      fmt::format("{} has no place in a {}", cursor_.describe(cursor_.peek()),
+                                  kind),
                       "its value is one expression");
         cursor_.skip_statement();
     }

@@ -3,6 +3,7 @@
 
 #include "core/near_name.h"
 #include "core/side.h"
+#include "lang/syntax/second_rates.h"
 
 #include <fmt/core.h>
 
@@ -178,13 +179,18 @@ void ScriptParser::report_dot(const ast::Statement& statement) {
 }
 
 bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
+    if (cursor_.at(TokenKind::prime)) {
+        cursor_.take();
+        statement.second = statement.name;
+        statement.name.text = name_of_rate(statement.name.text);
+    }
     if (cursor_.take_if(TokenKind::plus_assign)) {
         statement.kind = ast::StatementKind::rate_term;
         return true;
     }
     statement.kind = ast::StatementKind::rate;
     if (cursor_.take_if(TokenKind::assign)) return true;
-    if (cursor_.at(TokenKind::prime)) return report_second_rate(statement);
+    if (cursor_.at(TokenKind::prime)) return report_third_rate(statement);
     if (!cursor_.at(TokenKind::garbage)) {
         cursor_.error(join(statement.name.span, cursor_.previous().span),
                       "a rate is written with '=' or '+='",
@@ -196,13 +202,13 @@ bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
     return false;
 }
 
-/// `u'' = e`: reports it and skips the value, since no first derivative means the same.
-bool ScriptParser::report_second_rate(const ast::Statement& statement) {
+/// `u''' = e`: reports it and skips the value, since no second derivative means the same.
+bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
-    const std::string name = shortened(statement.name.text);
+    const std::string name = shortened(cursor_.text(statement.name.span));
     cursor_.error(join(statement.name.span, cursor_.previous().span),
-                  "rates are first derivatives by time",
-                  fmt::format("make the rate a species: write v: 0; {}' = v; v' = …", name));
+                  "rates are first and second derivatives by time",
+                  fmt::format("make the rate a species: write v: 0; {}' = v; v'' = …", name));
     cursor_.skip_statement();
     return false;
 }

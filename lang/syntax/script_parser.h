@@ -41,9 +41,10 @@ private:
     void parse_outside_statement();
     bool begins_classic_stage() const { return cursor_.at_name("system_name"); }
 
-    // `fn` and `use` (parser_functions.cpp).
+    // `fn`, `let` and `use` (parser_functions.cpp).
     bool begins_function() const {
-        return cursor_.at_name("fn") && cursor_.kind(1) == TokenKind::name;
+        return (cursor_.at_name("fn") || cursor_.at_name("let")) &&
+               cursor_.kind(1) == TokenKind::name;
     }
     bool begins_use() const;
     bool parse_function_or_use();
@@ -63,7 +64,7 @@ private:
     bool report_missing_colon(const ast::Statement& statement);
     bool has_shape_of_block(std::size_t ahead) const;
     std::string report_no_block(const ast::Word& word);
-    bool report_second_rate(const ast::Statement& statement);
+    bool report_third_rate(const ast::Statement& statement);
     bool take_paper_rate(ast::Statement& statement);
     bool report_no_statement();
     void parse_values(ast::Statement& statement);

@@ -66,9 +66,8 @@ std::vector<std::string> words_taken_by(Setting setting);
 std::string_view home_of(std::string_view word);
 
 /// Words that begin statements and blocks or separate the parts of an expression.
-inline constexpr std::string_view keywords[] = {"system",  "cells", "stage",       "domain",
-                                                "picture", "shape", "system_name", "fn",
-                                                "use",     "and",   "or",          "not",
-                                                "over",    "in",    "after",       "pi"};
+inline constexpr std::string_view keywords[] = {
+    "system", "cells", "stage", "domain", "picture", "shape", "system_name", "fn", "let",
+    "use",    "and",   "or",    "not",    "over",    "in",    "after",       "pi"};
 
 }  // namespace cascade

@@ -158,7 +158,10 @@ async function steer() {
     await browser.until(`document.getElementById("place").textContent === "step 0 · 60 cells"`);
     const count = `Number(document.getElementById("place").textContent.match(/(\\d+) cells/)[1])`;
     await browser.evaluate(`document.getElementById("brush").value = "remove"`);
-    for (let k = 0; k < 100 && (await cell_at(430, 300)).cell === undefined; ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+    // What is pointed at may still be a cell of the grid before, "115, 20", or nothing.
+    for (const end = Date.now() + 120000; Date.now() < end && !/^\d+$/.test((await cell_at(430, 300)).cell);) {
+        await new Promise((resolve) => setTimeout(resolve, 50));
+    }
     await browser.drag(270, 300, 430, 310);
     await browser.until(`${count} < 60`);
     expect(await browser.evaluate(count) > 50, `of 60 cells a stroke leaves ${await browser.evaluate(count)}`);

@@ -243,6 +243,13 @@ TEST(EquationsOfCells, WriteVectorsAndNeighbours) {
     EXPECT_EQ(mathml("cross(a, b)"), "<mi>a</mi><mo>×</mo><mi>b</mi>");
 }
 
+TEST(Equations, WriteConstantsAndSecondRates) {
+    EXPECT_EQ(equations("let c = 2\nlet q = c^2\nsystem s { u: 1; u'' = q * lap(u) }", "s",
+                        Notation::unicode),
+              "  ∂uₜ/∂t = q ∇²u\n  ∂u/∂t = uₜ\n  where    q = c²\n           c = 2\n"
+              "  at first u = 1\n           uₜ = 0\n");
+}
+
 TEST(Equations, KnowTheFunctions) {
     EXPECT_EQ(unicode("abs(u) + sqrt(u) + log(u)"), "|u| + √u + ln(u)");
     EXPECT_EQ(unicode("sqrt(u)^2 + cbrt(u^2)"), "(√u)² + ∛(u²)");

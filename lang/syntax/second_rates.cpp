@@ -1,0 +1,82 @@
+// Adds statements that have the place of the one they stand for, so that messages point there.
+#include "lang/syntax/second_rates.h"
+
+#include "lang/syntax/kept_spellings.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+using Kind = ast::StatementKind;
+
+ast::ExprId append(ast::Script& script, Span span, decltype(ast::Expr::node) node) {
+    script.expressions.push_back({span, std::move(node)});
+    return static_cast<ast::ExprId>(script.expressions.size() - 1);
+}
+
+bool is_of_member(const ast::Word& index) {
+    return !index.empty() && index.text.front() >= '0' && index.text.front() <= '9';
+}
+
+/// u_t, u_t[i] or u_t[2].
+ast::Expression read(ast::Script& script, const ast::Word& name, const ast::Word& index) {
+    const ast::ExprId base = append(script, name.span, ast::Name{name.text});
+    if (index.empty()) return {base, base};
+    const ast::ExprId which =
+        is_of_member(index)
+            ? append(script, index.span,
+                     ast::Number{std::strtod(std::string(index.text).c_str(), nullptr)})
+            : append(script, index.span, ast::Name{index.text});
+    return {base, append(script, name.span, ast::Indexed{base, which})};
+}
+
+/// Is there a value for it? That of a family is one for each member.
+bool has_value(const ast::Block& block, const ast::Word& name, const ast::Word& index) {
+    return std::ranges::any_of(block.statements, [&](const ast::Statement& each) {
+        return each.kind == Kind::value && each.name.text == name.text &&
+               (each.index.text == index.text || !is_of_member(each.index));
+    });
+}
+
+}  // namespace
+
+std::string_view name_of_rate(std::string_view species) {
+    return kept_spelling(std::string(species) + "_t");
+}
+
+void complete_second_rates(ast::Script& script, ast::Block& block) {
+    const std::size_t count = block.statements.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        const ast::Statement second = block.statements[k];
+        if (second.second.empty()) continue;
+        ast::Statement added;
+        added.index = second.index;
+        added.span = second.span;
+        // Terms of one rate, u'' += e, are several statements.
+        const auto is_added = [&](const ast::Statement& each) {
+            return each.kind == Kind::rate && each.name.text == second.second.text &&
+                   each.index.text == second.index.text;
+        };
+        if (std::none_of(block.statements.begin() + static_cast<std::ptrdiff_t>(count),
+                         block.statements.end(), is_added)) {
+            added.kind = Kind::rate;
+            added.name = second.second;
+            added.values = {read(script, second.name, second.index)};
+            block.statements.push_back(added);
+        }
+        if (block.base.empty() && !has_value(block, second.name, second.index)) {
+            added.kind = Kind::value;
+            added.name = second.name;
+            const ast::ExprId zero = append(script, second.name.span, ast::Number{0});
+            added.values = {{zero, zero}};
+            block.statements.push_back(added);
+        }
+    }
+}
+
+}  // namespace cascade
