@@ -39,6 +39,7 @@ const std::string_view run_examples = R"(Examples:
   cascade run leopard.cascade --show stage1.b        another species, another stage
   cascade run leopard.cascade --sheet all.png        everything at a glance
   cascade run leopard.cascade -o film.gif            a film with a frame at each interval
+  cascade run leopard.cascade -o film.mp4 --seconds 8 --label stage --label step
   cascade run leopard.cascade --frames folder        the frames as pictures
   cascade run leopard.cascade --save half --stop-at stage1:9000
   cascade run --resume half                          the same bits as without the stop

@@ -163,6 +163,18 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
         ->group(group);
 }
 
+void add_film_pace(CLI::App& app, FilmRequest& film) {
+    const std::string group = "Files";
+    CLI::Option* const fps =
+        add_value(app, "--fps", "N", "Frames of films in a second, 0.1 to 60; without it 10",
+                  parse_frame_rate, [&](double rate) { film.frames_per_second = rate; })
+            ->group(group);
+    add_value(app, "--seconds", "S", "How long films last, instead of --fps", parse_film_length,
+              [&](double seconds) { film.seconds = seconds; })
+        ->excludes(fps)
+        ->group(group);
+}
+
 void add_files(CLI::App& app, RunRequest& run) {
     const std::string group = "Files";
     app.add_option_function<std::vector<std::string>>(
@@ -185,13 +197,15 @@ void add_files(CLI::App& app, RunRequest& run) {
     add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range", any_text,
               [&](auto path) { run.frames = path; })
         ->group(group);
-    CLI::Option* const fps =
-        add_value(app, "--fps", "N", "Frames of films in a second, 0.1 to 60; without it 10",
-                  parse_frame_rate, [&](double rate) { run.film.frames_per_second = rate; })
-            ->group(group);
-    add_value(app, "--seconds", "S", "How long films last, instead of --fps", parse_film_length,
-              [&](double seconds) { run.film.seconds = seconds; })
-        ->excludes(fps)
+    add_film_pace(app, run.film);
+    app.add_option("--label", run.labels,
+                   "In a corner of frames and films: 'stage', step, t, or\nanother number, 'mean(u "
+                   "over domain)'; may be given again")
+        ->allow_extra_args(false)
+        ->type_name("WHAT")
+        ->group(group);
+    add_value(app, "--slices", "N", "Films of a volume show N slices along the axis of --slice",
+              whole_number(1, 100000), [&](auto count) { run.slices = static_cast<int>(count); })
         ->group(group);
     add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView",
               parse_vti_path, [&](auto path) { run.volume = path; })

@@ -15,6 +15,8 @@ void add_overrides(CLI::App& app, Overrides& overrides);
 void add_picture_options(CLI::App& app, PictureChanges& picture);
 /// The options of add_picture() and add_output() that a sweep has, too.
 void add_shown(CLI::App& app, PictureChanges& picture);
+/// How fast films are.
+void add_film_pace(CLI::App& app, FilmRequest& film);
 void add_files(CLI::App& app, RunRequest& run);
 void add_log(CLI::App& app, RunRequest& run);
 /// Options of all commands that take steps: backend, threads (`threads` is their help text), lanes.

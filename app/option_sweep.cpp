@@ -29,6 +29,12 @@ void add_sweep(CLI::App& app, Options& options) {
               "averaged down (160)",
               whole_number(16, 1024), [&](auto side) { sweep.tile_side = static_cast<int>(side); })
         ->group(files);
+    add_value(app, "--film", "FILE",
+              "A film of the ends of all runs, .gif, .webp, .apng, .mp4\nor .webm; its pictures as "
+              "large as --tile says",
+              parse_film_path, [&](auto path) { sweep.film = path; })
+        ->group(files);
+    add_film_pace(app, sweep.pace);
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
         ->group(files);
     app.add_flag("--force", sweep.force, "Repeat runs of an earlier sweep")->group(files);

@@ -240,6 +240,12 @@ Result<std::string> parse_png_path(std::string_view text) {
     return path_with_ending(text, ".png", "pictures are written as PNG files");
 }
 
+Result<std::string> parse_film_path(std::string_view text) {
+    if (film_format(std::filesystem::path(text))) return std::string(text);
+    return failure(fmt::format("'{}' has no ending of a film that is written", text),
+                   "the endings of films are .gif, .webp, .apng, .mp4 and .webm");
+}
+
 Result<std::string> parse_vti_path(std::string_view text) {
     return path_with_ending(text, ".vti", "volumes are written as image data of VTK");
 }

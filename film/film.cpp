@@ -69,6 +69,12 @@ Result<void> check_film(const std::filesystem::path& path) {
     return needs_ffmpeg(*film_format(path)) ? find_ffmpeg(path) : Result<void>();
 }
 
+Result<void> check_pace(const std::filesystem::path& path, double frames_per_second) {
+    if (film_format(path) != FilmFormat::gif || frames_per_second <= fastest_gif) return {};
+    return failure(fmt::format("a GIF shows at most {} frames a second", fastest_gif),
+                   ".webp and .apng show up to 60");
+}
+
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
                              std::int64_t height) {
     const FormatOf& format = *format_of(path);

@@ -44,6 +44,9 @@ public:
 /// a device, and ffmpeg is there if it is needed.
 Result<void> check_film(const std::filesystem::path& path);
 
+/// Checks that players show this many frames in a second.
+Result<void> check_pace(const std::filesystem::path& path, double frames_per_second);
+
 /// Checks that the format holds frames of this size; lets ffmpeg encode one.
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
                              std::int64_t height);

@@ -60,7 +60,7 @@ PATH=/none "$CASCADE" run spots.cascade -o bad.mp4 >/dev/null 2>err && fail "an 
 grep -q "needs the program ffmpeg, which is not installed" err || fail "without ffmpeg: $(cat err)"
 grep -q "apt-get install ffmpeg" err || fail "without ffmpeg: $(cat err)"
 [ ! -e bad.mp4 ] || fail "there is an MP4 without ffmpeg"
-for command in sweep check view; do
+for command in check view; do
     "$CASCADE" "$command" spots.cascade --fps 5 >/dev/null 2>err && fail "$command takes --fps"
     grep -q "there is no option --fps" err || fail "$command: $(cat err)"
 done
@@ -69,6 +69,22 @@ if [ "$(id -u)" != 0 ]; then
     refused "Permission denied" -o closed/bad.gif
     chmod 700 closed
 fi
+
+"$CASCADE" sweep spots.cascade --vary ka=1/80,1/40 --fps 5 >/dev/null 2>err && fail "a sweep takes --fps"
+grep -q -- "--film NAME.gif writes one" err || fail "sweep: $(cat err)"
+refused "a plane has no slices" -o bad.gif --slices 4
+refused "no frames of a run are drawn" -o bad.png --label step
+refused "no room for a label" -o bad.gif --label step
+refused "this differs from cell to cell" -o bad.gif --label b
+
+# A label lies over the pattern; a sweep and a volume are films, too.
+"$CASCADE" run spots.cascade -q --scale 8 -o label.gif --label stage --label step || fail "a label"
+"$CASCADE" run spots.cascade -q --scale 8 -o plain.gif || fail "no label"
+cmp -s label.gif plain.gif && fail "a label is not drawn"
+"$CASCADE" sweep spots.cascade -q --vary ka=1/80,1/40,1/20 --film sweep.gif || fail "a sweep as a film"
+[ "$(gif_frames sweep.gif)" = 3 ] || fail "the film of a sweep has $(gif_frames sweep.gif) frames"
+"$CASCADE" run spots.cascade -q --grid 12x10x8 --slices 8 -o slices.gif || fail "slices"
+[ "$(gif_frames slices.gif)" = 8 ] || fail "the film of slices has $(gif_frames slices.gif) frames"
 
 # Ctrl-C leaves the film up to there.
 timeout --preserve-status -s INT 2 "$CASCADE" run spots.cascade --set iterations=1000000000 \

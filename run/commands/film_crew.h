@@ -3,7 +3,7 @@
 
 #include "core/result.h"
 #include "film/film.h"
-#include "run/commands/run.h"
+#include "run/commands/film_request.h"
 
 #include <atomic>
 #include <cstddef>

@@ -5,6 +5,7 @@
 #include "core/with_commas.h"
 #include "export/bake.h"
 #include "run/commands/analyze.h"
+#include "run/commands/frame_labels.h"
 #include "run/commands/run_checks.h"
 #include "run/commands/run_results.h"
 #include "run/pictures/frame_folder.h"
@@ -67,6 +68,7 @@ private:
     std::unique_ptr<Simulation> simulation_;
     std::optional<Painter> painter_;
     std::optional<FrameRecorder> frames_;
+    std::optional<FrameLabels> labels_;
     std::vector<std::filesystem::path> earlier_frames_;  ///< Of an earlier run, in their folder.
     std::optional<RunLog> log_;
     double tenths_seen_ = 0;  ///< Of the stage's duration, at the last frame.
@@ -84,6 +86,11 @@ Result<void> Runner::prepare() {
     auto painter = Painter::create(script_, request_.picture);
     if (!painter) return tl::unexpected(painter.error());
     painter_ = std::move(*painter);
+    if (!request_.labels.empty()) {
+        auto labels = FrameLabels::create(script_, request_.labels);
+        if (!labels) return tl::unexpected(labels.error());
+        labels_ = std::move(*labels);
+    }
     if (!request_.log.expressions.empty()) {
         auto log = RunLog::create(script_, request_.log);
         if (!log) return tl::unexpected(log.error());
@@ -296,7 +303,8 @@ void Runner::look() {
     const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
     const auto stage = simulation_->shown_stage().value_or(0);
     frames_->record(painter_->canvas(*simulation_), script_.program->stages[stage].name,
-                    simulation_->state(stage).steps);
+                    simulation_->state(stage).steps,
+                    labels_ ? labels_->text(*simulation_, stage) : "");
 }
 
 std::string Runner::place() const {

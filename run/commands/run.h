@@ -4,6 +4,7 @@
 #include "core/result.h"
 #include "core/run_control.h"
 #include "measure/features.h"
+#include "run/commands/film_request.h"
 #include "run/commands/run_log.h"
 #include "run/pictures/model_files.h"
 #include "run/script/picture_request.h"
@@ -24,12 +25,6 @@ struct StopAt {
     std::int64_t step = 0;
 };
 
-/// How long the frames of a film are shown.
-struct FilmRequest {
-    double frames_per_second = 0;  ///< 0 for 10, or what `seconds` gives.
-    double seconds = 0;            ///< Of the whole film; 0 for what its frames take.
-};
-
 struct RunRequest {
     SimulationOptions simulation;
     PictureRequest picture;
@@ -39,12 +34,14 @@ struct RunRequest {
     ModelFileOptions model_files;
     int turntable = 0;  ///< Number of pictures from all around; 0 for one.
     FilmRequest film;
-    std::filesystem::path sheet;    ///< `--sheet FILE`; empty for none.
-    std::filesystem::path frames;   ///< `--frames DIR`; empty for none.
-    std::filesystem::path save;     ///< `--save DIR`; empty for none.
-    double checkpoint_seconds = 0;  ///< Above 0: seconds between saves during the run.
-    std::filesystem::path volume;   ///< `--volume FILE.vti`; empty for none.
-    std::filesystem::path resume;   ///< `--resume DIR`; empty to start anew.
+    int slices = 0;                   ///< Of a volume, filmed one after the other; 0 for none.
+    std::vector<std::string> labels;  ///< What is written into frames: `--label`.
+    std::filesystem::path sheet;      ///< `--sheet FILE`; empty for none.
+    std::filesystem::path frames;     ///< `--frames DIR`; empty for none.
+    std::filesystem::path save;       ///< `--save DIR`; empty for none.
+    double checkpoint_seconds = 0;    ///< Above 0: seconds between saves during the run.
+    std::filesystem::path volume;     ///< `--volume FILE.vti`; empty for none.
+    std::filesystem::path resume;     ///< `--resume DIR`; empty to start anew.
     std::optional<StopAt> stop_at;
     /// Played instead of the stages; its script at the end is the one that is run.
     std::optional<SessionLog> session;
@@ -58,7 +55,7 @@ enum class RunStatus {
     cancelled,  ///< By the user.
 };
 
-/// True if a film of the run's steps is written, and not one of its end from all around.
+/// True if a film of the run's steps is written, and not one of its end.
 bool films_steps(const RunRequest& request);
 
 struct RunReport {

@@ -6,6 +6,7 @@
 #include "core/temporary_file.h"
 #include "export/bake.h"
 #include "film/film.h"
+#include "picture/caption.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/picture_size.h"
 
@@ -127,7 +128,10 @@ Result<void> check_film_sizes(const Script& script, const RunRequest& request) {
         if (!is_film(output)) continue;
         if (auto good = check_film_size(output, size.width, size.height); !good) return good;
     }
-    return {};
+    if (request.labels.empty() || has_room_for_caption(size.width, size.height)) return {};
+    return failure(fmt::format("frames of {} × {} pixels have no room for a label", size.width,
+                               size.height),
+                   "a larger --scale makes room");
 }
 
 Result<void> check_folders(const RunRequest& request, Folders folders) {
@@ -280,18 +284,20 @@ void check_films(OptionRefuser& options, const RunRequest& request) {
     const std::string hint = "-o NAME.gif, .webp, .apng, .mp4 or .webm writes one";
     options.refuse_if(wanted.frames_per_second > 0 && !has_film, "--fps", message, hint);
     options.refuse_if(wanted.seconds > 0 && !has_film, "--seconds", message, hint);
+    options.refuse_if(request.slices > 0 && !has_film, "--slices", message, hint);
+    options.refuse_if(!request.labels.empty() && request.frames.empty() && !films_steps(request),
+                      "--label", "no frames of a run are drawn",
+                      "--frames FOLDER and -o NAME.gif draw them");
     if (!has_film) return;
     options.refuse_if(request.picture.space_time, "--space-time",
                       "a space-time picture is one picture, and no film", "-o NAME.png draws it");
     for (const auto& output : request.outputs) {
-        if (film_format(output) != FilmFormat::gif || wanted.frames_per_second <= fastest_gif) {
-            continue;
+        if (!is_film(output)) continue;
+        if (auto good = check_pace(output, wanted.frames_per_second); !good) {
+            options.refuse("--fps", "--fps", good.error().message, good.error().hint);
         }
-        options.refuse_if(true, "--fps",
-                          fmt::format("a GIF shows at most {} frames a second", fastest_gif),
-                          ".webp and .apng show up to 60");
     }
-    if (request.session && request.turntable == 0) {
+    if (request.session && films_steps(request)) {
         options.refuse("-o", film->string(),
                        "a session is played to its end before anything is written",
                        "of a surface, --turntable N films its end from all around");
@@ -328,8 +334,11 @@ Result<void> check_request(Script& script, const RunRequest& request) {
                       film_format(request.frames)
                           ? fmt::format("-o {} writes a film", request.frames.string())
                           : "-o NAME.mp4 writes a film");
-    options.refuse_if(request.picture.slice != Slice{} && domain.grid.depth == 1, "--slice",
-                      "a plane has no slices", "grid: W, H, D makes a volume");
+    for (const auto& [option, is_given] : {std::pair("--slice", request.picture.slice != Slice{}),
+                                           std::pair("--slices", request.slices > 0)}) {
+        options.refuse_if(is_given && domain.grid.depth == 1, option, "a plane has no slices",
+                          "grid: W, H, D makes a volume");
+    }
     if (has_cells(script)) {
         check_with_cells(options, request);
         if (domain.model) check_model_files(options, request);

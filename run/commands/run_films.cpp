@@ -1,7 +1,8 @@
-// The films of a run: of its frames, or of its end from all around.
+// The films of a run: of its frames, of its end from all around, or of the slices of a volume.
 #include "core/enough_memory.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/run_results.h"
+#include "run/pictures/measured.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@
 namespace cascade {
 
 bool films_steps(const RunRequest& request) {
-    return request.turntable == 0 &&
+    return request.turntable == 0 && request.slices == 0 &&
            std::any_of(request.outputs.begin(), request.outputs.end(), is_film);
 }
 
@@ -32,7 +33,9 @@ Result<void> RunResults::write_films(const Canvas& canvas) {
     FilmSettings settings;
     settings.texts = texts(painter.request());
     FilmCrew crew(std::move(paths), std::move(settings));
-    auto filmed = request.turntable > 0 ? film_turntable(crew, canvas) : film_frames(crew);
+    auto filmed = request.turntable > 0 ? film_turntable(crew, canvas)
+                  : request.slices > 0  ? film_slices(crew)
+                                        : film_frames(crew);
     if (!filmed) return filmed;
     const auto written = crew.finish();
     report.written.insert(report.written.end(), written.begin(), written.end());
@@ -80,14 +83,10 @@ Result<void> RunResults::film_frames(FilmCrew& crew) {
     return drawn;
 }
 
-Result<void> RunResults::film_turntable(FilmCrew& crew, const Canvas& canvas) {
-    const auto count = static_cast<std::size_t>(request.turntable);
-    const FilmPlan plan = film_plan(request.film, count, crew.has_gif());
-    const auto draw_one = [&](std::size_t number) -> Result<FilmFrame> {
-        painter.set_view(turned_view(number, count));
-        return film_frame(painter.image(canvas));
-    };
-    Result<void> done = crew.begin(plan, draw_one);
+/// A film of the end of the run from several places, which are drawn one after the other.
+Result<void> RunResults::film_end(FilmCrew& crew, int count, const FilmCrew::Draw& draw) {
+    const FilmPlan plan = film_plan(request.film, static_cast<std::size_t>(count), crew.has_gif());
+    Result<void> done = crew.begin(plan, draw);
     for (const std::size_t number : plan.frames) {
         if (!done || stop_of(control, report)) break;
         say(fmt::format("drawing {} of {}", crew.frames() + 1, plan.frames.size()));
@@ -95,11 +94,36 @@ Result<void> RunResults::film_turntable(FilmCrew& crew, const Canvas& canvas) {
             done = crew.add(*frame);
             continue;
         }
-        auto frame = enough_memory_for([&] { return draw_one(number); });
+        auto frame = enough_memory_for([&] { return draw(number); });
         done = frame ? crew.add(*frame) : Result<void>(tl::unexpected(frame.error()));
     }
-    painter.set_view(request.picture.view);
     if (done) note_end_of_films(crew, plan.frames.size());
+    return done;
+}
+
+Result<void> RunResults::film_turntable(FilmCrew& crew, const Canvas& canvas) {
+    const auto count = static_cast<std::size_t>(request.turntable);
+    auto done = film_end(crew, request.turntable, [&](std::size_t number) -> Result<FilmFrame> {
+        painter.set_view(turned_view(number, count));
+        return film_frame(painter.image(canvas));
+    });
+    painter.set_view(request.picture.view);
+    return done;
+}
+
+/// Slices at equal distances along the axis of --slice, in one range of the whole volume.
+Result<void> RunResults::film_slices(FilmCrew& crew) {
+    const ValueRange range = automatic_range(spread_of([&](const auto& take) {
+        const Field number = shown_number(painter, simulation);
+        for (const double value : to_samples(number, simulation.grid()).values) take(value);
+    }));
+    auto done = film_end(crew, request.slices, [&](std::size_t k) -> Result<FilmFrame> {
+        Slice slice = request.picture.slice;
+        slice.place = (static_cast<double>(k) + 0.5) / request.slices;
+        painter.set_slice(slice);
+        return film_frame(painter.image(painter.canvas(simulation), range));
+    });
+    painter.set_slice(request.picture.slice);
     return done;
 }
 

@@ -2,13 +2,12 @@
 #pragma once
 
 #include "core/result.h"
-#include "lang/program/program.h"
+#include "run/commands/uniform_numbers.h"
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,11 +43,10 @@ private:
         std::uint32_t stage = 0;
         std::int64_t step = 0;
     };
-    bool check_expression(Script& script, const std::string& text);
 
     LogRequest request_;
     std::vector<std::string> stage_names_;
-    std::vector<std::vector<std::optional<Formula>>> formulas_;  ///< By expression and stage.
+    UniformNumbers numbers_;
     std::vector<Row> rows_;
     std::vector<double> values_;  ///< Of all rows: t, then the expressions.
     Precision precision_ = Precision::single;

@@ -1,9 +1,12 @@
 // The outputs of a run: pictures, models, frames, the log, a volume and the saved run.
 #pragma once
 
+#include "film/film_frame.h"
 #include "run/commands/run.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/model_files.h"
+
+#include <functional>
 
 namespace cascade {
 
@@ -42,6 +45,9 @@ private:
     Result<void> write_films(const Canvas& canvas);
     Result<void> film_frames(FilmCrew& crew);
     Result<void> film_turntable(FilmCrew& crew, const Canvas& canvas);
+    Result<void> film_slices(FilmCrew& crew);
+    Result<void> film_end(FilmCrew& crew, int count,
+                          const std::function<Result<FilmFrame>(std::size_t number)>& draw);
     void note_end_of_films(const FilmCrew& crew, std::size_t count);
     int drawing_threads() const;
     Result<void> write_saved_run();

@@ -75,7 +75,6 @@ private:
     void report();
     void keep(std::size_t number, SweepResult result);
     void give_up(SweepError why);
-    Result<void> write_outputs();
     Script load(const Run& run) const {
         return load_script(script_.name, script_.text, script_.folder, run.overrides);
     }
@@ -151,6 +150,7 @@ Sweeper::Done Sweeper::plan() {
 }
 
 Result<void> Sweeper::prepare_folders() {
+    if (auto good = check_sweep_film(request_); !good) return good;
     folder_ = request_.folder;
     if (folder_.empty()) folder_ = output_stem(script_) + "_sweep";
     if (auto made = make_folder(folder_ / "runs"); !made) return made;
@@ -360,21 +360,6 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
     report_.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
 }
 
-Result<void> Sweeper::write_outputs() {
-    const auto sheet = folder_ / "sheet.png", table = folder_ / "features.csv";
-    std::vector<std::string> varied;
-    for (const Variation& variation : request_.varied) varied.push_back(text_of(variation));
-    const bool has_mask = script_.program && script_.program->domain.mask;
-    auto drawn =
-        write_png(sheet, draw_sweep(results_, request_.varied, request_.picture, has_mask),
-                  request_.picture.png_depth(), embed_sweep(script_, request_.picture, varied));
-    if (!drawn) return drawn;
-    report_.written.push_back(sheet);
-    auto written = write_file(table, sweep_table(results_, request_.varied));
-    if (written) report_.written.push_back(table);
-    return written;
-}
-
 tl::expected<SweepReport, SweepError> Sweeper::run() {
     const auto failed = [](const Failure& why) { return tl::unexpected(SweepError{why}); };
     if (auto planned = plan(); !planned) return tl::unexpected(std::move(planned.error()));
@@ -392,7 +377,9 @@ tl::expected<SweepReport, SweepError> Sweeper::run() {
         ++report_.failed;
         if (report_.first_failure.empty()) report_.first_failure = result->remark;
     }
-    if (auto written = write_outputs(); !written) return failed(written.error());
+    auto written = write_sweep(script_, request_, folder_, results_);
+    if (!written) return failed(written.error());
+    report_.written = *std::move(written);
     if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));
     return std::move(report_);
 }

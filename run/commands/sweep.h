@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
+#include "run/commands/film_request.h"
 #include "run/commands/sweep_result.h"
 #include "run/commands/variation.h"
 #include "run/script/picture_request.h"
@@ -23,11 +24,13 @@ namespace cascade {
 struct SweepRequest {
     std::vector<Variation> varied;  ///< The first one runs across the sheet, the second one up.
     std::filesystem::path folder;   ///< Of all outputs; if empty, SCRIPT_sweep here.
-    PictureRequest picture;         ///< What to show and measure; its scale is ignored.
-    int tile_side = 160;            ///< Larger pictures are averaged down to this, in pixels.
-    bool fields = false;            ///< Save the fields of every run, to read or to resume.
-    bool force = false;             ///< Repeat runs of an earlier sweep.
-    SimulationOptions simulation;   ///< `threads` is the number of concurrent runs.
+    std::filesystem::path film;     ///< Of the ends of all runs; empty for none.
+    FilmRequest pace;
+    PictureRequest picture;        ///< What to show and measure; its scale is ignored.
+    int tile_side = 160;           ///< Larger pictures are averaged down to this, in pixels.
+    bool fields = false;           ///< Save the fields of every run, to read or to resume.
+    bool force = false;            ///< Repeat runs of an earlier sweep.
+    SimulationOptions simulation;  ///< `threads` is the number of concurrent runs.
 };
 
 /// The progress of a sweep.
@@ -71,6 +74,22 @@ tl::expected<SweepReport, SweepError> sweep(const Script& script, const SweepReq
 Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  const std::vector<Variation>& varied, const PictureRequest& picture,
                  bool has_mask);
+
+/// Writes sheet.png and features.csv into the folder, and the film, if there is one. Returns the
+/// files.
+Result<std::vector<std::filesystem::path>> write_sweep(
+    const Script& script, const SweepRequest& request, const std::filesystem::path& folder,
+    const std::vector<std::optional<SweepResult>>& results);
+
+/// Checks before the first run that the film can be written.
+Result<void> check_sweep_film(const SweepRequest& request);
+
+/// Writes a film that shows the end of each run, in their order, with its values in a corner and in
+/// the range of the sheet. Runs that failed or are missing are left out; fails if none is left.
+Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pace,
+                        const std::vector<std::optional<SweepResult>>& results,
+                        const std::vector<Variation>& varied, const PictureRequest& picture,
+                        bool has_mask);
 
 /// A row for each run: the values varied, its features, its number of steps, its remark.
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,

@@ -1,8 +1,13 @@
-// The outputs of a sweep: the sheet and the table.
+// The outputs of a sweep: the sheet, the table and the film.
 #include "core/check.h"
+#include "core/file.h"
+#include "film/film.h"
+#include "picture/caption.h"
 #include "picture/map.h"
 #include "run/commands/csv.h"
+#include "run/commands/film_crew.h"
 #include "run/commands/sweep.h"
+#include "run/script/embedded_script.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +59,18 @@ MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range, cons
     return {std::move(image), ""};
 }
 
+/// "feed = 0.03  kill = 0.06".
+std::string values_as_text(const std::vector<Variation>& varied, std::size_t run) {
+    const std::vector<std::string> values = values_of_run(varied, run);
+    std::vector<std::string> parts;
+    for (std::size_t k = 0; k < varied.size(); ++k) {
+        parts.push_back(fmt::format("{} = {}", varied[k].name, values[k]));
+    }
+    return fmt::format("{}", fmt::join(parts, "  "));
+}
+
+constexpr std::int64_t least_film_side = 240;  // Smaller pictures are enlarged for their captions.
+
 }  // namespace
 
 Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
@@ -65,6 +82,77 @@ Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
     std::vector<MapTile> tiles;
     for (const auto& result : results) tiles.push_back(tile_of(result, range, *palette, has_mask));
     return make_map(tiles, axis_of(varied, 0), upward_axis(varied));
+}
+
+Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pace,
+                        const std::vector<std::optional<SweepResult>>& results,
+                        const std::vector<Variation>& varied, const PictureRequest& picture,
+                        bool has_mask) {
+    const Palette* palette = find_palette(picture.palette);
+    CHECK(palette, "the palette was checked before the first run");
+    const ValueRange range = picture.range ? *picture.range : range_of_all(results);
+    std::vector<std::size_t> runs;
+    for (std::size_t run = 0; run < results.size(); ++run) {
+        if (results[run] && !results[run]->failed()) runs.push_back(run);
+    }
+    if (runs.empty()) {
+        return failure(fmt::format("'{}' has no frames, because no run has an end", path.string()));
+    }
+    const auto draw = [&](std::size_t number) -> Result<FilmFrame> {
+        Image image = tile_of(results[runs[number]], range, *palette, has_mask).image;
+        const std::int64_t side = std::max(image.width, image.height);
+        image = enlarge(std::move(image), static_cast<int>((least_film_side + side - 1) / side));
+        if (has_room_for_caption(image.width, image.height)) {
+            draw_caption(image, values_as_text(varied, runs[number]));
+        }
+        return film_frame(image);
+    };
+    FilmCrew crew({path}, {});
+    const FilmPlan plan = film_plan(pace, runs.size(), crew.has_gif());
+    Result<void> done = crew.begin(plan, draw);
+    for (const std::size_t number : plan.frames) {
+        auto frame = done.and_then([&] { return draw(number); });
+        if (!frame) return tl::unexpected(frame.error());
+        done = crew.add(*frame);
+    }
+    if (!done) return done;
+    (void)crew.finish();
+    if (crew.failure()) return tl::unexpected(*crew.failure());
+    return {};
+}
+
+Result<void> check_sweep_film(const SweepRequest& request) {
+    const FilmRequest& pace = request.pace;
+    const bool has_pace = pace.frames_per_second > 0 || pace.seconds > 0;
+    if (request.film.empty()) {
+        if (!has_pace) return {};
+        return failure("--fps and --seconds are for films, and none is written",
+                       "--film NAME.gif writes one");
+    }
+    if (auto good = check_writable(request.film); !good) return good;
+    if (auto good = check_film(request.film); !good) return good;
+    if (auto good = check_pace(request.film, pace.frames_per_second); !good) return good;
+    return check_film_size(request.film, request.tile_side, request.tile_side);
+}
+
+Result<std::vector<std::filesystem::path>> write_sweep(
+    const Script& script, const SweepRequest& request, const std::filesystem::path& folder,
+    const std::vector<std::optional<SweepResult>>& results) {
+    const auto sheet = folder / "sheet.png", table = folder / "features.csv";
+    const PictureRequest& picture = request.picture;
+    std::vector<std::string> varied;
+    for (const Variation& variation : request.varied) varied.push_back(text_of(variation));
+    const bool has_mask = script.program && script.program->domain.mask;
+    std::vector<std::filesystem::path> written = {sheet, table};
+    Result<void> done = write_png(sheet, draw_sweep(results, request.varied, picture, has_mask),
+                                  picture.png_depth(), embed_sweep(script, picture, varied));
+    if (done) done = write_file(table, sweep_table(results, request.varied));
+    if (done && !request.film.empty()) {
+        done = film_sweep(request.film, request.pace, results, request.varied, picture, has_mask);
+        written.push_back(request.film);
+    }
+    if (!done) return tl::unexpected(done.error());
+    return written;
 }
 
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,

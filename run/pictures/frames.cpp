@@ -6,7 +6,9 @@
 #include "core/parallel.h"
 #include "core/run_control.h"
 #include "core/write_encoded.h"
+#include "picture/caption.h"
 #include "run/domain/free_memory.h"
+#include "run/pictures/drawn_cells.h"
 #include "run/pictures/frame_folder.h"
 
 #include <algorithm>
@@ -14,6 +16,7 @@
 #include <cstdio>
 #include <mutex>
 #include <numeric>
+#include <type_traits>
 
 namespace cascade {
 
@@ -41,16 +44,18 @@ Result<FrameRecorder> FrameRecorder::create(bool keep_values, bool space_time) {
     return recorder;
 }
 
-void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::int64_t step) {
+void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::int64_t step,
+                           std::string label) {
     if (failure_) return;
     const PlaneLayout layout = canvas.fields[0].layout();
     if (const Field* number = canvas.number()) values_.add(spread_of(*number));
-    frames_.push_back(
-        {stage, step, canvas.fields.size(), !canvas.relief.empty(), layout, kept_, canvas.cells});
+    frames_.push_back({stage, step, std::move(label), canvas.fields.size(), !canvas.relief.empty(),
+                       layout, kept_, canvas.cells});
     if (file_) {
         bool is_kept = true;
         for (const Field& field : canvas.fields) is_kept = is_kept && keep(field);
         if (!canvas.relief.empty()) is_kept = is_kept && keep(canvas.relief);
+        if (canvas.cells) is_kept = is_kept && keep_cells(*canvas.cells, frames_.back());
         if (!is_kept) {
             failure_ = Failure{"the frames do not fit into the folder for temporary files",
                                "ask for a larger interval"};
@@ -75,6 +80,32 @@ bool FrameRecorder::keep(const Field& field) {
     return std::fwrite(storage(field), sizeof(float), count, file_.get()) == count;
 }
 
+template <typename T>
+bool FrameRecorder::keep_items(const std::vector<T>& items) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    kept_ += static_cast<std::int64_t>(items.size() * sizeof(T));
+    return std::fwrite(items.data(), sizeof(T), items.size(), file_.get()) == items.size();
+}
+
+template <typename T>
+bool FrameRecorder::read_items(std::vector<T>& items, std::size_t count) {
+    items.resize(count);
+    return std::fread(items.data(), sizeof(T), count, file_.get()) == count;
+}
+
+bool FrameRecorder::keep_cells(const DrawnCells& cells, Frame& frame) {
+    auto rest = std::make_shared<DrawnCells>(cells);
+    frame.placements = rest->placements.size();
+    frame.colours = rest->body_colours.size();
+    const bool is_kept =
+        keep_items(rest->placements) && keep_items(rest->cells) && keep_items(rest->body_colours);
+    rest->placements = {};
+    rest->cells = {};
+    rest->body_colours = {};
+    frame.cells = std::move(rest);
+    return is_kept;
+}
+
 Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     Canvas canvas;
     canvas.cells = frame.cells;
@@ -90,6 +121,14 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
         if (plane < frame.planes) canvas.fields.push_back(std::move(field));
         else canvas.relief = std::move(field);
     }
+    if (!frame.cells) return canvas;
+    auto cells = std::make_shared<DrawnCells>(*frame.cells);
+    if (!read_items(cells->placements, frame.placements) ||
+        !read_items(cells->cells, frame.placements) ||
+        !read_items(cells->body_colours, frame.colours)) {
+        return cascade::failure("the frames cannot be read back");
+    }
+    canvas.cells = std::move(cells);
     return canvas;
 }
 
@@ -125,7 +164,12 @@ Result<void> FrameRecorder::draw(Painter& painter, std::span<const std::size_t> 
             lock.unlock();
             Result<InOrder> finish = enough_memory_for([&]() -> Result<InOrder> {
                 if (!canvas) return tl::unexpected(canvas.error());
-                return use(number, painter.image(*canvas, range));
+                Image image = painter.image(*canvas, range);
+                const std::string& label = frames_[number].label;
+                if (!label.empty() && has_room_for_caption(image.width, image.height)) {
+                    draw_caption(image, label);
+                }
+                return use(number, image);
             });
             lock.lock();
             is_done.wait(lock, [&] { return failed || done == turn; });

@@ -26,7 +26,9 @@ public:
     static Result<FrameRecorder> create(bool keep_values, bool space_time);
 
     /// Adds a frame. A full disk is remembered for failure().
-    void record(const Canvas& canvas, const std::string& stage, std::int64_t step);
+    /// `label` is drawn into a corner of its picture, if it is not empty and the picture has room.
+    void record(const Canvas& canvas, const std::string& stage, std::int64_t step,
+                std::string label = "");
     std::optional<Failure> failure() const { return failure_; }
     /// True if no frame is of a stage that has taken a step.
     bool holds_starts_alone() const;
@@ -56,11 +58,15 @@ private:
     struct Frame {
         std::string stage;
         std::int64_t step = 0;
+        std::string label;
         std::size_t planes = 1;
         bool has_relief = false;  ///< As an additional plane.
         PlaneLayout layout;
-        std::int64_t place = 0;                   ///< Of its values in the file, in bytes.
-        std::shared_ptr<const DrawnCells> cells;  ///< Of a stage of cells that crawl.
+        std::int64_t place = 0;  ///< Of its values in the file, in bytes.
+        /// Of a stage of cells that crawl; the vectors with an entry for each of them are in the
+        /// file.
+        std::shared_ptr<const DrawnCells> cells;
+        std::size_t placements = 0, colours = 0;  ///< The lengths of these vectors.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -68,6 +74,11 @@ private:
 
     int threads_for(const Painter& painter, int threads) const;
     bool keep(const Field& field);
+    bool keep_cells(const DrawnCells& cells, Frame& frame);
+    template <typename T>
+    bool keep_items(const std::vector<T>& items);
+    template <typename T>
+    bool read_items(std::vector<T>& items, std::size_t count);
     Result<Canvas> read_back(const Frame& frame);
 
     bool keep_rows_ = false;

@@ -211,6 +211,55 @@ stage s: g { iterations: 1 }
     EXPECT_THAT(sorted("."), testing::SizeIs(1));
 }
 
+TEST_F(FilmRun, CarriesLabels) {
+    Script script = load(growing);
+    const auto labelled = [&](std::vector<std::string> labels, const std::string& name) {
+        RunRequest wanted = film(name + ".gif");
+        wanted.frames = path(name);
+        wanted.picture.scale = 10;
+        wanted.labels = std::move(labels);
+        run_well(script, wanted);
+        return read_gif(path(name + ".gif"));
+    };
+    const Film plain = labelled({}, "plain"), steps = labelled({"stage", "step"}, "steps");
+    const Film means = labelled({"mean(b over domain)", "ka"}, "means");
+    ASSERT_EQ(plain.frames.size(), 8U);
+    const std::size_t plate = 240 * (180 - 15);  // The first pixel of the rows of the label.
+    for (std::size_t k = 0; k < 8; ++k) {
+        const auto top = [&](const std::vector<int>& levels) {
+            return std::vector<int>(levels.begin(), levels.begin() + plate);
+        };
+        EXPECT_EQ(top(steps.frames[k]), top(plain.frames[k]));
+        EXPECT_NE(steps.frames[k], plain.frames[k]);
+        EXPECT_NE(steps.frames[k], means.frames[k]);
+        // Frames as pictures have it, too.
+        const auto picture = levels(sorted("steps")[k]);
+        EXPECT_EQ(top(picture), top(plain.frames[k]));
+        EXPECT_NE(picture, levels(sorted("plain")[k]));
+    }
+    RunRequest small = film("small.gif");
+    small.labels = {"step"};
+    small.picture.scale = 1;
+    EXPECT_THAT(run_badly(script, small), HasSubstr("24 × 18 pixels have no room for a label"));
+}
+
+TEST_F(FilmRun, ShowsTheSlicesOfAVolumeInOneRange) {
+    Script script = load(R"(
+system g { u: x + 2 * z; u' = 0 }
+domain { grid: 6, 5, 4 }
+stage s: g { iterations: 1 }
+)");
+    RunRequest wanted = film("a.gif");
+    wanted.slices = 4;
+    run_well(script, wanted);
+    const Film film = read_gif(path("a.gif"));
+    ASSERT_EQ(film.frames.size(), 4U);
+    EXPECT_EQ(film.width, 6);
+    EXPECT_EQ(film.frames[0].front(), 0);
+    EXPECT_EQ(film.frames[3].back(), 255);
+    for (std::size_t k = 1; k < 4; ++k) EXPECT_GT(film.frames[k][0], film.frames[k - 1][0] + 30);
+}
+
 TEST_F(FilmRun, IsRefusedWithoutFrames) {
     Script script = load(growing);
     Overrides none;

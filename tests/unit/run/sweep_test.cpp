@@ -1,6 +1,7 @@
 #include "run_fixture.h"
 
 #include "measure/features.h"
+#include "picture/grey_picture.h"
 #include "run/commands/csv.h"
 #include "run/commands/sweep.h"
 
@@ -53,6 +54,50 @@ protected:
         return lines;
     }
 };
+
+/// The number of frames that an APNG states.
+int frames_of(const std::string& apng) {
+    const std::size_t place = apng.find("acTL");
+    return place == std::string::npos ? 0 : static_cast<unsigned char>(apng.at(place + 7));
+}
+
+TEST_F(SweepTest, AFilmShowsTheEndsOfItsRuns) {
+    SweepRequest wanted = request({"ka=1/20,1/10,1/30"});
+    wanted.film = path("a.apng");
+    wanted.picture.range = ValueRange{0, 8};
+    const SweepReport report = sweep_well(load(spots), wanted);
+    EXPECT_EQ(report.written.back(), wanted.film);
+    EXPECT_EQ(frames_of(bytes("a.apng")), 3);
+    // The first frame is the picture of the first run, eight times as large, but for its caption.
+    Script alone = load(spots);
+    RunRequest run = RunTest::request();
+    run.picture.range = wanted.picture.range;
+    run.picture.scale = 8;
+    run_well(alone, run);
+    const auto frame = read_grey_picture(path("a.apng"));
+    const auto picture = read_grey_picture(path("picture.png"));
+    ASSERT_TRUE(frame && picture);
+    ASSERT_EQ(frame->values.size(), picture->values.size());
+    const std::size_t caption = 256 * (192 - 15);
+    for (std::size_t k = 0; k < caption; ++k) {
+        ASSERT_NEAR(frame->values[k], picture->values[k], 1e-6) << k;
+    }
+    EXPECT_NE(frame->values, picture->values);
+}
+
+TEST_F(SweepTest, AFilmLeavesOutRunsThatFail) {
+    SweepRequest wanted = request({"rate=0.01,3"});
+    wanted.film = path("a.apng");
+    sweep_well(load(growth), wanted);
+    EXPECT_EQ(frames_of(bytes("a.apng")), 1);
+    wanted = request({"rate=3,4"});
+    wanted.film = path("b.apng");
+    SweepControl control;
+    const auto failed = sweep(load(growth), wanted, control);
+    ASSERT_FALSE(failed);
+    EXPECT_THAT(failed.error().failure.message, HasSubstr("b.apng' has no frames"));
+    EXPECT_TRUE(std::filesystem::exists(path("sweep/features.csv")));
+}
 
 TEST_F(SweepTest, EveryRunIsTheSameAsAlone) {
     const Script script = load(spots);

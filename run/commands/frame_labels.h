@@ -1,0 +1,29 @@
+// What is written into the corner of frames.
+#pragma once
+
+#include "core/result.h"
+#include "run/commands/uniform_numbers.h"
+#include "run/script/script.h"
+#include "run/simulation/simulation.h"
+
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+/// The words of `--label`: "stage" for the name of the stage, and numbers as of `--log`.
+class FrameLabels {
+public:
+    /// Errors in the expressions go to `script.diagnostics`.
+    static Result<FrameLabels> create(Script& script, std::vector<std::string> words);
+
+    /// "small  step = 3400  mean(b over domain) = 1.25", at this moment of a started stage. Numbers
+    /// that have no meaning in the stage are left out.
+    std::string text(const Simulation& simulation, std::uint32_t stage) const;
+
+private:
+    std::vector<std::string> words_;
+    UniformNumbers numbers_;  ///< Of the words that are expressions.
+};
+
+}  // namespace cascade
