@@ -230,8 +230,8 @@ void add_files(CLI::App& app, RunRequest& run) {
                  "Cells that crawl as plain triangles, for programs that\nknow no instances")
         ->group(group);
     add_value(app, "--bake", "N",
-              "A model .glb with maps of N x N texels, which are\nwritten beside it too; by the "
-              "model's texture coordinates",
+              "A model .glb with maps of N x N texels (colour, height,\nroughness, …), which are "
+              "written beside it too; by the\nmodel's texture coordinates. A plane's maps repeat",
               whole_number(1, ModelFileOptions::most_texels),
               [&](auto texels) { run.model_files.bake = texels; })
         ->group(group);

@@ -1,14 +1,20 @@
 // Restriction takes the mean of the fine cells in a coarse cell; refinement interpolates linearly
-// along each axis, with weights 3/4 and 1/4.
+// along each axis, with weights 3/4 and 1/4. Division interpolates on cubic curves.
 #include "core/resample.h"
 
+#include "core/between_cells.h"
 #include "core/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
 
 namespace cascade {
 
 namespace {
 
-std::int64_t divided(std::int64_t cells, std::int64_t times) {
+std::int64_t joined(std::int64_t cells, std::int64_t times) {
     if (cells == 1) return 1;
     CHECK(cells % times == 0, "cells of a coarser grid cover whole cells");
     return cells / times;
@@ -35,9 +41,9 @@ Number between(Number near, Number far) {
 
 Grid coarser(const Grid& grid, std::int64_t times) {
     Grid result = grid;
-    result.width = divided(grid.width, times);
-    result.height = divided(grid.height, times);
-    result.depth = divided(grid.depth, times);
+    result.width = joined(grid.width, times);
+    result.height = joined(grid.height, times);
+    result.depth = joined(grid.depth, times);
     result.spacing = grid.spacing * static_cast<double>(times);
     return result;
 }
@@ -92,6 +98,77 @@ Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid
     return fine;
 }
 
+Grid finer_grid(const Grid& grid, std::int64_t times) {
+    CHECK(grid.depth == 1, "a volume is not divided");
+    Grid result = grid;
+    result.width = grid.width * times;
+    if (grid.height > 1) result.height = grid.height * times;
+    result.spacing = grid.spacing / static_cast<double>(times);
+    return result;
+}
+
+namespace {
+
+/// Where the middle of a finer cell lies: the cells around it along an axis, and the part of the
+/// way from the third to the fourth.
+template <typename Number>
+struct Around {
+    std::array<std::int64_t, cells_between> cells{};
+    Number part = 0;
+};
+
+template <typename Number>
+std::vector<Around<Number>> around(std::int64_t cells, std::int64_t finer, Boundary boundary) {
+    std::vector<Around<Number>> result;
+    for (std::int64_t k = 0; k < finer; ++k) {
+        const double place = (static_cast<double>(k) + 0.5) * static_cast<double>(cells) /
+                                 static_cast<double>(finer) -
+                             0.5;
+        const double before = std::floor(place);
+        Around<Number> each;
+        each.part = static_cast<Number>(place - before);
+        for (std::size_t n = 0; n < cells_between; ++n) {
+            const std::int64_t cell =
+                static_cast<std::int64_t>(before) + static_cast<std::int64_t>(n) - 2;
+            each.cells[n] = boundary == Boundary::periodic
+                                ? (cell % cells + cells) % cells
+                                : std::clamp<std::int64_t>(cell, 0, cells - 1);
+        }
+        result.push_back(each);
+    }
+    return result;
+}
+
+}  // namespace
+
+template <typename Number>
+Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times) {
+    const Grid finer = finer_grid(grid, times);
+    Plane<Number> result{PlaneLayout(finer)};
+    const auto columns = around<Number>(grid.width, finer.width, grid.boundary.x);
+    const auto rows = around<Number>(grid.height, finer.height, grid.boundary.y);
+    std::vector<Number> line(static_cast<std::size_t>(grid.width));
+    for (std::int64_t j = 0; j < finer.height; ++j) {
+        const Around<Number>& down = rows[static_cast<std::size_t>(j)];
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            std::array<Number, cells_between> v{};
+            for (std::size_t n = 0; n < v.size(); ++n) v[n] = plane.at(i, down.cells[n]);
+            line[static_cast<std::size_t>(i)] = value_between(v, down.part);
+        }
+        for (std::int64_t i = 0; i < finer.width; ++i) {
+            const Around<Number>& across = columns[static_cast<std::size_t>(i)];
+            std::array<Number, cells_between> v{};
+            for (std::size_t n = 0; n < v.size(); ++n) {
+                v[n] = line[static_cast<std::size_t>(across.cells[n])];
+            }
+            result.at(i, j) = value_between(v, across.part);
+        }
+    }
+    return result;
+}
+
+template Plane<float> divided(const Plane<float>&, const Grid&, std::int64_t);
+template Plane<double> divided(const Plane<double>&, const Grid&, std::int64_t);
 template Plane<float> restricted(const Plane<float>&, const Grid&, const Grid&);
 template Plane<double> restricted(const Plane<double>&, const Grid&, const Grid&);
 template Plane<float> refined(Plane<float>&, const Grid&, const Grid&, const SideRules&);

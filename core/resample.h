@@ -20,6 +20,17 @@ template <typename Number>
 Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid& fine_grid,
                       const SideRules& sides);
 
+/// The grid of the same domain with `times` cells along each axis in each of its cells. A line
+/// stays one; there are no slices.
+Grid finer_grid(const Grid& grid, std::int64_t times);
+
+/// A plane on a finer_grid(). Values between cells lie on the curves of core/between_cells.h, along
+/// columns and then along rows; beyond a side that is not periodic, values go on.
+template <typename Number>
+Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
+
+extern template Plane<float> divided(const Plane<float>&, const Grid&, std::int64_t);
+extern template Plane<double> divided(const Plane<double>&, const Grid&, std::int64_t);
 extern template Plane<float> restricted(const Plane<float>&, const Grid&, const Grid&);
 extern template Plane<double> restricted(const Plane<double>&, const Grid&, const Grid&);
 extern template Plane<float> refined(Plane<float>&, const Grid&, const Grid&, const SideRules&);

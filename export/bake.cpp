@@ -7,6 +7,7 @@
 #include "core/enough_memory.h"
 #include "export/field_samples.h"
 #include "export/fill_gaps.h"
+#include "export/map_texels.h"
 #include "export/render_vertices.h"
 #include "mesh/normals.h"
 #include "picture/srgb.h"
@@ -26,12 +27,13 @@ constexpr double most_covered_area = 64;   ///< Beyond it, the texture repeats a
 /// Working memory of one thread, allocated in advance.
 struct Scratch {
     std::unique_ptr<SamplePainter> painter;
-    std::vector<std::uint32_t> owners = {};   ///< Of the samples of a band.
-    std::span<const std::uint32_t> row = {};  ///< Those of a row of texels.
-    std::vector<Colour> lights = {};          ///< Of the samples of a row of texels.
-    std::vector<float> heights = {};          ///< Likewise.
-    std::vector<SurfacePlace> places = {};    ///< Of the samples of a texel with heights.
-    std::int64_t covered = 0, again = 0;      ///< Numbers of samples.
+    std::vector<std::uint32_t> owners = {};     ///< Of the samples of a band.
+    std::span<const std::uint32_t> row = {};    ///< Those of a row of texels.
+    std::vector<Colour> lights = {};            ///< Of the samples of a row of texels.
+    std::vector<float> heights = {};            ///< Likewise.
+    std::vector<OfParts<float>> material = {};  ///< Likewise.
+    std::vector<SurfacePlace> places = {};      ///< Of the samples of a texel with heights.
+    std::int64_t covered = 0, again = 0;        ///< Numbers of samples.
 };
 
 class TextureBaker {
@@ -40,14 +42,16 @@ public:
                  const BakeOptions& options)
         : mesh_(mesh),
           make_painter_(make_painter),
-          has_heights_(make_painter()->has_heights()),
+          maps_(make_painter()->maps()),
           options_(options),
           layout_(mesh, options.width * options.samples, options.height * options.samples),
           normals_(corner_normals(mesh)),
           vertices_(render_vertices(mesh, normals_)),
           colour_(options.width, options.height),
-          relief_(has_heights_ ? options.width : 0, has_heights_ ? options.height : 0),
-          slopes_(relief_.width, relief_.height) {}
+          relief_(texture_if(maps_.heights)),
+          slopes_(texture_if(maps_.heights)),
+          material_{texture_if(maps_.has_surface()), texture_if(maps_.emission),
+                    texture_if(maps_.opacity)} {}
 
     Result<Bake> run(Team& team, const std::atomic<bool>& cancel) {
         std::vector<Scratch> scratch;
@@ -74,6 +78,9 @@ public:
     }
 
 private:
+    PartialTexture texture_if(bool is_there) const {
+        return is_there ? PartialTexture(options_.width, options_.height) : PartialTexture();
+    }
     std::int64_t samples() const { return options_.samples; }
     std::size_t texel(std::int64_t x, std::int64_t y) const {
         return static_cast<std::size_t>(y * options_.width + x);
@@ -85,6 +92,7 @@ private:
         own.owners.resize(row * static_cast<std::size_t>(rows_of_band));
         own.lights.resize(row);
         own.heights.resize(row);
+        own.material.resize(row);
         own.places.reserve(static_cast<std::size_t>(samples() * samples()));
         return own;
     }
@@ -123,7 +131,8 @@ private:
         const std::size_t begin = sample(first, j), count = sample(end, j) - begin;
         own.painter->paint({layout_, owner, first, y * samples() + j,
                             std::span(own.lights).subspan(begin, count),
-                            std::span(own.heights).subspan(begin, count)});
+                            std::span(own.heights).subspan(begin, count),
+                            std::span(own.material).subspan(begin, count)});
         own.covered += end - first;
     }
 
@@ -139,16 +148,26 @@ private:
 
     void paint_texel(std::int64_t x, std::int64_t y, Scratch& own) {
         Colour sum{};
+        OfParts<float> material{};
         int count = 0;
         visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
             for (std::size_t c = 0; c < 3; ++c) sum[c] += own.lights[sample(i, j)][c];
+            for (std::size_t k = 0; k < material_parts; ++k) {
+                material[k] += own.material[sample(i, j)][k];
+            }
             ++count;
         });
         if (count == 0) return;
         for (float& light : sum) light /= static_cast<float>(count);
         colour_.texels[texel(x, y)] = sum;
         colour_.is_filled[texel(x, y)] = 1;
-        if (has_heights_) raise_texel(x, y, own);
+        for (std::size_t k = 0; k < material_parts; ++k) {
+            PartialTexture& texture = material_[k / 3];
+            if (texture.texels.empty()) continue;
+            texture.texels[texel(x, y)][k % 3] = material[k] / static_cast<float>(count);
+            texture.is_filled[texel(x, y)] = 1;
+        }
+        if (maps_.heights) raise_texel(x, y, own);
     }
 
     void raise_texel(std::int64_t x, std::int64_t y, Scratch& own) {
@@ -200,19 +219,32 @@ private:
         fill_gaps(colour_);
         for (Colour& texel : colour_.texels) texel = stored_of(texel);
         bake.colour = image_of(std::move(colour_));
-        if (!has_heights_) return bake;
+        bake.maps = maps_;
+        finish_material(bake);
+        if (!maps_.heights) return bake;
         finish_relief(bake);
         fill_gaps(slopes_);
         for (auto& texel : slopes_.texels) {
             Vector3 normal = unit(Vector3{texel[0], texel[1], texel[2]});
             if (length(normal) == 0) normal = {0, 0, 1};
-            const auto stored = [](float part) {
-                return std::clamp(0.5F + 0.5F * part, 0.0F, 1.0F);
-            };
-            texel = {stored(normal.x), stored(normal.y), stored(normal.z)};
+            texel = stored_direction(normal);
         }
         bake.normals = image_of(std::move(slopes_));
         return bake;
+    }
+
+    void finish_material(Bake& bake) {
+        auto& [surface, emission, opacity] = material_;
+        for (PartialTexture& texture : material_) fill_gaps(texture);
+        const std::array<bool, 3> has = {maps_.occlusion, maps_.roughness, maps_.metalness};
+        for (auto& texel : surface.texels) {
+            for (std::size_t c = 0; c < 3; ++c) texel[c] = has[c] ? texel[c] : 1;
+        }
+        for (auto& texel : emission.texels) texel = stored_of(texel);
+        for (auto& texel : opacity.texels) texel.fill(texel[0]);
+        bake.surface = image_of(std::move(surface));
+        bake.emission = image_of(std::move(emission));
+        bake.opacity = image_of(std::move(opacity));
     }
 
     void finish_relief(Bake& bake) {
@@ -226,12 +258,7 @@ private:
         }
         if (!has_height) bake.heights = {0, 0};
         fill_gaps(relief_);
-        const double low = static_cast<double>(bake.heights.low);
-        const double range = static_cast<double>(bake.heights.high) - low;
-        for (auto& texel : relief_.texels) {
-            const double part = range > 0 ? (static_cast<double>(texel[0]) - low) / range : 0.5;
-            texel.fill(static_cast<float>(std::clamp(part, 0.0, 1.0)));
-        }
+        store_heights(bake.heights, relief_.texels);
         bake.relief = image_of(std::move(relief_));
     }
 
@@ -264,12 +291,13 @@ private:
 
     const SurfaceMesh& mesh_;
     const MakeSamplePainter& make_painter_;
-    bool has_heights_;
+    MapSet maps_;
     const BakeOptions& options_;
     TextureLayout layout_;
     CornerNormals normals_;
     RenderVertices vertices_;
     PartialTexture colour_, relief_, slopes_;
+    std::array<PartialTexture, 3> material_;  ///< Parts of the material, three to each.
 };
 
 }  // namespace
@@ -290,7 +318,9 @@ Result<void> check_bakeable(const SurfaceMesh& mesh) {
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel) {
     const auto painter = [&] { return std::make_unique<FieldSamples>(mesh, filter, cells); };
-    return bake(mesh, painter, options, team, cancel);
+    auto baked = bake(mesh, painter, options, team, cancel);
+    if (baked) baked->is_cut = is_cut(cells.material[MaterialPart::opacity]);
+    return baked;
 }
 
 Result<Bake> bake(const SurfaceMesh& mesh, const MakeSamplePainter& painter,

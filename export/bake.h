@@ -3,12 +3,11 @@
 #pragma once
 
 #include "core/result.h"
+#include "export/material_maps.h"
 #include "export/painted_cells.h"
 #include "export/sample_painter.h"
-#include "picture/image.h"
 
 #include <atomic>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,14 +19,8 @@ struct BakeOptions {
     static constexpr std::int64_t largest_texture = 8192;
 };
 
-struct Bake {
-    Image colour;
-    /// Grey, from 0 to 1 over the range of the texels' heights, `heights`; empty without heights.
-    Image relief;
-    ValueRange heights;
-    /// Directions in the frames of render_vertices(), −1 … 1 stored as 0 … 1, y up; empty without
-    /// heights.
-    Image normals;
+/// Normals are relative to the tangents of render_vertices().
+struct Bake : MaterialMaps {
     double covered = 0;      ///< Fraction of the samples that are on the surface.
     double overlapping = 0;  ///< Fraction of the surface covered by another part in the texture.
     std::vector<std::string> warnings;  ///< A sentence each.
@@ -47,14 +40,5 @@ Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const Paint
 /// The same of what painters see, of which each thread has one.
 Result<Bake> bake(const SurfaceMesh& mesh, const MakeSamplePainter& painter,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
-
-/// The files that write_baked makes: the model, then in the same folder NAME_color.png and, with
-/// heights, NAME_height.png and NAME_normal.png (16 bits).
-std::vector<std::filesystem::path> baked_paths(const std::filesystem::path& glb, bool has_heights);
-
-/// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts.
-/// Each file is written atomically.
-Result<void> write_baked(const std::filesystem::path& glb, const SurfaceMesh& mesh,
-                         const Bake& bake, const PngTexts& texts);
 
 }  // namespace cascade

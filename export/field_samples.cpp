@@ -32,6 +32,10 @@ void FieldSamples::paint(const SampleRow& row) {
         const PlacePainter::Look look = painter_.look_of(values, place);
         row.lights[k] = light_of(look.colour);
         row.heights[k] = look.height;
+        row.material[k] = look.material;
+        for (const auto part : {MaterialPart::red, MaterialPart::green, MaterialPart::blue}) {
+            row.material[k][part] = light_of(look.material[part]);
+        }
     };
     const std::size_t count = row.lights.size();
     const SurfacePlace begin = row.place(0);

@@ -18,7 +18,7 @@ class FieldSamples : public SamplePainter {
 public:
     FieldSamples(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells);
 
-    bool has_heights() const override { return !cells_.heights.empty(); }
+    MapSet maps() const override { return maps_of(cells_.material, !cells_.heights.empty()); }
     void paint(const SampleRow& row) override;
     /// J. Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights. The middle
     /// sample represents all.

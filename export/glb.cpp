@@ -8,6 +8,8 @@
 #include "picture/srgb.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace cascade {
 
@@ -81,6 +83,12 @@ private:
         if (!look_.normal_map.empty()) {
             result["normalTexture"] = {{"index", add_picture(look_.normal_map)}};
         }
+        if (!look_.surface_map.empty()) add_surface(result);
+        if (!look_.emission_map.empty()) {
+            result["emissiveTexture"] = {{"index", add_picture(look_.emission_map)}};
+            result["emissiveFactor"] = {1, 1, 1};
+        }
+        if (look_.has.opacity) result["alphaMode"] = look_.is_cut ? "MASK" : "BLEND";
         const bool has_boundary =
             std::any_of(mesh_.across.begin(), mesh_.across.end(), [](const auto& edges) {
                 return std::any_of(edges.begin(), edges.end(),
@@ -90,18 +98,44 @@ private:
         return result;
     }
 
-    /// The number of its texture, which repeats outside of 0 … 1, the format's default.
+    /// Factors multiply what is in the map, which is 1 for parts that it does not have.
+    void add_surface(Json& material) {
+        const std::size_t texture = add_picture(look_.surface_map);
+        if (look_.has.occlusion) material["occlusionTexture"] = {{"index", texture}};
+        if (!look_.has.roughness && !look_.has.metalness) return;
+        Json& shine = material["pbrMetallicRoughness"];
+        shine["metallicRoughnessTexture"] = {{"index", texture}};
+        if (look_.has.roughness) shine["roughnessFactor"] = 1.0;
+        if (look_.has.metalness) shine["metallicFactor"] = 1.0;
+    }
+
+    /// The number of its texture.
     std::size_t add_picture(std::string_view png) {
         const std::size_t view = file_.add_view(0, [&](std::string& bytes) { bytes.append(png); });
         const std::size_t image =
             file_.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
-        return file_.add("textures", {{"source", image}});
+        Json texture = {{"source", image}};
+        if (!look_.repeats[0] || !look_.repeats[1]) texture["sampler"] = sampler();
+        return file_.add("textures", std::move(texture));
+    }
+
+    /// The one sampler, which says where textures do not repeat. Without it they do.
+    std::size_t sampler() {
+        const auto wrap = [&](bool repeats) {
+            return repeats ? GlbFile::wrap_repeat : GlbFile::wrap_clamp;
+        };
+        if (!sampler_) {
+            sampler_ = file_.add("samplers", {{"wrapS", wrap(look_.repeats[0])},
+                                              {"wrapT", wrap(look_.repeats[1])}});
+        }
+        return *sampler_;
     }
 
     const SurfaceMesh& mesh_;
     const GlbLook& look_;
     RenderVertices vertices_;
     GlbFile& file_;
+    std::optional<std::size_t> sampler_;
 };
 
 }  // namespace
@@ -109,7 +143,9 @@ private:
 void add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file) {
     CHECK(look.colours.empty() || look.colours.size() == mesh.points.size(),
           "there is a colour for each point");
-    CHECK((look.colour_map.empty() && look.normal_map.empty()) || !mesh.texture.empty(),
+    CHECK((look.colour_map.empty() && look.normal_map.empty() && look.surface_map.empty() &&
+           look.emission_map.empty()) ||
+              !mesh.texture.empty(),
           "pictures lie over models with texture coordinates");
     ModelParts(mesh, look, file).add();
 }

@@ -4,8 +4,10 @@
 
 #include "core/palette.h"
 #include "core/result.h"
+#include "export/material.h"
 #include "export/render_vertices.h"
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +19,12 @@ struct GlbLook {
     std::span<const Colour> colours;  ///< sRGB, one per point of the mesh.
     std::string_view colour_map;      ///< A PNG file; requires texture coordinates.
     std::string_view normal_map;      ///< Likewise, relative to the tangents of render_vertices().
-    float roughness = 0.6F;           ///< 0 … 1, uniform. Nothing is metallic.
+    std::string_view surface_map;     ///< Likewise, packed as in MaterialMaps.
+    std::string_view emission_map;    ///< Likewise.
+    MapSet has;                       ///< What the maps hold; of opacity, that of the colours.
+    bool is_cut = false;              ///< Opacities below ½ are holes, and there are no others.
+    std::array<bool, 2> repeats{true, true};  ///< The maps, along x and y.
+    float roughness = 0.6F;                   ///< 0 … 1, where no map has it.
 };
 
 /// The file in memory: one mesh with smooth normals, and the texture coordinates and tangents that

@@ -48,7 +48,8 @@ std::size_t GlbFile::add(const char* list, Json part) {
 
 void GlbFile::add_node(Json node) {
     if (!(origin_ == Vector3d{})) node["translation"] = {origin_.x, origin_.y, origin_.z};
-    file_["scenes"][0]["nodes"].push_back(add("nodes", std::move(node)));
+    const std::size_t number = add("nodes", std::move(node));  // May move the lists in memory.
+    file_["scenes"][0]["nodes"].push_back(number);
 }
 
 void GlbFile::require(const char* extension) {

@@ -26,11 +26,13 @@ public:
 
     // Numeric codes of the format.
     static constexpr int vertex_buffer = 34962, index_buffer = 34963;
+    static constexpr int wrap_repeat = 10497, wrap_clamp = 33071;
 
     /// Begins without parts; all nodes will be in the one scene, moved by `origin`.
     explicit GlbFile(Vector3d origin = {});
 
-    /// Appends to a list: "nodes", "meshes", "materials", "images", "textures".
+    /// Appends to a list: "nodes", "meshes", "materials", "images", "textures",
+    /// "samplers".
     std::size_t add(const char* list, Json part);
     /// A node, which is moved by the origin.
     void add_node(Json node);

@@ -8,6 +8,14 @@
 
 namespace cascade {
 
+PlacePainter::PlacePainter(const CellFilter& filter, const PaintedCells& cells)
+    : filter_(filter), cells_(cells) {
+    for (std::size_t k = 0; k < material_parts; ++k) {
+        if (!cells.material[k].empty()) parts_.push_back(static_cast<MaterialPart>(k));
+    }
+    values_.resize(number_of_values());
+}
+
 PlacePainter::Look PlacePainter::at(const SurfacePlace& place) {
     filter_at(place, values_);
     return look_of(values_, place);
@@ -21,13 +29,20 @@ void PlacePainter::filter_at(const SurfacePlace& place, std::span<float> values)
         for (std::size_t c = 0; c < cells_.channels; ++c) {
             values[c] += share.weight * cells_.values[first + c];
         }
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            values[cells_.channels + k] += share.weight * cells_.material[parts_[k]][share.cell];
+        }
         if (!cells_.heights.empty()) values.back() += share.weight * cells_.heights[share.cell];
     }
 }
 
 PlacePainter::Look PlacePainter::look_of(std::span<const float> values,
                                          const SurfacePlace& place) const {
-    return {shown(cells_.colour(values.first(cells_.channels), place)), values.back()};
+    Look look{shown(cells_.colour(values.first(cells_.channels), place)), values.back()};
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        look.material[parts_[k]] = values[cells_.channels + k];
+    }
+    return look;
 }
 
 Vector3d PlacePainter::rise_at(const SurfacePlace& place) {

@@ -3,6 +3,7 @@
 
 #include "core/palette.h"
 #include "core/parallel.h"
+#include "export/material.h"
 #include "surface/cell_filter.h"
 
 #include <cstddef>
@@ -23,25 +24,27 @@ struct PaintedCells {
     PlaceColour colour;
     /// One per cell: its height above the surface, in the unit of the mesh. Empty: no heights.
     std::span<const float> heights;
+    MaterialCells material = {};
 };
 
 /// Paints places. Not thread-safe.
 class PlacePainter {
 public:
-    PlacePainter(const CellFilter& filter, const PaintedCells& cells)
-        : filter_(filter), cells_(cells), values_(number_of_values()) {}
+    PlacePainter(const CellFilter& filter, const PaintedCells& cells);
 
     struct Look {
         Colour colour;
         float height = 0;
+        OfParts<float> material{};  ///< The parts that cells have.
     };
-    /// The colour of the filtered values, and the filtered height.
+    /// The colour of the filtered values, the filtered height and material.
     Look at(const SurfacePlace& place);
-    /// The two halves of `at`: the filtered values with the filtered height as the last, which vary
-    /// smoothly along the surface, and their look. `values` has number_of_values() elements.
+    /// The two halves of `at`: the filtered values, with those of the material and the height after
+    /// them, which vary smoothly along the surface, and their look. `values` has
+    /// number_of_values() elements.
     void filter_at(const SurfacePlace& place, std::span<float> values);
     Look look_of(std::span<const float> values, const SurfacePlace& place) const;
-    std::size_t number_of_values() const { return cells_.channels + 1; }
+    std::size_t number_of_values() const { return cells_.channels + parts_.size() + 1; }
 
     /// The gradient of the height, in the plane of the triangle. Exactly 0 if heights are equal
     /// around.
@@ -50,6 +53,7 @@ public:
 private:
     const CellFilter& filter_;
     const PaintedCells& cells_;
+    std::vector<MaterialPart> parts_;  ///< Those that cells have.
     std::vector<float> values_;
     std::vector<CellShare> shares_;
     std::vector<SlopedShare> slopes_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/palette.h"
+#include "export/material.h"
 #include "export/texture_layout.h"
 
 #include <cstdint>
@@ -15,9 +16,10 @@ namespace cascade {
 struct SampleRow {
     const TextureLayout& layout;
     std::uint32_t triangle = 0;
-    std::int64_t first = 0, row = 0;  ///< Of the first sample.
-    std::span<Colour> lights;         ///< Reflected fractions, 0 … 1 (light_of).
-    std::span<float> heights;         ///< Above the surface, in the unit of the mesh.
+    std::int64_t first = 0, row = 0;     ///< Of the first sample.
+    std::span<Colour> lights;            ///< Reflected fractions, 0 … 1 (light_of).
+    std::span<float> heights;            ///< Above the surface, in the unit of the mesh.
+    std::span<OfParts<float>> material;  ///< Emission as light.
 
     SurfacePlace place(std::size_t k) const {
         return layout.place_at(triangle, first + static_cast<std::int64_t>(k), row);
@@ -32,10 +34,10 @@ public:
     SamplePainter(const SamplePainter&) = delete;
     SamplePainter& operator=(const SamplePainter&) = delete;
 
-    /// False if all heights are 0.
-    virtual bool has_heights() const = 0;
+    /// What it paints besides colours. Without heights all are 0.
+    virtual MapSet maps() const = 0;
 
-    /// Sets all lights, and all heights if it has any.
+    /// Sets all lights, and heights and material as far as maps() has them.
     virtual void paint(const SampleRow& row) = 0;
 
     /// A vector along the normal of what is raised by the heights, for the samples of one texel,

@@ -30,6 +30,9 @@ struct Image {
     std::int64_t width = 0;
     std::int64_t height = 0;
     std::vector<Colour> pixels;
+    /// Of a map: its opacity, a number from 0 to 1 for each pixel; empty if it has none. Only PNG
+    /// files have it.
+    std::vector<float> alpha = {};
 
     Image() = default;
     Image(std::int64_t w, std::int64_t h, Colour fill = {1, 1, 1})
@@ -95,8 +98,9 @@ Result<std::string> encode_png(const Image& image, PngDepth depth, const PngText
                                PngEffort effort = PngEffort::small);
 
 /// Writes a PNG file atomically. A picture with only grey pixels is written as greyscale. Only
-/// transparent pixels give an alpha channel; they are white with alpha 0. Colours are rounded to
-/// 256 or 65536 levels; long texts are compressed. Fails as encode_png and write_file do.
+/// `alpha` and transparent pixels give an alpha channel; the latter are white with alpha 0. Colours
+/// are rounded to 256 or 65536 levels; long texts are compressed. Fails as encode_png and
+/// write_file do.
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
                        const PngTexts& texts);
 

@@ -24,10 +24,11 @@ bool is_grey(const Colour& pixel, unsigned highest) {
 
 unsigned highest_level(PngDepth depth) { return (1U << static_cast<unsigned>(depth)) - 1; }
 
-/// Writes the first `colours` channels of each pixel, and alpha if there is one, as levels. The
-/// format is a matter of compilation, since this is done for every pixel.
+/// Writes the first `colours` channels of each pixel, and alpha if there is one, as levels. `alpha`
+/// is of the first pixel, or null. The format is a matter of compilation, since this is done for
+/// every pixel.
 template <PngDepth depth, std::size_t colours, bool has_alpha>
-void put_samples(std::span<const Colour> pixels, Byte* out) {
+void put_samples(std::span<const Colour> pixels, const float* alpha, Byte* out) {
     const auto put = [&out](float value) {
         const unsigned level = level_of(value, highest_level(depth));
         if constexpr (depth == PngDepth::sixteen) *out++ = static_cast<Byte>(level >> 8);
@@ -37,7 +38,10 @@ void put_samples(std::span<const Colour> pixels, Byte* out) {
         // Transparent pixels are white, for programs that ignore alpha.
         const bool is_seen = !has_alpha || !is_transparent(pixel);
         for (std::size_t c = 0; c < colours; ++c) put(is_seen ? pixel[c] : 1);
-        if constexpr (has_alpha) put(is_seen ? 1 : 0);
+        if constexpr (has_alpha) {
+            put(!is_seen ? 0 : alpha != nullptr ? *alpha : 1);
+            if (alpha != nullptr) ++alpha;
+        }
     }
 }
 
@@ -93,7 +97,7 @@ PngFormat png_format(const Image& image, PngDepth depth) {
     const auto& pixels = image.pixels;
     const auto grey = [highest](const Colour& pixel) { return is_grey(pixel, highest); };
     return {depth, std::all_of(pixels.begin(), pixels.end(), grey),
-            std::any_of(pixels.begin(), pixels.end(), is_transparent)};
+            !image.alpha.empty() || std::any_of(pixels.begin(), pixels.end(), is_transparent)};
 }
 
 std::vector<std::uint8_t> filtered_rows(std::int64_t height, std::size_t count, std::size_t pixel,
@@ -121,9 +125,12 @@ std::vector<std::uint8_t> png_rows(const Image& image, const PngFormat& format) 
     const auto width = static_cast<std::size_t>(image.width);
     const auto put = format.depth == PngDepth::eight ? sample_writer<PngDepth::eight>(format)
                                                      : sample_writer<PngDepth::sixteen>(format);
+    const auto alpha_of = [&](std::int64_t y) {
+        return image.alpha.empty() ? nullptr : &image.alpha[static_cast<std::size_t>(y) * width];
+    };
     return filtered_rows(image.height, width * format.pixel_bytes(), format.pixel_bytes(),
                          [&](std::int64_t y, Byte* out) {
-                             put({&image.at(0, y), width}, out);
+                             put({&image.at(0, y), width}, alpha_of(y), out);
                          });
 }
 

@@ -365,7 +365,8 @@ Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOpti
            Team& team) {
     const RayCaster caster(mesh);
     const auto look = [&](const Sight& sight) {
-        Look result{colour(sight.hit), {}};
+        Look result;
+        result.light = colour(sight.hit);
         for (float& channel : result.light) channel = light_of(channel);
         return result;
     };

@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "picture/image.h"
 #include "render/camera.h"
+#include "render/gloss.h"
 #include "render/ray_caster.h"
 
 #include <cstdint>
@@ -24,6 +25,8 @@ struct Sight {
 struct Look {
     Colour light{};  ///< Reflected fractions of red, green and blue light, 0 … 1 (light_of).
     Vector3 tilt;    ///< Added to the outward unit normal.
+    Colour glow{};   ///< Light that the surface gives off by itself, 0 … 1.
+    Gloss gloss = {};
 };
 
 using SurfaceLook = std::function<Look(const Sight&)>;

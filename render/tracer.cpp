@@ -15,7 +15,6 @@ constexpr float sun_light = 0.72F;
 constexpr float sky_light = 0.42F;
 constexpr float sun_radius = 0.12F;    ///< Tangent of the sun's half width.
 constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's shadow takes away.
-constexpr float shine = 0.06F;
 constexpr Colour background{1, 1, 1};
 
 /// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
@@ -58,7 +57,9 @@ Look Tracer::look_at(const Ray& ray, const Hit& hit, float width) const {
     if (hit.copy == Hit::body) {
         return look_({hit, ray.direction, width * camera_.pixel() * hit.distance});
     }
-    return {light_of(caster_.scene().copies().placements[hit.copy].colour), {}};
+    Look look;
+    look.light = light_of(caster_.scene().copies().placements[hit.copy].colour);
+    return look;
 }
 
 Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
@@ -78,11 +79,15 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
     if (options_.round_shadows) place = place + rounding(corners, weights, side);
     const Vector3 half = unit(sun_ - ray.direction);
-    const float gleam = shine * steady_power(std::max(0.0F, dot(normal, half)), 40);
+    const Gloss& gloss = look.gloss;
+    const float gleam = gloss.strength * steady_power(std::max(0.0F, dot(normal, half)),
+                                                      static_cast<double>(gloss.power));
     const float bright = sun_light * std::max(0.0F, dot(normal, sun_));
     Seen seen;
     for (std::size_t k = 0; k < 3; ++k) {
-        seen.of_sun[k] = look.light[k] * bright + gleam;
+        const float tint = 1 + gloss.metalness * (look.light[k] - 1);
+        seen.of_sun[k] = look.light[k] * bright * (1 - gloss.metalness) + gleam * tint;
+        seen.always[k] = look.glow[k];
         seen.of_sky[k] = look.light[k] * sky_light;
     }
     seen.kind = Seen::Kind::surface;

@@ -57,6 +57,10 @@ for option in --retile "--bake 64" "--bump 0.1"; do
     hint '--mesh FILE, or mesh: "FILE" in the domain, makes it one' \
         run s.cascade -o a.ply $option -- run ball.cascade -q -o a.ply
 done
+hint "--bake N writes a rectangle with maps of N texels" run s.cascade -o a.glb -- \
+    run s.cascade -q -o a.glb --bake 16
+hint "-o NAME.glb writes a rectangle with them" run s.cascade --bake 16 -- \
+    run s.cascade -q -o a.glb --bake 16
 "$CASCADE" run ball.cascade -q -o ball.obj || fail "a model"
 sed 's/surface: sphere/mesh: "ball.obj"/' ball.cascade >file.cascade
 hint 'mesh: "FILE" in the domain' run s.cascade -o a.ply -- run file.cascade -q -o a.ply

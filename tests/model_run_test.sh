@@ -157,9 +157,10 @@ for name in refused.ply refused.obj refused.glb refused.vtp refused.npz refused.
     refused "only what grows on a model is written so" run -q spots.cascade -o $name
 done
 refused "only a domain with a model has this setting" run -q spots.cascade -o refused.png --up z
-for option in "--retile" "--bake 64" "--bump 0.1" "--cache kept2"; do
+for option in "--retile" "--bump 0.1" "--cache kept2"; do
     refused "the domain is not a model" run -q spots.cascade -o refused.png $option
 done
+refused "no model is written with its maps" run -q spots.cascade -o refused.png --bake 64
 refused "the domain is not a surface" run -q spots.cascade -o refused.png --turntable 4
 [ ! -e kept2 ] || fail "a folder was made for a plane"
 refused "no model is written that it could tile" $model -o refused.png --retile

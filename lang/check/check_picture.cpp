@@ -1,4 +1,5 @@
-// The `picture` block: a colour and, for cells that crawl, their shape and its measures.
+// The `picture` block: a colour and, for fields, a material; for cells that crawl, their shape and
+// its measures.
 #include "lang/check/check.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_shape.h"
@@ -47,6 +48,8 @@ public:
         if (is_quantity) return check_type(statement, ValueType::number);
         const Setting setting = *setting_named(name);
         if (setting == Setting::color) return check_type(statement, ValueType::colour);
+        if (setting == Setting::height) return check_type(statement, ValueType::number);
+        if (is_material(setting)) return check_material(statement, setting);
         if (!shows_cells()) return report_no_cells(statement.name);
         if (setting == Setting::shape) return check_shape(statement);
         if (setting == Setting::detail) return check_detail(statement);
@@ -55,9 +58,27 @@ public:
     }
 
 private:
+    bool knows_stage() const { return scope_.system != unknown_system; }
     bool shows_cells() const {
-        if (scope_.system == unknown_system) return true;  // It has been reported.
+        if (!knows_stage()) return true;  // It has been reported.
         return work_.program.systems[scope_.system].cells.has_value();
+    }
+    static bool is_material(Setting setting) {
+        return setting == Setting::roughness || setting == Setting::metalness ||
+               setting == Setting::opacity || setting == Setting::emission;
+    }
+
+    void check_material(const ast::Statement& statement, Setting setting) {
+        if (knows_stage() && shows_cells()) {
+            work_.diagnostics.error(
+                statement.name.span,
+                fmt::format("'{}' is for pictures of fields", statement.name.text),
+                fmt::format("stage '{}', which the picture shows, is one of cells that crawl",
+                            work_.program.stages[*scope_.stage].name));
+            return;
+        }
+        const bool is_colour = setting == Setting::emission;
+        check_type(statement, is_colour ? ValueType::colour : ValueType::number);
     }
 
     void report_no_setting(const ast::Word& name) {

@@ -49,6 +49,11 @@ constexpr WordElsewhere rows[] = {
 
     {Context::picture, "palette colors colour colormap cmap",
      "write 'color: palette(u, 0, 1, \"leopard\")'"},
+    {Context::picture, "metallic metal", "write 'metalness: 1'"},
+    {Context::picture, "smoothness glossiness gloss", "write 'roughness: 0.2'"},
+    {Context::picture, "emissive glow", "write 'emission: rgb(1, 0.5, 0)'"},
+    {Context::picture, "alpha transparency", "write 'opacity: 0.5'"},
+    {Context::picture, "displacement bump relief", "write 'height: u'"},
 
     {Context::boundary,
      "neumann zero_flux zeroflux reflecting reflective insulating closed wall walls mirror",

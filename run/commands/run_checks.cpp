@@ -4,10 +4,11 @@
 
 #include "core/file.h"
 #include "core/temporary_file.h"
-#include "export/bake.h"
+#include "export/material_maps.h"
 #include "film/film.h"
 #include "picture/caption.h"
 #include "run/pictures/frame_folder.h"
+#include "run/pictures/material.h"
 #include "run/pictures/picture_size.h"
 
 #include <fmt/format.h>
@@ -71,7 +72,8 @@ bool has_cells(const Script& script) {
 
 std::vector<OutputFile> files_of(const Script& script, const RunRequest& request,
                                  std::span<const std::filesystem::path> outputs) {
-    const bool has_heights = request.picture.bump != 0 || has_cells(script);
+    const MapSet maps =
+        has_cells(script) ? MapSet{true} : maps_said(script, request.picture.bump != 0);
     std::vector<OutputFile> files;
     const auto add = [&](std::span<const std::filesystem::path> paths, std::string_view what) {
         for (const auto& path : paths) files.push_back({path, what});
@@ -81,7 +83,7 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
         if (kind == OutputKind::picture && request.turntable > 0) {
             add(turntable_paths(output, request.turntable), "the picture");
         } else if (request.model_files.is_baked(output)) {
-            add(baked_paths(output, has_heights), "the baked model");
+            add(map_paths(output, maps), "the baked model");
         } else {
             add({&output, 1}, name_of(kind));
         }
@@ -237,19 +239,27 @@ void check_maps_without_model(OptionRefuser& options, const RunRequest& request)
                       std::string(how_to_get_a_model));
 }
 
-/// Options that apply to models only.
-void check_without_model(OptionRefuser& options, const RunRequest& request) {
+/// Options that apply to models only. A plane has maps, too.
+void check_without_model(OptionRefuser& options, const RunRequest& request, bool is_plane) {
     const std::string message(not_a_model), hint(how_to_get_a_model);
+    bool has_model = false;
     for (const auto& output : request.outputs) {
         if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
         if (is_film(output)) continue;
+        has_model = true;
+        const bool has_maps = is_plane && ModelFileOptions{.bake = 1}.is_baked(output);
+        if (has_maps && request.model_files.bake > 0) continue;
         options.refuse("-o", output.string(),
-                       "only what grows on a model is written so, and " + message, hint);
+                       "only what grows on a model is written so, and " + message,
+                       has_maps ? "--bake N writes a rectangle with maps of N texels" : hint);
     }
     options.refuse_if(request.model_files.retile, "--retile", message, hint);
     options.refuse_if(request.picture.bump != 0, "--bump", message, hint);
     options.refuse_if(!request.simulation.cell_cache.empty(), "--cache", message, hint);
-    check_maps_without_model(options, request);
+    if (!is_plane) return check_maps_without_model(options, request);
+    options.refuse_if(request.model_files.bake > 0 && !has_model, "--bake",
+                      "no model is written with its maps",
+                      "-o NAME.glb writes a rectangle with them");
 }
 
 void check_on_plane(OptionRefuser& options, const RunRequest& request) {
@@ -347,7 +357,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         check_on_model(options, request);
         check_model_files(options, request);
     } else {
-        check_without_model(options, request);
+        check_without_model(options, request, !domain.surface);
         if (!domain.surface) check_on_plane(options, request);
     }
     check_films(options, request);

@@ -8,6 +8,8 @@
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/model_picture.h"
+#include "run/pictures/plane_files.h"
+#include "run/pictures/plane_look.h"
 #include "run/script/embedded_script.h"
 #include "run/session/session_picture.h"
 
@@ -138,6 +140,30 @@ Result<void> RunResults::write_cell_files(const Canvas& canvas) {
     return {};
 }
 
+/// Of a plane, or a slice of a volume.
+Result<void> RunResults::write_plane_files(const Canvas& canvas) {
+    const PlaneLook look =
+        painter.plane_look(painter.map_canvas(simulation, request.model_files.bake),
+                           painter.range_of(canvas));
+    std::optional<Failure> first;
+    for (const auto& output : outputs) {
+        if (!is_of_model(output)) continue;
+        say(fmt::format("writing {}", output.filename().string()));
+        const auto written =
+            write_plane(output, look, request.model_files.bake, texts(request.picture));
+        if (!written) {
+            if (!first) first = written.error();
+            continue;
+        }
+        report.written.insert(report.written.end(), written->paths.begin(), written->paths.end());
+        for (const std::string& warning : written->warnings) {
+            if (control.warn) control.warn(warning);
+        }
+    }
+    if (first) return tl::unexpected(*first);
+    return {};
+}
+
 Result<void> RunResults::write_outputs() {
     const Canvas canvas = painter.canvas(simulation);
     Result<void> result;
@@ -151,7 +177,14 @@ Result<void> RunResults::write_outputs() {
         if (result) result = done;
     }
     if (!has(OutputKind::model) && !has(OutputKind::cells)) return result;
-    auto done = canvas.cells ? write_cell_files(canvas) : write_model_files(canvas);
+    Result<void> done;
+    if (canvas.cells) {
+        done = write_cell_files(canvas);
+    } else if (simulation.model()) {
+        done = write_model_files(canvas);
+    } else {
+        done = write_plane_files(canvas);
+    }
     return result ? done : result;
 }
 

@@ -38,6 +38,7 @@ private:
     View turned_view(std::size_t number, std::size_t count) const;
     Result<void> write_model_files(const Canvas& canvas);
     Result<void> write_cell_files(const Canvas& canvas);
+    Result<void> write_plane_files(const Canvas& canvas);
     std::vector<Channel> channels(const Canvas& canvas) const;
     bool has(OutputKind kind) const;
     void say(std::string what) const;

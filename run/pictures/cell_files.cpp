@@ -69,7 +69,7 @@ public:
         if (!drawn.coat) return;
         filter_.emplace(mesh, model.spread().cells, team_);
         colours.filter = &*filter_;
-        colours.coat = {drawn.coat->channels, drawn.coat->values, drawn.coat->colour, {}};
+        colours.coat = drawn.coat->painted();
     }
 
     /// Gives the points of the mesh colours; they become more if there is a coat.
@@ -114,10 +114,10 @@ Result<CellFiles> write_maps(const std::filesystem::path& path, const GrownCells
     const auto painter = [&] { return std::make_unique<OutsideSamples>(outside, skin.colours); };
     const auto baked = bake(skin.mesh, painter, options, skin.team(), never);
     if (!baked) return tl::unexpected(baked.error());
-    if (auto done = write_baked(path, skin.mesh, *baked, texts); !done) {
+    if (auto done = cascade::write_maps(path, skin.mesh, *baked, texts); !done) {
         return tl::unexpected(done.error());
     }
-    return CellFiles{baked_paths(path, true), baked->warnings};
+    return CellFiles{map_paths(path, baked->maps), baked->warnings};
 }
 
 Result<void> write_values(const std::filesystem::path& path, const GrownCells& cells) {

@@ -38,9 +38,32 @@ Colour mix(const Colour& a, const Colour& b, float part) {
     return result;
 }
 
-/// By cell: reflected light, and height in filter radii.
+/// By cell: reflected light, and height in filter radii; with a material also emitted light,
+/// roughness and metalness.
 struct CellState {
-    static constexpr std::size_t size = 4;  ///< Red, green, blue, height.
+    static constexpr std::size_t height = 3, glow = 4, roughness = 7, metalness = 8;
+    explicit CellState(const PaintedCells& look)
+        : shines(!look.material[MaterialPart::roughness].empty() ||
+                 !look.material[MaterialPart::metalness].empty()),
+          glows(!look.material[MaterialPart::red].empty()),
+          size(shines || glows ? metalness + 1 : height + 1) {}
+
+    bool shines, glows;
+    std::size_t size;
+
+    /// Sets what a cell has of a material.
+    void take(const MaterialCells& material, std::size_t cell, float* state) const {
+        const auto part = [&](MaterialPart each, float usual) {
+            return material[each].empty() ? usual : material[each][cell];
+        };
+        if (size == height + 1) return;
+        const Colour stored = {part(MaterialPart::red, 0), part(MaterialPart::green, 0),
+                               part(MaterialPart::blue, 0)};
+        const Colour light = light_of(stored);
+        std::copy(light.begin(), light.end(), state + glow);
+        state[roughness] = part(MaterialPart::roughness, 0.6F);
+        state[metalness] = part(MaterialPart::metalness, 0);
+    }
 };
 
 /// Level 0 has the cells unfiltered; level k ≥ 1 has, together with the filter, the standard
@@ -53,7 +76,8 @@ float level_of(float side) {
 }
 
 /// Adds levels above level 0, up to `highest`.
-void add_levels(const SurfaceCells& cells, float highest, Levels& levels, Team& team) {
+void add_levels(const SurfaceCells& cells, const CellState& parts, float highest, Levels& levels,
+                Team& team) {
     // A blur as wide as the surface, √cells spacings, is enough.
     const double widest = std::log2(static_cast<double>(cells.places.size())) / 2;
     const double count = std::ceil(std::min<double>(highest, widest));
@@ -61,7 +85,8 @@ void add_levels(const SurfaceCells& cells, float highest, Levels& levels, Team& 
     for (int k = 1; k <= count; ++k) {
         const double wanted = std::exp2(2 * k) / 4 - filter_variance;
         levels.push_back(levels.back());
-        blur_cells(cells, std::sqrt(wanted - variance), CellState::size, levels.back(), team);
+        blur_cells(cells, std::sqrt(wanted - variance), static_cast<int>(parts.size), levels.back(),
+                   team);
         variance = wanted;
     }
 }
@@ -70,7 +95,12 @@ class Shader {
 public:
     Shader(const PaintedCells& look, const CellFilter& filter, const TriangleMesh& mesh,
            const Levels& levels, float spacing)
-        : look_(look), filter_(filter), mesh_(mesh), levels_(levels), spacing_(spacing) {}
+        : look_(look),
+          parts_(look),
+          filter_(filter),
+          mesh_(mesh),
+          levels_(levels),
+          spacing_(spacing) {}
 
     /// The colour at a place seen from near, that of the filtered values.
     Colour light_of_cell(const SurfacePlace& place) const {
@@ -86,14 +116,20 @@ public:
              static_cast<double>(sight.hit.u), static_cast<double>(sight.hit.v)}};
         const float level =
             std::min(level_of(side_of(sight)), static_cast<float>(levels_.size() - 1));
+        Look look;
         if (look_.heights.empty()) {
             std::vector<CellShare> shares;
             filter_.shares(place, shares);
-            return {light(shares, place, level), {}};
+            look.light = light(shares, place, level);
+            take_material(shares, level, look);
+            return look;
         }
         std::vector<SlopedShare> shares;
         filter_.sloped_shares(place, shares);
-        return {light(shares, place, level), tilt(shares, level)};
+        look.light = light(shares, place, level);
+        look.tilt = tilt(shares, level);
+        take_material(shares, level, look);
+        return look;
     }
 
 private:
@@ -125,10 +161,39 @@ private:
     }
 
     template <typename Share>
+    void take_material(const std::vector<Share>& shares, float level, Look& look) const {
+        if (parts_.glows) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                look.glow[k] = state_at(shares, level, CellState::glow + k);
+            }
+        }
+        if (parts_.shines) {
+            look.gloss = gloss_of(state_at(shares, level, CellState::roughness),
+                                  state_at(shares, level, CellState::metalness));
+        }
+    }
+
+    /// One number of the cells, between the two levels.
+    template <typename Share>
+    float state_at(const std::vector<Share>& shares, float level, std::size_t number) const {
+        const auto below = static_cast<std::size_t>(level);
+        const auto in_level = [&](std::size_t k) {
+            float sum = 0;
+            for (const Share& share : shares) {
+                sum += share.weight * levels_[k][share.cell * parts_.size + number];
+            }
+            return sum;
+        };
+        const float part = level - static_cast<float>(below);
+        const float sharper = in_level(below);
+        return part > 0 ? sharper + (in_level(below + 1) - sharper) * part : sharper;
+    }
+
+    template <typename Share>
     Colour level_light(const std::vector<Share>& shares, std::size_t level) const {
         Colour sum{0, 0, 0};
         for (const Share& share : shares) {
-            const float* state = &levels_[level][share.cell * CellState::size];
+            const float* state = &levels_[level][share.cell * parts_.size];
             for (std::size_t k = 0; k < 3; ++k) sum[k] += share.weight * state[k];
         }
         return sum;
@@ -145,12 +210,14 @@ private:
     Vector3 slope_at(const std::vector<SlopedShare>& shares, std::size_t level) const {
         Vector3 slope;
         for (const SlopedShare& share : shares) {
-            slope = slope + share.slope * levels_[level][share.cell * CellState::size + 3];
+            slope =
+                slope + share.slope * levels_[level][share.cell * parts_.size + CellState::height];
         }
         return slope;
     }
 
     const PaintedCells& look_;
+    CellState parts_;
     const CellFilter& filter_;
     const TriangleMesh& mesh_;
     const Levels& levels_;
@@ -182,25 +249,27 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
     const float highest = level_of(widest_side(drawn_.mesh, options) / spacing_);
     Levels levels(1);
     const Shader shader(look, filter_, drawn_.mesh, levels, spacing_);
-    if (highest > 0 || !look.heights.empty()) {
+    const CellState parts(look);
+    if (highest > 0 || !look.heights.empty() || parts.shines || parts.glows) {
         std::vector<float>& states = levels[0];
-        states.resize(count * CellState::size);
+        states.resize(count * parts.size);
         team.run([&](int thread) {
             const RowRange part = split_rows(static_cast<std::int64_t>(count), thread, team.size());
             for (auto cell = static_cast<std::size_t>(part.begin);
                  cell < static_cast<std::size_t>(part.end); ++cell) {
-                float* state = &states[cell * CellState::size];
+                float* state = &states[cell * parts.size];
+                parts.take(look.material, cell, state);
                 if (highest > 0) {
                     const Colour light = shader.light_of_cell(cells_.places[cell]);
                     std::copy(light.begin(), light.end(), state);
                 }
                 if (look.heights.empty()) continue;
-                state[3] =
+                state[CellState::height] =
                     static_cast<float>(static_cast<double>(look.heights[cell]) / filter_.radius());
             }
         });
     }
-    add_levels(cells_, highest, levels, team);
+    add_levels(cells_, parts, highest, levels, team);
     if (copies == nullptr) return cascade::draw(caster_, shader, options, team);
     const cascade::Scene all(&drawn_.mesh, copies);
     return cascade::draw(RayCaster(all), shader, options, team);

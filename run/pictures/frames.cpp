@@ -49,12 +49,17 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
     if (failure_) return;
     const PlaneLayout layout = canvas.fields[0].layout();
     if (const Field* number = canvas.number()) values_.add(spread_of(*number));
-    frames_.push_back({stage, step, std::move(label), canvas.fields.size(), !canvas.relief.empty(),
-                       layout, kept_, canvas.cells});
+    frames_.push_back(
+        {stage, step, std::move(label), canvas.fields.size(), {}, layout, kept_, canvas.cells});
     if (file_) {
         bool is_kept = true;
         for (const Field& field : canvas.fields) is_kept = is_kept && keep(field);
-        if (!canvas.relief.empty()) is_kept = is_kept && keep(canvas.relief);
+        const auto extras = extra_planes(canvas);
+        for (std::size_t k = 0; k < extras.size(); ++k) {
+            if (extras[k]->empty()) continue;
+            frames_.back().extras.set(k);
+            is_kept = is_kept && keep(*extras[k]);
+        }
         if (canvas.cells) is_kept = is_kept && keep_cells(*canvas.cells, frames_.back());
         if (!is_kept) {
             failure_ = Failure{"the frames do not fit into the folder for temporary files",
@@ -112,15 +117,19 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     if (::fseeko(file_.get(), frame.place, SEEK_SET) != 0) {
         return cascade::failure("the frames cannot be read back");
     }
-    for (std::size_t plane = 0; plane < frame.planes + (frame.has_relief ? 1 : 0); ++plane) {
+    bool is_read = true;
+    const auto next = [&] {
         Field field(frame.layout);
         const std::size_t count = plane_size(frame.layout);
-        if (std::fread(storage(field), sizeof(float), count, file_.get()) != count) {
-            return cascade::failure("the frames cannot be read back");
-        }
-        if (plane < frame.planes) canvas.fields.push_back(std::move(field));
-        else canvas.relief = std::move(field);
+        is_read = is_read && std::fread(storage(field), sizeof(float), count, file_.get()) == count;
+        return field;
+    };
+    for (std::size_t plane = 0; plane < frame.planes; ++plane) canvas.fields.push_back(next());
+    const auto extras = extra_planes(canvas);
+    for (std::size_t k = 0; k < extras.size(); ++k) {
+        if (frame.extras[k]) *extras[k] = next();
     }
+    if (!is_read) return cascade::failure("the frames cannot be read back");
     if (!frame.cells) return canvas;
     auto cells = std::make_shared<DrawnCells>(*frame.cells);
     if (!read_items(cells->placements, frame.placements) ||

@@ -5,6 +5,7 @@
 #include "run/pictures/painter.h"
 
 #include <atomic>
+#include <bitset>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -60,7 +61,7 @@ private:
         std::int64_t step = 0;
         std::string label;
         std::size_t planes = 1;
-        bool has_relief = false;  ///< As an additional plane.
+        std::bitset<2 + material_parts> extras;  ///< Which of extra_planes() follow.
         PlaneLayout layout;
         std::int64_t place = 0;  ///< Of its values in the file, in bytes.
         /// Of a stage of cells that crawl; the vectors with an entry for each of them are in the

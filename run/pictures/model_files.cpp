@@ -9,6 +9,7 @@
 #include "export/point_values.h"
 #include "export/refine.h"
 #include "film/film.h"
+#include "run/pictures/model_occlusion.h"
 #include "run/pictures/model_picture.h"
 #include "surface/blur_cells.h"
 #include "surface/retile.h"
@@ -104,7 +105,9 @@ Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
     if (!refined_) {
         refined_ = std::make_unique<RefinedMesh>(refined_for_colours(mesh_, model_.spread().cells));
     }
-    const PaintedCells painted = {look_.channels, look_.values, look_.colour, {}};
+    PaintedCells painted = look_.painted();
+    painted.heights = {};
+    painted.material = {};
     return write_model(path, refined_->mesh,
                        {colours_at(refined_->places, filter(), painted, team_),
                         values_at(refined_->places, filter(), channels_, team_)});
@@ -145,15 +148,21 @@ Result<std::vector<std::filesystem::path>> ModelFileWriter::write_maps(
     const std::filesystem::path& path) {
     BakeOptions options;
     options.width = options.height = options_.bake;
-    const PaintedCells painted = {look_.channels, look_.values, look_.colour, look_.heights};
+    PaintedCells painted = look_.painted();
+    std::vector<float> occlusion;
+    if (!look_.heights.empty()) {
+        occlusion = model_occlusion(mesh_, model_.spread().cells, filter(), look_.heights, team_);
+        painted.material[MaterialPart::occlusion] = occlusion;
+    }
     const std::atomic<bool> never = false;
     const auto baked = bake(mesh_, filter(), painted, options, team_, never);
     if (!baked) return tl::unexpected(baked.error());
     for (const std::string& warning : baked->warnings) warnings_.push_back(warning);
-    if (auto done = write_baked(path, mesh_, *baked, texts_); !done) {
+    for (const std::string& doubt : look_.material.doubts) warnings_.push_back(doubt);
+    if (auto done = cascade::write_maps(path, mesh_, *baked, texts_); !done) {
         return tl::unexpected(done.error());
     }
-    return baked_paths(path, !look_.heights.empty());
+    return map_paths(path, baked->maps);
 }
 
 }  // namespace cascade

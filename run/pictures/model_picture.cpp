@@ -1,4 +1,4 @@
-// Copies values from the order in memory to the order of the cells.
+// Values of cells in the order of files, with heights in lengths of the model.
 #include "run/pictures/model_picture.h"
 
 #include <algorithm>
@@ -7,23 +7,14 @@ namespace cascade {
 
 ModelLook::ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range,
                      const Palette& palette)
-    : channels(canvas.fields.size()), values(channels * model.count()) {
-    for (std::size_t c = 0; c < channels; ++c) {
-        const std::vector<double> of_cells = cell_values(canvas.fields[c], model);
-        for (std::size_t k = 0; k < of_cells.size(); ++k) {
-            values[channels * k + c] = static_cast<float>(of_cells[k]);
-        }
+    : CellLook(canvas, range, palette,
+               [&](const Field& field) { return cell_values(field, model); }) {
+    material =
+        Material(canvas.material, [&](const Field& field) { return cell_values(field, model); });
+    heights = std::move(material.heights);
+    for (float& height : heights) {
+        height = static_cast<float>(static_cast<double>(height) * model.spread().unit);
     }
-    if (canvas.is_colour()) {
-        colour = [](std::span<const float> rgb, const SurfacePlace&) {
-            const auto shown = [](float channel) { return std::clamp(channel, 0.0F, 1.0F); };
-            return Colour{shown(rgb[0]), shown(rgb[1]), shown(rgb[2])};
-        };
-        return;
-    }
-    colour = [range, &palette](std::span<const float> value, const SurfacePlace&) {
-        return colour_at(palette, position_in(range, value[0]));
-    };
 }
 
 void ModelLook::raise(const ModelCells& model, const Field& number, ValueRange range, float bump) {
@@ -44,8 +35,7 @@ ModelDrawer::ModelDrawer(std::shared_ptr<const ModelCells> model)
 
 Image ModelDrawer::draw(const ModelLook& look, const DrawOptions& options,
                         const Instances* copies) {
-    return scene_.draw({look.channels, look.values, look.colour, look.heights}, options, team_,
-                       copies);
+    return scene_.draw(look.painted(), options, team_, copies);
 }
 
 }  // namespace cascade

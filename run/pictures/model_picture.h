@@ -5,8 +5,8 @@
 #include "picture/image.h"
 #include "render/camera.h"
 #include "run/domain/model_cells.h"
+#include "run/pictures/cell_look.h"
 #include "run/pictures/cell_picture.h"
-#include "run/pictures/painter.h"
 
 #include <memory>
 #include <optional>
@@ -15,18 +15,12 @@
 
 namespace cascade {
 
-/// The values of a canvas at the cells of a model: a number each, or red, green and blue.
-struct ModelLook {
-    std::size_t channels = 1;
-    std::vector<float> values;  ///< `channels` numbers per cell, cell after cell.
-    PlaceColour colour;
-    std::vector<float> heights;  ///< One per cell, in units of the model; empty for none.
-
-    /// `range` and `palette` apply to numbers.
+/// The values of a canvas at the cells of a model.
+struct ModelLook : CellLook {
     ModelLook(const ModelCells& model, const Canvas& canvas, ValueRange range,
               const Palette& palette);
 
-    /// Sets the heights: a number's position in the range times `bump` times the model's longest
+    /// Sets other heights: a number's position in the range times `bump` times the model's longest
     /// side.
     void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);
     /// The visible colour of cell k, which lies at `place`.

@@ -8,12 +8,15 @@
 #include "run/domain/metric_planes.h"
 #include "run/pictures/model_picture.h"
 #include "run/pictures/drawn_cells.h"
+#include "run/pictures/plane_look.h"
 #include "run/pictures/surface_picture.h"
 #include "run/pictures/tissue_picture.h"
+#include "run/simulation/finer_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cascade {
 
@@ -23,6 +26,26 @@ namespace {
 Field shown(Field field, const PictureRequest& request) {
     if (field.precision() != Precision::single) field = field.converted(Precision::single);
     return field.layout().depth > 1 ? cut(field, request.slice) : std::move(field);
+}
+
+/// The last stage that formulas can read: that which is shown, or a later one that has started.
+std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
+    std::uint32_t last = stage;
+    while (last + 1 < simulation.program().stages.size() && simulation.state(last + 1).started) {
+        ++last;
+    }
+    return last;
+}
+
+std::uint32_t shown_stage_of(const Simulation& simulation) {
+    return simulation.shown_stage().value_or(0);
+}
+
+/// In the stage that is shown.
+EvaluateFormula evaluation_in(const Simulation& simulation) {
+    return [&simulation](const Formula& formula) {
+        return simulation.evaluate(formula, shown_stage_of(simulation));
+    };
 }
 
 /// The same for a copy that is NaN outside of the mask.
@@ -74,18 +97,17 @@ std::optional<Formula> Painter::formula_for(std::uint32_t stage, std::uint32_t l
                       script_->sources, unspoken);
 }
 
-Canvas Painter::values(const Simulation& simulation) {
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    std::uint32_t last_stage = stage;
-    while (last_stage + 1 < simulation.program().stages.size() &&
-           simulation.state(last_stage + 1).started) {
-        ++last_stage;
-    }
+std::vector<Field> Painter::evaluate(const Simulation& simulation,
+                                     const EvaluateFormula& evaluate) {
+    const std::uint32_t stage = shown_stage_of(simulation);
     const bool asked = show_ || picture_expression(script_->tree);
-    const auto formula = formula_for(stage, last_stage);
+    const auto formula = formula_for(stage, last_to_read(simulation, stage));
     if (!formula) fell_back_ = fell_back_ || asked;
-    return {
-        simulation.evaluate(formula ? *formula : simulation.program().stages[stage].show, stage)};
+    return evaluate(formula ? *formula : simulation.program().stages[stage].show);
+}
+
+Canvas Painter::values(const Simulation& simulation) {
+    return {evaluate(simulation, evaluation_in(simulation))};
 }
 
 Canvas Painter::canvas(const Simulation& simulation) {
@@ -94,6 +116,7 @@ Canvas Painter::canvas(const Simulation& simulation) {
     shows_cells_ = simulation.state(simulation.shown_stage().value_or(0)).tissue != nullptr;
     if (shows_cells_) return canvas_of_cells(simulation, std::move(canvas));
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
+    if (model_) canvas.material = material(simulation, evaluation_in(simulation));
     if (model_ && request_.bump != 0 && canvas.is_colour()) {
         const std::uint32_t stage = simulation.shown_stage().value_or(0);
         auto usual = simulation.evaluate(simulation.program().stages[stage].show, stage);
@@ -103,6 +126,58 @@ Canvas Painter::canvas(const Simulation& simulation) {
         outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
     }
     return canvas;
+}
+
+MaterialFields Painter::material(const Simulation& simulation,
+                                 const EvaluateFormula& evaluate) const {
+    const std::uint32_t stage = shown_stage_of(simulation);
+    MaterialFields fields =
+        material_fields(*script_, evaluate, stage, last_to_read(simulation, stage));
+    for (Field& field : fields.parts) {
+        if (!field.empty()) field = shown(std::move(field), request_);
+    }
+    if (!fields.height.empty()) fields.height = shown(std::move(fields.height), request_);
+    return fields;
+}
+
+Canvas Painter::map_canvas(const Simulation& simulation, std::int64_t texels) {
+    constexpr std::int64_t most_parts = 8, most_cells = std::int64_t{1} << 22;
+    const Grid& grid = simulation.grid();
+    std::int64_t parts = std::clamp<std::int64_t>(texels / grid.longest_side(), 1, most_parts);
+    while (parts > 1 && grid.cell_count() > most_cells / (parts * parts)) --parts;
+    const auto finer = parts > 1 ? simulation.finer(parts) : nullptr;
+    if (!finer) {
+        Canvas whole = canvas(simulation);
+        whole.material = material(simulation, evaluation_in(simulation));
+        return whole;
+    }
+    const EvaluateFormula in_parts = [&](const Formula& formula) {
+        return finer->evaluate(formula, shown_stage_of(simulation));
+    };
+    Canvas divided{evaluate(simulation, in_parts)};
+    for (Field& field : divided.fields) field = shown(std::move(field), request_);
+    divided.material = material(simulation, in_parts);
+    divided.parts = parts;
+    return divided;
+}
+
+PlaneLook Painter::plane_look(const Canvas& canvas, std::optional<ValueRange> range) const {
+    const PlaneLayout& layout = canvas.fields[0].layout();
+    const Grid& grid = script_->program->domain.grid;
+    FlatCells plane{layout.width, layout.height, grid.spacing / static_cast<double>(canvas.parts)};
+    const Boundaries& sides = grid.boundary;
+    const Axis across = request_.slice.axis;
+    const Boundary columns = grid.depth > 1 && across == Axis::x ? sides.z : sides.x;
+    const Boundary rows = grid.depth > 1 && across == Axis::y ? sides.z : sides.y;
+    plane.repeats = {columns == Boundary::periodic, rows == Boundary::periodic};
+    if (!outside_.empty()) {
+        for (std::int64_t j = 0; j < layout.height; ++j) {
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                plane.inside.push_back(std::isnan(outside_.at(i, j)) ? 0 : 1);
+            }
+        }
+    }
+    return PlaneLook(canvas, range_of(canvas, range), *palette_, std::move(plane));
 }
 
 ValueRange Painter::range_of(const Canvas& canvas, std::optional<ValueRange> range) const {

@@ -4,9 +4,11 @@
 #include "core/result.h"
 #include "picture/image.h"
 #include "render/draw.h"
+#include "run/pictures/material.h"
 #include "run/script/picture_request.h"
 #include "run/simulation/simulation.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,7 +21,9 @@ struct FileShape;
 /// Values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
     std::vector<Field> fields;
-    Field relief = {};  ///< For a colour with bumps: the number that gives the heights.
+    Field relief = {};             ///< For a colour with bumps: the number that gives the heights.
+    MaterialFields material = {};  ///< Of a model, and of map_canvas().
+    std::int64_t parts = 1;        ///< Of a cell along each axis: more in map_canvas().
     /// Of a stage of cells that crawl, in whose order the fields are; else null.
     std::shared_ptr<const DrawnCells> cells = nullptr;
     bool is_colour() const { return fields.size() == 3; }
@@ -27,8 +31,18 @@ struct Canvas {
     const Field* number() const;
 };
 
+/// The planes of a canvas besides `fields`, each perhaps empty: relief, height and material.
+template <typename AnyCanvas>
+auto extra_planes(AnyCanvas& canvas) {
+    std::array<decltype(&canvas.relief), 2 + material_parts> planes{&canvas.relief,
+                                                                    &canvas.material.height};
+    for (std::size_t k = 0; k < material_parts; ++k) planes[2 + k] = &canvas.material.parts[k];
+    return planes;
+}
+
 class ModelDrawer;
 struct ModelLook;
+struct PlaneLook;
 
 /// Computes and paints the requested picture at any stage of a simulation.
 class Painter {
@@ -42,6 +56,10 @@ public:
     /// The same for all cells, also of a volume, in the run's precision.
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
+    /// The values of a plane for maps whose longer side has this many texels, with the material.
+    /// Where cells are larger than texels they are divided, at most into 8 × 8, and formulas are
+    /// computed in the parts: so thresholds have smooth outlines.
+    Canvas map_canvas(const Simulation& simulation, std::int64_t texels);
 
     /// The canvas as an image, enlarged, and transparent outside of the mask; drawn on the surface
     /// if the domain has one. `range` overrides the automatic range.
@@ -61,10 +79,16 @@ public:
                                          std::optional<ValueRange> range = {}) const;
     /// The values of the last canvas at the cells of its model.
     ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
+    /// The values of the last canvas, of a plane or a slice.
+    PlaneLook plane_look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
+
+    /// The range of the palette: that of --range, else `range`, else the automatic one.
+    ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
 private:
     Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
-    ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range) const;
+    std::vector<Field> evaluate(const Simulation& simulation, const EvaluateFormula& evaluate);
+    MaterialFields material(const Simulation& simulation, const EvaluateFormula& evaluate) const;
     DrawOptions draw_options() const;
     Image on_model(const Canvas& canvas, std::optional<ValueRange> range);
     Canvas canvas_of_cells(const Simulation& simulation, Canvas values);

@@ -122,10 +122,17 @@ void check_views(Script& script) {
                                      "use rgb(…) or palette(value, low, high, \"name\")");
         }
     }
+    Diagnostics unspoken;  // The checker of the picture has found the errors of its other settings.
+    for (const char* const setting : {"height", "roughness", "metalness", "opacity", "emission"}) {
+        const auto expression = picture_expression(script.tree, setting);
+        if (!expression) continue;
+        auto formula =
+            check_view(script.tree, *expression, stage, last, program, script.sources, unspoken);
+        if (formula) views.push_back({stage, std::move(formula)});
+    }
     const auto skin = picture_expression(script.tree, "skin");
     const auto below = stage_of_fields_before(program, stage);
     if (skin && below) {
-        Diagnostics unspoken;  // The checker of the picture has found its errors.
         views.push_back({*below, check_view(script.tree, *skin, *below, last, program,
                                             script.sources, unspoken)});
     }

@@ -5,6 +5,7 @@
 #include "lang/program/nodes_of_rates.h"
 #include "run/domain/field_values.h"
 #include "run/simulation/environment.h"
+#include "run/simulation/finer_view.h"
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_run.h"
 #include "run/simulation/stage_start.h"
@@ -245,6 +246,17 @@ std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t st
 std::vector<Field> Simulation::evaluate(std::span<const Formula* const> formulas,
                                         std::uint32_t stage) const {
     return self_->view(stage).evaluate(formulas);
+}
+
+std::unique_ptr<const FinerView> Simulation::finer(std::int64_t times) const {
+    const Environment& here = *self_->environment;
+    const bool has_tissue = std::any_of(self_->states.begin(), self_->states.end(),
+                                        [](const StageState& state) { return state.tissue; });
+    const DomainSettings& domain = here.program->domain;
+    if (has_tissue || here.mask || here.model || domain.surface || here.grid.depth > 1) {
+        return nullptr;
+    }
+    return std::make_unique<const FinerView>(here, self_->states, times);
 }
 
 StepWork Simulation::step_work(std::uint32_t k) {

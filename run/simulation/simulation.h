@@ -86,6 +86,8 @@ struct StageMoment {
     std::optional<Memory> memory;  ///< Without it, steps are chosen as at the start of a stage.
 };
 
+class FinerView;
+
 /// Runs the stages of a checked program, one after the other. Owns all fields.
 class Simulation {
 public:
@@ -156,6 +158,11 @@ public:
     /// Several formulas at once; common parts are computed once.
     std::vector<Field> evaluate(std::span<const Formula* const> formulas,
                                 std::uint32_t stage) const;
+
+    /// The present state with each cell of a plane divided into times × times; null where the
+    /// domain has a mask, a surface or slices, or a stage is of cells that crawl. Throws
+    /// std::bad_alloc.
+    std::unique_ptr<const FinerView> finer(std::int64_t times) const;
 
     /// The work of one step of a started stage, as it would be taken now.
     StepWork step_work(std::uint32_t stage);

@@ -3,6 +3,7 @@
 #include "export/bake.h"
 #include "export/instanced_model.h"
 #include "export/model_writer.h"
+#include "export/plane_maps.h"
 #include "export/point_values.h"
 #include "unit/export/example_surfaces.h"
 #include "unit/mesh/example_shapes.h"
@@ -35,7 +36,7 @@ bool write_maps(const char* name, const SurfaceMesh& mesh, const CellFilter& fil
     options.height = 128;
     const Result<Bake> maps = bake(mesh, filter, look, options, team, test::never);
     if (!maps) std::fprintf(stderr, "%s\n", maps.error().message.c_str());
-    return maps && report(write_baked(name, mesh, *maps, {}));
+    return maps && report(cascade::write_maps(name, mesh, *maps, {}));
 }
 
 /// A sphere, red for x below 0 and blue above, as colours of points and as a texture.
@@ -73,6 +74,35 @@ bool write_hills(Team& team) {
     return write_maps("mirrored_hill.glb", mesh, filter, look, team);
 }
 
+/// A square of four bands, from the top: a hole, one that sees half of the sky, a plain one, and a
+/// metal. Its left half is black and glows, its right half is red.
+bool write_tile(Team& team) {
+    const FlatCells cells{64, 64, 1.0 / 64, {false, false}};
+    std::vector<float> colours;
+    OfParts<std::vector<float>> parts;
+    for (int j = 0; j < 64; ++j) {
+        for (int i = 0; i < 64; ++i) {
+            const bool glows = i < 32;
+            const Colour colour = glows ? Colour{} : Colour{0.8F, 0.2F, 0.1F};
+            colours.insert(colours.end(), colour.begin(), colour.end());
+            parts[MaterialPart::opacity].push_back(j < 16 ? 0.0F : 1.0F);
+            parts[MaterialPart::occlusion].push_back(j < 32 ? 0.5F : 1.0F);
+            parts[MaterialPart::roughness].push_back(0.7F);
+            parts[MaterialPart::metalness].push_back(j < 48 ? 0.0F : 1.0F);
+            parts[MaterialPart::red].push_back(glows ? 0.2F : 0.0F);
+            parts[MaterialPart::green].push_back(glows ? 0.6F : 0.0F);
+            parts[MaterialPart::blue].push_back(glows ? 0.4F : 0.0F);
+        }
+    }
+    const auto as_it_is = [](std::span<const float> rgb, const SurfacePlace&) {
+        return Colour{rgb[0], rgb[1], rgb[2]};
+    };
+    PaintedCells look{3, colours, as_it_is, {}};
+    for (std::size_t k = 0; k < material_parts; ++k) look.material[k] = parts[k];
+    return report(
+        cascade::write_maps("tile.glb", plane_mesh(cells), bake_plane(cells, look, 256, team), {}));
+}
+
 /// Copies of a ball before a square: a row of 64 at the bottom whose colours go from red to blue,
 /// and a tall green one, turned to lie from left to right, at the top. As instances, and merged.
 bool write_copies() {
@@ -106,7 +136,8 @@ bool write_copies() {
 
 int main() {
     cascade::Team team(2);
-    return cascade::write_spheres(team) && cascade::write_hills(team) && cascade::write_copies()
+    return cascade::write_spheres(team) && cascade::write_hills(team) &&
+                   cascade::write_tile(team) && cascade::write_copies()
                ? 0
                : 1;
 }

@@ -20,7 +20,7 @@ const expect = (condition, message) => condition || faults.push(message);
 async function validate() {
     const validator = createRequire(join(here, "package.json"))("gltf-validator");
     const files = readdirSync(models).filter((name) => name.endsWith(".glb"));
-    expect(files.length >= 6, `only ${files.length} models were written`);
+    expect(files.length >= 7, `only ${files.length} models were written`);
     for (const file of files) {
         const report = await validator.validateBytes(
             new Uint8Array(readFileSync(join(models, file))),
@@ -43,6 +43,7 @@ const views = [
         { name: `${name}_left`, model: `${name}.glb`, sun: [-5, 0, 5], frame: [0.5, 0.5, 0.5] },
         { name: `${name}_top`, model: `${name}.glb`, sun: [0, 5, 5], frame: [0.5, 0.5, 0.5] },
     ]),
+    { name: "tile", model: "tile.glb", ambient: 1, frame: [0, 0, 0.5] },
     ...["copies", "merged_copies"].map((name) => (
         { name, model: `${name}.glb`, ambient: 1, frame: [0.5, 0.5, 0.5] })),
 ];
@@ -84,6 +85,12 @@ function look_at(seen, instances) {
             expect_colour(seen, name, -0.4, y, [204, 51, 26]);
             expect_colour(seen, name, 0.4, y, [26, 51, 230]);
         }
+    }
+    // Holes show the background; metals have no colour without a sun or surroundings.
+    for (const [y, right] of [[0.75, [0, 0, 0]], [0.25, [149, 35, 16]], [-0.25, [204, 51, 26]],
+                              [-0.75, [0, 0, 0]]]) {
+        expect_colour(seen, "tile", 0.5, y, right);
+        expect_colour(seen, "tile", -0.5, y, y > 0.5 ? [0, 0, 0] : [51, 153, 102]);
     }
     // Ridges: without them the light would change little along the way.
     const along = Array.from({ length: 40 }, (_, k) => colour(seen.relief, 0.3, 0.4 - k / 80)[2]);

@@ -430,8 +430,8 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
     const BakedSphere sphere;
     Bake result = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(64, 32));
     const std::filesystem::path model = folder / "a.b.glb";
-    ASSERT_TRUE(write_baked(model, sphere.mesh, result, {{"Software", "Cascade"}}).has_value());
-    EXPECT_THAT(baked_paths(model, true),
+    ASSERT_TRUE(write_maps(model, sphere.mesh, result, {{"Software", "Cascade"}}).has_value());
+    EXPECT_THAT(map_paths(model, {true}),
                 ElementsAre(model, folder / "a.b_color.png", folder / "a.b_height.png",
                             folder / "a.b_normal.png"));
     // Heights and normals are no colours, and who displaces the surface learns by how much.
@@ -443,11 +443,12 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
         EXPECT_EQ(parse_png_texts(bytes)->at("Cascade heights"),
                   fmt::format("{:.9g} {:.9g}", result.heights.low, result.heights.high));
     }
-    for (const auto& path : baked_paths(model, true)) {
+    for (const auto& path : map_paths(model, {true})) {
         EXPECT_TRUE(std::filesystem::remove(path)) << path;
     }
     result.relief = result.normals = {};
-    ASSERT_TRUE(write_baked(model, sphere.mesh, result, {}).has_value());
+    result.maps = {};
+    ASSERT_TRUE(write_maps(model, sphere.mesh, result, {}).has_value());
     const Result<PolygonSoup> read = read_model(model);
     ASSERT_TRUE(read.has_value()) << read.error().message;
     EXPECT_EQ(read->texture.size(), 3 * sphere.mesh.triangles.size());

@@ -1,0 +1,47 @@
+// Values between the cells of a row: cubic curves that stay in range at sharp edges.
+//
+// Through each cell goes a cubic Hermite curve whose slope there is the mean of the differences to
+// both neighbours (E. Catmull and R. Rom, 1974), but at most three times the smaller of them, so
+// that the curve rises where values rise (F. Fritsch and R. Carlson, "Monotone Piecewise Cubic
+// Interpolation", SIAM J. Numer. Anal. 17, 1980) and is even beside an even stretch. Around a
+// smooth extremum that would leave a plateau. So the slope may be as large as the smallest of the
+// three bends (second differences) in the cell and its neighbours if they have one sign; beside an
+// edge they have not (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
+// smooth extrema", J. Comput. Phys. 227, 2008). Of cells with two values no curve leaves their
+// range.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace cascade {
+
+/// The cells that a place between the third and the fourth of them depends on.
+inline constexpr std::size_t cells_between = 6;
+
+/// The slope in the middle one of five cells, per cell.
+template <typename Number>
+Number slope_in(Number a, Number b, Number c, Number d, Number e) {
+    const Number before = c - b, after = d - c;
+    const Number bend = after - before, left = before - (b - a), right = e - d - after;
+    const Number least = std::min(bend, std::min(left, right));
+    const Number largest = std::max(bend, std::max(left, right));
+    const Number smooth = std::max(Number(0), std::max(least, -largest));
+    const Number most = std::max(3 * std::min(std::abs(before), std::abs(after)), smooth);
+    return std::clamp((before + after) / 2, -most, most);
+}
+
+/// The value at `part`, 0 … 1, of the way from the third of six cells to the fourth. NaN if one of
+/// the four in the middle is.
+template <typename Number>
+Number value_between(const std::array<Number, cells_between>& v, Number part) {
+    const Number rise = v[3] - v[2];
+    const Number first = slope_in(v[0], v[1], v[2], v[3], v[4]);
+    const Number last = slope_in(v[1], v[2], v[3], v[4], v[5]);
+    return v[2] +
+           part * (first + part * (3 * rise - 2 * first - last + part * (first + last - 2 * rise)));
+}
+
+}  // namespace cascade

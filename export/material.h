@@ -1,0 +1,68 @@
+// What a surface is made of besides its colour and its height, as glTF's metallic-roughness model
+// has it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace cascade {
+
+/// Numbers from 0 to 1, three to a texture, in the order of its channels: occlusion, roughness and
+/// metalness; the colour of emitted light; opacity.
+enum class MaterialPart : std::uint8_t {
+    occlusion,  ///< The visible part of the sky: 0 in the deepest crevice.
+    roughness,
+    metalness,
+    red,  ///< Of the emitted light, sRGB.
+    green,
+    blue,
+    opacity,
+};
+inline constexpr std::size_t material_parts = 7;
+
+/// One thing for each part.
+template <typename Each>
+struct OfParts : std::array<Each, material_parts> {
+    using Base = std::array<Each, material_parts>;
+    Each& operator[](MaterialPart part) { return Base::operator[](static_cast<std::size_t>(part)); }
+    const Each& operator[](MaterialPart part) const {
+        return Base::operator[](static_cast<std::size_t>(part));
+    }
+    using Base::operator[];
+};
+
+/// One number from 0 to 1 per cell for each part that is said; others are empty. `red`, `green` and
+/// `blue` are said together.
+using MaterialCells = OfParts<std::span<const float>>;
+
+/// True if opacities are those of holes: 0 or 1.
+inline bool is_cut(std::span<const float> opacities) {
+    return !opacities.empty() && std::all_of(opacities.begin(), opacities.end(), [](float opacity) {
+        return opacity == 0 || opacity == 1;
+    });
+}
+
+/// Which maps there are besides colours.
+struct MapSet {
+    bool heights = false;  ///< And normals.
+    bool occlusion = false, roughness = false, metalness = false;
+    bool emission = false, opacity = false;
+
+    /// True if one of those that are packed into one texture is there.
+    bool has_surface() const { return occlusion || roughness || metalness; }
+};
+
+inline MapSet maps_of(const MaterialCells& material, bool has_heights) {
+    const auto has = [&](MaterialPart part) { return !material[part].empty(); };
+    return {has_heights,
+            has(MaterialPart::occlusion),
+            has(MaterialPart::roughness),
+            has(MaterialPart::metalness),
+            has(MaterialPart::red),
+            has(MaterialPart::opacity)};
+}
+
+}  // namespace cascade

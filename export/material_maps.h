@@ -1,0 +1,45 @@
+// The maps of a material: textures, and the files that hold them.
+#pragma once
+
+#include "core/result.h"
+#include "export/material.h"
+#include "mesh/surface_mesh.h"
+#include "picture/image.h"
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+namespace cascade {
+
+/// Textures of one size; those that there are not are empty.
+struct MaterialMaps {
+    Image colour;
+    /// Grey, from 0 to 1 over the range of the texels' heights, `heights`.
+    Image relief;
+    ValueRange heights;
+    /// Directions relative to the tangents, −1 … 1 stored as 0 … 1, y up.
+    Image normals;
+    /// Red is occlusion, green roughness and blue metalness, as glTF packs them; 1 where `maps` has
+    /// no such part.
+    Image surface;
+    Image emission;
+    Image opacity;  ///< Grey.
+    MapSet maps;
+    bool is_cut =
+        false;  ///< Opacities are those of holes: 0 or 1, and between only at their edges.
+    /// Along x and y: the texture repeats. Otherwise its last texels go on.
+    std::array<bool, 2> repeats{true, true};
+};
+
+/// The files that write_maps makes: the model, then in the same folder NAME_color.png and one for
+/// each of the other maps: NAME_height.png and NAME_normal.png (16 bits), NAME_occlusion.png,
+/// NAME_roughness.png, NAME_metalness.png, NAME_emission.png, NAME_opacity.png.
+std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, const MapSet& maps);
+
+/// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts.
+/// Each file is written atomically. The mesh has texture coordinates.
+Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mesh,
+                        const MaterialMaps& maps, const PngTexts& texts);
+
+}  // namespace cascade

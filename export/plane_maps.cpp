@@ -1,0 +1,322 @@
+// Each row of samples is interpolated from rows of cells, then each sample from columns.
+#include "export/plane_maps.h"
+
+#include "core/between_cells.h"
+#include "core/check.h"
+#include "export/channels.h"
+#include "export/fill_gaps.h"
+#include "export/map_texels.h"
+#include "picture/srgb.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+/// Where samples of an axis lie between cells.
+struct Between {
+    std::int64_t before = 0;  ///< The cell whose middle is before the sample; may be −1.
+    float part = 0;           ///< Of the way to the next one.
+};
+Between between(std::int64_t sample, std::int64_t samples, std::int64_t cells) {
+    const double place = (static_cast<double>(sample) + 0.5) * static_cast<double>(cells) /
+                             static_cast<double>(samples) -
+                         0.5;
+    const double before = std::floor(place);
+    return {static_cast<std::int64_t>(before), static_cast<float>(place - before)};
+}
+
+/// The values of a plane's cells, those of one cell after the other: the channels of colours, the
+/// parts of the material that are there, and the height.
+class CellValues {
+public:
+    CellValues(const FlatCells& cells, const PaintedCells& painted)
+        : cells_(cells), channels_(painted.channels) {
+        for (std::size_t k = 0; k < material_parts; ++k) {
+            if (!painted.material[k].empty()) parts_.push_back(static_cast<MaterialPart>(k));
+        }
+        values_.resize(cells.count() * size());
+        for (std::size_t c = 0; c < channels_; ++c) {
+            put(c, [&](std::size_t cell) { return painted.values[cell * channels_ + c]; });
+        }
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            put(channels_ + k, [&](std::size_t cell) { return painted.material[parts_[k]][cell]; });
+        }
+        if (!painted.heights.empty()) {
+            put(size() - 1, [&](std::size_t cell) { return painted.heights[cell]; });
+        }
+        for (std::size_t k = 0; k < size(); ++k) fill(k);
+    }
+
+    std::size_t size() const { return channels_ + parts_.size() + 1; }
+    std::span<const MaterialPart> parts() const { return parts_; }
+
+    /// The values of all columns at a place between rows.
+    void row_at(const Between& down, std::span<float> line) const {
+        std::array<const float*, cells_between> rows{};
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const std::int64_t row = cells_.row(down.before + static_cast<std::int64_t>(k) - 2);
+            rows[k] = &values_[static_cast<std::size_t>(row * cells_.columns) * size()];
+        }
+        blend(rows, down.part, line);
+    }
+
+    /// The values at a place between columns of a line.
+    void at(std::span<const float> line, const Between& across, std::span<float> values) const {
+        std::array<const float*, cells_between> columns{};
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const std::int64_t column =
+                cells_.column(across.before + static_cast<std::int64_t>(k) - 2);
+            columns[k] = &line[static_cast<std::size_t>(column) * size()];
+        }
+        blend(columns, across.part, values);
+    }
+
+private:
+    static void blend(const std::array<const float*, cells_between>& v, float part,
+                      std::span<float> values) {
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            values[k] =
+                value_between<float>({v[0][k], v[1][k], v[2][k], v[3][k], v[4][k], v[5][k]}, part);
+        }
+    }
+
+    template <typename Take>
+    void put(std::size_t k, const Take& take) {
+        for (std::size_t cell = 0; cell < cells_.count(); ++cell) {
+            values_[cell * size() + k] = take(cell);
+        }
+    }
+
+    /// Replaces value k where it does not count: outside of the domain, though opacity is 0 there,
+    /// and where a height is not finite.
+    void fill(std::size_t k) {
+        const bool is_height = k + 1 == size();
+        const bool is_opacity =
+            k >= channels_ && !is_height && parts_[k - channels_] == MaterialPart::opacity;
+        PartialTexture texture(cells_.columns, cells_.rows);
+        bool has_gap = false;
+        for (std::size_t cell = 0; cell < cells_.count(); ++cell) {
+            const float value = values_[cell * size() + k];
+            const bool counts =
+                (is_opacity || cells_.is_inside(cell)) && (!is_height || std::isfinite(value));
+            texture.texels[cell][0] = counts ? value : 0;
+            texture.is_filled[cell] = counts ? 1 : 0;
+            has_gap = has_gap || !counts;
+        }
+        if (!has_gap) return;
+        fill_gaps(texture);
+        put(k, [&](std::size_t cell) { return texture.texels[cell][0]; });
+    }
+
+    const FlatCells& cells_;
+    std::size_t channels_;
+    std::vector<MaterialPart> parts_;
+    std::vector<float> values_;
+};
+
+class PlaneBaker {
+public:
+    PlaneBaker(const FlatCells& cells, const PaintedCells& painted, std::int64_t texels)
+        : cells_(cells), painted_(painted), values_(cells, painted) {
+        const auto [width, height] = texture_size(cells, texels);
+        const std::int64_t longer = std::max(cells.columns, cells.rows);
+        samples_ = std::max<std::int64_t>(2, (longer + texels - 1) / texels);
+        const auto image = [w = width, h = height](bool is_there) {
+            return is_there ? Image(w, h) : Image();
+        };
+        maps_.maps = maps_of(painted.material, !painted.heights.empty());
+        maps_.repeats = cells.repeats;
+        maps_.is_cut = is_cut(painted.material[MaterialPart::opacity]);
+        maps_.colour = image(true);
+        maps_.surface = image(maps_.maps.has_surface());
+        maps_.emission = image(maps_.maps.emission);
+        maps_.opacity = image(maps_.maps.opacity);
+        maps_.relief = image(maps_.maps.heights);
+        maps_.normals = image(maps_.maps.heights);
+    }
+
+    MaterialMaps run(Team& team) {
+        in_rows(team, [&](RowPainter& painter, std::int64_t y) { painter.paint(y); });
+        if (!maps_.maps.heights) return std::move(maps_);
+        in_rows(team, [&](RowPainter&, std::int64_t y) { find_normals(y); });
+        ValueRange& range = maps_.heights;
+        range = {maps_.relief.pixels[0][0], maps_.relief.pixels[0][0]};
+        for (const Colour& texel : maps_.relief.pixels) {
+            range.low = std::min(range.low, texel[0]);
+            range.high = std::max(range.high, texel[0]);
+        }
+        store_heights(range, maps_.relief.pixels);
+        return std::move(maps_);
+    }
+
+private:
+    /// Paints rows of texels; has a thread's working memory.
+    class RowPainter {
+    public:
+        explicit RowPainter(PlaneBaker& baker)
+            : baker_(baker),
+              line_(static_cast<std::size_t>(baker.cells_.columns) * baker.values_.size()),
+              here_(baker.values_.size()),
+              sums_(static_cast<std::size_t>(baker.maps_.colour.width)) {}
+
+        void paint(std::int64_t y) {
+            const std::int64_t samples = baker_.samples_;
+            const Image& colour = baker_.maps_.colour;
+            std::fill(sums_.begin(), sums_.end(), Sum());
+            for (std::int64_t j = y * samples; j < (y + 1) * samples; ++j) {
+                baker_.values_.row_at(between(j, colour.height * samples, baker_.cells_.rows),
+                                      line_);
+                for (std::int64_t i = 0; i < colour.width * samples; ++i) {
+                    baker_.values_.at(line_,
+                                      between(i, colour.width * samples, baker_.cells_.columns),
+                                      here_);
+                    add(sums_[static_cast<std::size_t>(i / samples)]);
+                }
+            }
+            for (std::int64_t x = 0; x < colour.width; ++x) {
+                baker_.store(x, y, sums_[static_cast<std::size_t>(x)]);
+            }
+        }
+
+        /// Over the samples of a texel, of emission as of colours in linear light.
+        struct Sum {
+            Colour light{};
+            OfParts<float> material{};
+            double height = 0;
+        };
+
+    private:
+        void add(Sum& sum) {
+            const std::size_t channels = baker_.painted_.channels;
+            const Colour light = light_of(
+                shown(baker_.painted_.colour(std::span(here_).first(channels), SurfacePlace())));
+            for (std::size_t c = 0; c < 3; ++c) sum.light[c] += light[c];
+            for (std::size_t k = 0; k < baker_.values_.parts().size(); ++k) {
+                const MaterialPart part = baker_.values_.parts()[k];
+                const float value = std::clamp(here_[channels + k], 0.0F, 1.0F);
+                const bool is_light = part == MaterialPart::red || part == MaterialPart::green ||
+                                      part == MaterialPart::blue;
+                sum.material[part] += is_light ? light_of(value) : value;
+            }
+            sum.height += static_cast<double>(here_.back());
+        }
+
+        PlaneBaker& baker_;
+        std::vector<float> line_, here_;
+        std::vector<Sum> sums_;  ///< Of a row's texels.
+    };
+
+    template <typename Use>
+    void in_rows(Team& team, const Use& use) {
+        std::vector<RowPainter> painters;  // Made here: threads must not run out of memory.
+        for (int k = 0; k < team.size(); ++k) painters.emplace_back(*this);
+        std::atomic<std::int64_t> next = 0;
+        team.run([&](int thread) {
+            for (std::int64_t y = next++; y < maps_.colour.height; y = next++) {
+                use(painters[static_cast<std::size_t>(thread)], y);
+            }
+        });
+    }
+
+    void store(std::int64_t x, std::int64_t y, const RowPainter::Sum& sum) {
+        const auto all = static_cast<float>(samples_ * samples_);
+        const auto mean = [&](MaterialPart part) { return sum.material[part] / all; };
+        const auto stored = [&](float light) { return stored_of(light / all); };
+        maps_.colour.at(x, y) = {stored(sum.light[0]), stored(sum.light[1]), stored(sum.light[2])};
+        const MapSet& has = maps_.maps;
+        if (has.has_surface()) {
+            maps_.surface.at(x, y) = {has.occlusion ? mean(MaterialPart::occlusion) : 1,
+                                      has.roughness ? mean(MaterialPart::roughness) : 1,
+                                      has.metalness ? mean(MaterialPart::metalness) : 1};
+        }
+        if (has.emission) {
+            maps_.emission.at(x, y) = {stored(sum.material[MaterialPart::red]),
+                                       stored(sum.material[MaterialPart::green]),
+                                       stored(sum.material[MaterialPart::blue])};
+        }
+        if (has.opacity) maps_.opacity.at(x, y).fill(mean(MaterialPart::opacity));
+        if (has.heights) {
+            maps_.relief.at(x, y)[0] =
+                static_cast<float>(sum.height / static_cast<double>(samples_ * samples_));
+        }
+    }
+
+    /// From the heights of the texels on both sides.
+    void find_normals(std::int64_t y) {
+        const Image& relief = maps_.relief;
+        const auto rise = [&](std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {
+            return static_cast<double>(relief.at(x1, y1)[0]) -
+                   static_cast<double>(relief.at(x0, y0)[0]);
+        };
+        const auto near = [](std::int64_t k, std::int64_t count, bool repeats) {
+            return std::array{FlatCells::place(k - 1, count, repeats),
+                              FlatCells::place(k + 1, count, repeats)};
+        };
+        // At a side that does not repeat, one of the two is the texel itself.
+        const auto apart = [](std::int64_t k, std::int64_t count, bool repeats, double side) {
+            const bool is_at_side = !repeats && count > 1 && (k == 0 || k == count - 1);
+            return is_at_side ? side : 2 * side;
+        };
+        const double across =
+            cells_.side * static_cast<double>(cells_.columns) / static_cast<double>(relief.width);
+        const double down =
+            cells_.side * static_cast<double>(cells_.rows) / static_cast<double>(relief.height);
+        const auto rows = near(y, relief.height, cells_.repeats[1]);
+        for (std::int64_t x = 0; x < relief.width; ++x) {
+            const auto columns = near(x, relief.width, cells_.repeats[0]);
+            const double right = rise(columns[0], y, columns[1], y) /
+                                 apart(x, relief.width, cells_.repeats[0], across);
+            const double up =
+                rise(x, rows[1], x, rows[0]) / apart(y, relief.height, cells_.repeats[1], down);
+            const Vector3d normal = unit(Vector3d{-right, -up, 1});
+            maps_.normals.at(x, y) =
+                stored_direction({static_cast<float>(normal.x), static_cast<float>(normal.y),
+                                  static_cast<float>(normal.z)});
+        }
+    }
+
+    const FlatCells& cells_;
+    const PaintedCells& painted_;
+    CellValues values_;
+    std::int64_t samples_ = 2;  ///< Of a texel, along each axis.
+    MaterialMaps maps_;
+};
+
+}  // namespace
+
+std::array<std::int64_t, 2> texture_size(const FlatCells& cells, std::int64_t texels) {
+    const std::int64_t longer = std::max(cells.columns, cells.rows);
+    const auto side = [&](std::int64_t count) {
+        const double part = static_cast<double>(count) / static_cast<double>(longer);
+        return std::max<std::int64_t>(1, std::llround(part * static_cast<double>(texels)));
+    };
+    return {side(cells.columns), side(cells.rows)};
+}
+
+MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted, std::int64_t texels,
+                        Team& team) {
+    CHECK(painted.values.size() == cells.count() * painted.channels,
+          "each cell has values of all channels");
+    return PlaneBaker(cells, painted, texels).run(team);
+}
+
+SurfaceMesh plane_mesh(const FlatCells& cells) {
+    const double x = cells.side * static_cast<double>(cells.columns) / 2;
+    const double y = cells.side * static_cast<double>(cells.rows) / 2;
+    SurfaceMesh mesh;
+    mesh.points = {{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.across.resize(2);
+    mesh.across[0][2] = {1, 0};
+    mesh.across[1][0] = {0, 2};
+    constexpr TexturePlace low_left{0, 0}, low_right{1, 0}, high_right{1, 1}, high_left{0, 1};
+    mesh.texture = {{low_left, low_right, high_right}, {low_left, high_right, high_left}};
+    return mesh;
+}
+
+}  // namespace cascade

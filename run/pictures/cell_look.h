@@ -1,0 +1,32 @@
+// The look of cells in files and pictures: the values of a canvas, what colours they mean, and the
+// material.
+#pragma once
+
+#include "export/painted_cells.h"
+#include "run/pictures/material.h"
+#include "run/pictures/painter.h"
+
+#include <functional>
+#include <vector>
+
+namespace cascade {
+
+/// The values of all cells of a field in the order of files.
+using InOrder = std::function<std::vector<double>(const Field&)>;
+
+struct CellLook {
+    std::size_t channels = 1;
+    std::vector<float> values;  ///< `channels` numbers per cell, cell after cell.
+    PlaceColour colour;
+    std::vector<float> heights;  ///< One per cell, in units of the model or plane; empty for none.
+    Material material;
+
+    /// A number for the palette, to which the range applies, or red, green and blue.
+    CellLook(const Canvas& canvas, ValueRange range, const Palette& palette,
+             const InOrder& in_order);
+
+    /// Refers to the look. Without occlusion, which depends on the surface.
+    PaintedCells painted() const { return {channels, values, colour, heights, material.cells()}; }
+};
+
+}  // namespace cascade

@@ -1,0 +1,33 @@
+// The maps are made in export/.
+#include "run/pictures/plane_files.h"
+
+#include "core/enough_memory.h"
+#include "core/parallel.h"
+#include "export/height_occlusion.h"
+#include "export/plane_maps.h"
+#include "run/pictures/plane_look.h"
+
+#include <fmt/format.h>
+
+namespace cascade {
+
+Result<PlaneFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
+                               std::int64_t texels, const PngTexts& texts) {
+    const auto write = [&]() -> Result<PlaneFiles> {
+        Team team(hardware_threads());
+        PaintedCells painted = look.painted();
+        std::vector<float> occlusion;
+        if (!look.heights.empty()) {
+            occlusion = height_occlusion(look.cells, look.heights, team);
+            painted.material[MaterialPart::occlusion] = occlusion;
+        }
+        const MaterialMaps maps = bake_plane(look.cells, painted, texels, team);
+        const auto done = write_maps(path, plane_mesh(look.cells), maps, texts);
+        if (!done) return tl::unexpected(done.error());
+        return PlaneFiles{map_paths(path, maps.maps), look.material.doubts};
+    };
+    return enough_memory_for(write, fmt::format("there is not enough memory for maps of {} texels",
+                                                texels));
+}
+
+}  // namespace cascade

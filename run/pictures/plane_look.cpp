@@ -1,0 +1,35 @@
+// Cells are copied row by row.
+#include "run/pictures/plane_look.h"
+
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+std::vector<double> in_rows_of_picture(const Field& field) {
+    const PlaneLayout& layout = field.layout();
+    std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(layout.width * layout.height));
+    for (std::int64_t j = 0; j < layout.height; ++j) {
+        for (std::int64_t i = 0; i < layout.width; ++i) values.push_back(field.number_at(i, j));
+    }
+    return values;
+}
+
+}  // namespace
+
+PlaneLook::PlaneLook(const Canvas& canvas, ValueRange range, const Palette& palette,
+                     FlatCells plane)
+    : CellLook(canvas, range, palette, in_rows_of_picture), cells(std::move(plane)) {
+    material = Material(canvas.material, in_rows_of_picture, cells.inside);
+    heights = std::move(material.heights);
+    if (cells.inside.empty()) return;
+    std::vector<float>& opacity = material.parts[MaterialPart::opacity];
+    if (opacity.empty()) opacity.assign(cells.count(), 1.0F);
+    for (std::size_t k = 0; k < opacity.size(); ++k) {
+        if (cells.inside[k] == 0) opacity[k] = 0;
+    }
+}
+
+}  // namespace cascade

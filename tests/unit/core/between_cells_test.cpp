@@ -1,0 +1,100 @@
+// The curve between cells.
+#include "core/between_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace cascade {
+namespace {
+
+using Cells = std::array<float, cells_between>;
+
+/// Six cells of a function, the third of which is at `x`.
+template <typename Function>
+Cells cells_at(double x, const Function& function) {
+    Cells cells{};
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        cells[k] = static_cast<float>(function(x + static_cast<double>(k) - 2));
+    }
+    return cells;
+}
+
+TEST(BetweenCells, CurvesGoThroughCellsAndAreExactOnLines) {
+    const auto line = [](double x) { return 3 + 0.25 * x; };
+    for (double x = -5; x <= 5; ++x) {
+        for (const float part : {0.0F, 0.25F, 0.5F, 0.875F}) {
+            EXPECT_FLOAT_EQ(value_between(cells_at(x, line), part),
+                            static_cast<float>(line(x + static_cast<double>(part))));
+        }
+    }
+    EXPECT_EQ(value_between<float>({9, 7, 1, 5, -2, 0}, 0), 1);
+    EXPECT_EQ(value_between<float>({9, 7, 1, 5, -2, 0}, 1), 5);
+}
+
+// Waves of 8 cells are found to 2 % of their height, of 12 cells to ½ %, wherever their crests are.
+TEST(BetweenCells, SmoothWavesAreFollowed) {
+    const auto most_off = [](double length, double phase) {
+        const auto wave = [&](double x) {
+            return std::sin(2 * std::numbers::pi * x / length + phase);
+        };
+        double most = 0;
+        for (double x = 0; x < length; x += 0.0625) {
+            const double cell = std::floor(x);
+            const auto found = value_between(cells_at(cell, wave), static_cast<float>(x - cell));
+            most = std::max(most, std::abs(static_cast<double>(found) - wave(x)));
+        }
+        return most;
+    };
+    for (double phase = 0; phase < 3.2; phase += 0.1) {
+        EXPECT_LT(most_off(8, phase), 0.04) << phase;
+        EXPECT_LT(most_off(12, phase), 0.01) << phase;
+    }
+}
+
+TEST(BetweenCells, EvenStretchesStayEvenBesideAnEdge) {
+    for (float part = 0; part <= 1; part += 0.125F) {
+        EXPECT_EQ(value_between<float>({0.1F, 0.1F, 0.1F, 0.1F, 0.9F, 0.9F}, part), 0.1F);
+        EXPECT_EQ(value_between<float>({0.1F, 0.1F, 0.9F, 0.9F, 0.9F, 0.1F}, part), 0.9F);
+    }
+}
+
+TEST(BetweenCells, CurvesOfTwoValuesStayBetweenThem) {
+    for (unsigned bits = 0; bits < 64; ++bits) {
+        Cells cells{};
+        for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = bits >> k & 1U ? 0.75F : 0.25F;
+        for (float part = 0; part <= 1; part += 0.0625F) {
+            const float value = value_between(cells, part);
+            EXPECT_TRUE(value >= 0.25F && value <= 0.75F) << bits << ' ' << part << ' ' << value;
+        }
+    }
+}
+
+// A curve leaves the range of the two cells beside it by less than the largest step around them.
+TEST(BetweenCells, CurvesStayNearTheirCells) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> number(-1, 1);
+    for (int trial = 0; trial < 20000; ++trial) {
+        Cells v{};
+        for (float& value : v) value = number(random);
+        float step = 0;
+        for (std::size_t k = 1; k < v.size(); ++k) step = std::max(step, std::abs(v[k] - v[k - 1]));
+        for (float part = 0; part <= 1; part += 0.0625F) {
+            const float value = value_between(v, part);
+            EXPECT_GE(value, std::min(v[2], v[3]) - 0.3F * step);
+            EXPECT_LE(value, std::max(v[2], v[3]) + 0.3F * step);
+        }
+    }
+}
+
+TEST(BetweenCells, NaNIsSeen) {
+    EXPECT_TRUE(std::isnan(value_between<float>({0, NAN, 0, 1, 2, 0}, 0.5F)));
+    EXPECT_TRUE(std::isnan(value_between<float>({0, 0, 0, NAN, 2, 0}, 0.5F)));
+    EXPECT_FALSE(std::isnan(value_between<float>({NAN, 0, 0, 1, 2, 0}, 0.5F)));
+}
+
+}  // namespace
+}  // namespace cascade
