@@ -1,7 +1,7 @@
 // Chooses the ranges of both axes, and draws curves and legend.
 #include "analysis/dispersion_plot.h"
 
-#include "analysis/axes.h"
+#include "picture/axes.h"
 
 #include <fmt/format.h>
 

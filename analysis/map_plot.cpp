@@ -1,7 +1,7 @@
 // Colours that differ for colour-blind readers too (M. Okabe, K. Ito, "Color Universal Design").
 #include "analysis/map_plot.h"
 
-#include "analysis/axes.h"
+#include "picture/axes.h"
 
 #include <algorithm>
 

@@ -19,7 +19,7 @@ const language = StreamLanguage.define({
         if (stream.match(/^#.*/)) return "comment";
         if (stream.match(/^"[^"]*"?/)) return "string";
         if (stream.match(/^[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?/)) return "number";
-        if (stream.match(/^(system|cells|shape|stage|domain|picture|use|in|step|and|or|not)\b(?!\s*:)/)) return "keyword";
+        if (stream.match(/^(system|cells|shape|stage|domain|picture|use|fn|let|in|step|and|or|not)\b(?!\s*:)/)) return "keyword";
         if (stream.match(/^(∇²|∇⁴|∇·|∇|Δ|√)/)) return "function";
         if (stream.match(called)) return "function";
         if (stream.match(defined)) return "definition";

@@ -59,6 +59,7 @@ struct OutputFile {
 
 std::string_view name_of(OutputKind kind) {
     if (kind == OutputKind::picture) return "the picture";
+    if (kind == OutputKind::figure) return "the figure";
     return kind == OutputKind::film ? "the film" : "the model";
 }
 
@@ -244,8 +245,8 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
     const std::string message(not_a_model), hint(how_to_get_a_model);
     bool has_model = false;
     for (const auto& output : request.outputs) {
-        if (output_kind(output).value_or(OutputKind::picture) == OutputKind::picture) continue;
-        if (is_film(output)) continue;
+        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
+        if (kind != OutputKind::model && kind != OutputKind::cells) continue;
         has_model = true;
         const bool has_maps = is_plane && ModelFileOptions{.bake = 1}.is_baked(output);
         if (has_maps && request.model_files.bake > 0) continue;

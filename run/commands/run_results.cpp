@@ -168,8 +168,10 @@ Result<void> RunResults::write_outputs() {
     const Canvas canvas = painter.canvas(simulation);
     Result<void> result;
     for (const auto& output : outputs) {
-        if (output_kind(output).value_or(OutputKind::picture) != OutputKind::picture) continue;
-        auto done = write_final_picture(output, canvas);
+        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
+        if (kind != OutputKind::picture && kind != OutputKind::figure) continue;
+        auto done = kind == OutputKind::figure ? write_figure(output, canvas)
+                                               : write_final_picture(output, canvas);
         if (result) result = done;
     }
     if (has(OutputKind::film)) {

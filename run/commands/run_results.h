@@ -43,6 +43,7 @@ private:
     bool has(OutputKind kind) const;
     void say(std::string what) const;
     Result<void> write_frames();
+    Result<void> write_figure(const std::filesystem::path& path, const Canvas& canvas);
     Result<void> write_films(const Canvas& canvas);
     Result<void> film_frames(FilmCrew& crew);
     Result<void> film_turntable(FilmCrew& crew, const Canvas& canvas);

@@ -88,22 +88,23 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
     return painter;
 }
 
-std::optional<Formula> Painter::formula_for(std::uint32_t stage, std::uint32_t last_stage) {
+std::optional<Formula> Painter::formula(const Simulation& simulation) {
     const auto expression = show_ ? show_ : picture_expression(script_->tree);
     if (!expression) return std::nullopt;
+    const std::uint32_t stage = shown_stage_of(simulation);
     // Errors were reported on loading; here a name may have no value yet.
     Diagnostics unspoken;
-    return check_view(script_->tree, *expression, stage, last_stage, *script_->program,
-                      script_->sources, unspoken);
+    return check_view(script_->tree, *expression, stage, last_to_read(simulation, stage),
+                      *script_->program, script_->sources, unspoken);
 }
 
 std::vector<Field> Painter::evaluate(const Simulation& simulation,
                                      const EvaluateFormula& evaluate) {
     const std::uint32_t stage = shown_stage_of(simulation);
     const bool asked = show_ || picture_expression(script_->tree);
-    const auto formula = formula_for(stage, last_to_read(simulation, stage));
-    if (!formula) fell_back_ = fell_back_ || asked;
-    return evaluate(formula ? *formula : simulation.program().stages[stage].show);
+    const auto wanted = formula(simulation);
+    if (!wanted) fell_back_ = fell_back_ || asked;
+    return evaluate(wanted ? *wanted : simulation.program().stages[stage].show);
 }
 
 Canvas Painter::values(const Simulation& simulation) {

@@ -61,6 +61,10 @@ public:
     /// computed in the parts: so thresholds have smooth outlines.
     Canvas map_canvas(const Simulation& simulation, std::int64_t texels);
 
+    /// The expression of --show or the picture block as it is for the stage that is shown; nothing
+    /// where the default is drawn.
+    std::optional<Formula> formula(const Simulation& simulation);
+
     /// The canvas as an image, enlarged, and transparent outside of the mask; drawn on the surface
     /// if the domain has one. `range` overrides the automatic range.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {});
@@ -68,6 +72,7 @@ public:
     /// from several threads.
     bool is_flat() const;
     const PictureRequest& request() const { return request_; }
+    const Palette& palette() const { return *palette_; }
     /// Sets the view of later pictures.
     void set_view(const View& view) { request_.view = view; }
     /// Later pictures of surfaces and of cells that crawl are this wide, in pixels.
@@ -93,7 +98,6 @@ private:
     Image on_model(const Canvas& canvas, std::optional<ValueRange> range);
     Canvas canvas_of_cells(const Simulation& simulation, Canvas values);
     Image with_cells(const Canvas& canvas, std::optional<ValueRange> range);
-    std::optional<Formula> formula_for(std::uint32_t stage, std::uint32_t last_stage);
 
     Script* script_ = nullptr;
     PictureRequest request_;

@@ -1,12 +1,12 @@
 // Ticks at 1, 2 and 5 times powers of ten.
-#include "analysis/axes.h"
+#include "picture/axes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace cascade::analysis {
+namespace cascade {
 
 namespace {
 
@@ -15,25 +15,30 @@ constexpr double left_margin = 76, right_margin = 24, top_margin = 44, bottom_ma
 }  // namespace
 
 std::vector<double> ticks_of(const AxisRange& range, int count) {
-    const double rough = (range.high - range.low) / count;
+    const auto [low, high] = std::minmax(range.low, range.high);
+    const double rough = (high - low) / count;
     if (!(rough > 0) || !std::isfinite(rough)) return {};
     const double power = std::pow(10, std::floor(std::log10(rough)));
     const double part = rough / power;
     const double step = power * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
     std::vector<double> ticks;
-    for (double k = std::ceil(range.low / step - 1e-9); k * step <= range.high + 1e-9 * step; ++k) {
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) {
         ticks.push_back(k == 0 ? 0 : k * step);
     }
     return ticks;
 }
 
 Axes::Axes(AxisRange across, AxisRange up, double width, double height)
+    : Axes(std::move(across), std::move(up),
+           {left_margin, top_margin, width - right_margin, height - bottom_margin}) {}
+
+Axes::Axes(AxisRange across, AxisRange up, const AxisBox& box)
     : across_(std::move(across)),
       up_(std::move(up)),
-      left_(left_margin),
-      right_(width - right_margin),
-      top_(top_margin),
-      bottom_(height - bottom_margin) {}
+      left_(box.left),
+      right_(box.right),
+      top_(box.top),
+      bottom_(box.bottom) {}
 
 DrawnPoint Axes::place(double across, double up) const {
     return {left_ + (right_ - left_) * (across - across_.low) / (across_.high - across_.low),
@@ -107,4 +112,4 @@ void Axes::draw_curve(Drawing& drawing, const std::vector<double>& across,
     flush();
 }
 
-}  // namespace cascade::analysis
+}  // namespace cascade

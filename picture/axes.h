@@ -6,20 +6,27 @@
 #include <string>
 #include <vector>
 
-namespace cascade::analysis {
+namespace cascade {
 
+/// The values at the two ends of an axis; of one that runs downwards or to the left, low > high.
 struct AxisRange {
     double low = 0, high = 1;
     std::string name;
 };
 
-/// Round numbers inside of a range, about `count` of them.
+/// The box of a diagram in a drawing.
+struct AxisBox {
+    double left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Round numbers inside of a range, about `count` of them, in ascending order.
 std::vector<double> ticks_of(const AxisRange& range, int count);
 
 class Axes {
 public:
-    /// The box lies with these margins in a drawing of this size.
+    /// The box lies with the usual margins in a drawing of this size.
     Axes(AxisRange across, AxisRange up, double width, double height);
+    Axes(AxisRange across, AxisRange up, const AxisBox& box);
 
     DrawnPoint place(double across, double up) const;
     double left() const { return left_; }
@@ -41,4 +48,4 @@ private:
 inline constexpr Colour axis_ink{0.16F, 0.16F, 0.17F};
 inline constexpr Colour axis_faint{0.86F, 0.86F, 0.86F};
 
-}  // namespace cascade::analysis
+}  // namespace cascade

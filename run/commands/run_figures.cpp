@@ -1,0 +1,105 @@
+// Figures of a run: the picture with what its axes and colours mean.
+#include "core/file.h"
+#include "core/printable.h"
+#include "run/commands/run_results.h"
+#include "run/pictures/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+/// The stage that is shown and its time.
+std::string title_of(const Script& script, const Simulation& simulation) {
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    std::string title =
+        fmt::format("{}: {}", printable(std::filesystem::path(script.name).filename().string()),
+                    script.program->stages[stage].name);
+    const double time = time_of(simulation, stage);
+    if (std::isfinite(time)) title += fmt::format(", t = {:.6g}", time);
+    return title;
+}
+
+/// The name of the number that is shown; empty if it has none.
+std::string name_of_number(const Script& script, const Simulation& simulation,
+                           const PictureRequest& request) {
+    if (!request.show.empty()) return request.show;
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const Formula& show = script.program->stages[stage].show;
+    if (show.nodes.empty()) return {};
+    const auto* const item = show.nodes.back().as<ItemId>();
+    return item == nullptr ? std::string()
+                           : std::string(script.program->system_of(stage).item_name(*item));
+}
+
+/// The value of a part of a formula that is made of numbers alone.
+std::optional<double> number_in(const Simulation& simulation, const Formula& formula, NodeId part) {
+    const Formula number = formula_of(formula.nodes, part);
+    const bool is_known = std::ranges::all_of(number.nodes, [](const Node& node) {
+        return node.is<double>() || (node.is<Call>() && !varies_by_cell(node.function));
+    });
+    if (!is_known) return std::nullopt;
+    const std::array formulas{&number};
+    return evaluate_numbers(simulation, formulas, simulation.shown_stage().value_or(0)).front();
+}
+
+/// The bar of a colour that is palette(e, low, high, "name") as a whole, with numbers for ends.
+std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulation,
+                                const std::optional<Formula>& formula) {
+    if (!formula || !formula->nodes.back().calls(Function::palette)) return std::nullopt;
+    const auto& [value, from, to, palette, e, f] = formula->nodes.back().operands;
+    const auto low = number_in(simulation, *formula, from);
+    const auto high = number_in(simulation, *formula, to);
+    const auto* const name = formula->nodes[palette].as<TextId>();
+    if (!low || !high || name == nullptr) return std::nullopt;
+    return ColourBar{find_palette(script.program->literals->text(*name)),
+                     {static_cast<float>(*low), static_cast<float>(*high)},
+                     std::string(script.sources.text(formula->nodes[value].span))};
+}
+
+/// The plane that a flat picture is of, in lengths.
+PlaneExtent extent_of(const Grid& grid, const Image& picture, const PictureRequest& request) {
+    const double length = grid.spacing / request.scale;
+    PlaneExtent plane{static_cast<double>(picture.width) * length,
+                      static_cast<double>(picture.height) * length, "x", "y"};
+    if (grid.depth == 1) return plane;
+    if (request.slice.axis == Axis::x) plane.across = "z";
+    if (request.slice.axis == Axis::y) plane.down = "z";
+    return plane;
+}
+
+}  // namespace
+
+Result<void> RunResults::write_figure(const std::filesystem::path& path, const Canvas& canvas) {
+    const PictureRequest& wanted = painter.request();
+    const std::string title = title_of(script, simulation);
+    const std::string name = name_of_number(script, simulation, wanted);
+    const Grid& grid = simulation.grid();
+    Drawing drawing;
+    if (painter.is_flat() && grid.height == 1 && grid.depth == 1 && !canvas.is_colour()) {
+        std::vector<double> values;
+        for (std::int64_t k = 0; k < grid.width; ++k) values.push_back(canvas.fields[0].at(k, 0));
+        drawing =
+            draw_curve_figure(values, static_cast<double>(grid.width) * grid.spacing, title, name);
+    } else {
+        const Image picture = painter.image(canvas);
+        std::optional<PlaneExtent> plane;
+        std::optional<ColourBar> bar;
+        if (painter.is_flat()) plane = extent_of(grid, picture, wanted);
+        bar = canvas.is_colour() ? bar_of(script, simulation, painter.formula(simulation))
+                                 : ColourBar{&painter.palette(), painter.range_of(canvas), name};
+        drawing = draw_figure(picture, title, plane, bar);
+    }
+    const auto text = as_svg(drawing);
+    if (!text) return tl::unexpected(text.error());
+    auto done = write_file(path, *text);
+    if (done) report.written.push_back(path);
+    return done;
+}
+
+}  // namespace cascade
