@@ -23,8 +23,8 @@ struct Retiled;
 /// The kind of an output file.
 enum class OutputKind { picture, figure, film, model, cells };
 
-/// By the ending, regardless of case: .png; .svg; those of films (film_format); .ply, .obj, .glb, .vtp;
-/// .npz, .cells.vtp. Nothing for other names.
+/// By the ending, regardless of case: .png; .svg; those of films (film_format); .ply, .obj, .glb,
+/// .vtp; .npz, .cells.vtp. Nothing for other names.
 std::optional<OutputKind> output_kind(const std::filesystem::path& path);
 inline bool is_film(const std::filesystem::path& path) {
     return output_kind(path) == OutputKind::film;
