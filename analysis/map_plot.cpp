@@ -9,7 +9,7 @@ namespace cascade::analysis {
 
 namespace {
 
-constexpr double width = 640, height = 560;
+constexpr double map_width = 640, map_height = 560;
 
 Colour colour_of(const std::optional<Stability>& stability) {
     if (!stability) return {0.80F, 0.80F, 0.80F};
@@ -30,10 +30,10 @@ std::string words_of(const std::optional<Stability>& stability) {
 }  // namespace
 
 Drawing plot_map(const ParameterMap& map, const MapLabels& labels) {
-    Drawing drawing{width, height, {}};
-    drawing.add(DrawnArea{{0, 0}, width, height, {1, 1, 1}});
+    Drawing drawing{map_width, map_height, {}};
+    drawing.add(DrawnArea{{0, 0}, map_width, map_height, {1, 1, 1}});
     const Axes axes({map.across.low, map.across.high, labels.across},
-                    {map.up.low, map.up.high, labels.up}, width, height);
+                    {map.up.low, map.up.high, labels.up}, map_width, map_height);
     const auto side = static_cast<std::int64_t>(map.side);
     Image image(side, side);
     std::vector<std::optional<Stability>> classes;

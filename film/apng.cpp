@@ -15,13 +15,13 @@
 namespace cascade {
 namespace {
 
-constexpr int effort = 6;  // Of compression.
-constexpr std::size_t ticks_per_second = 1000;
+constexpr int apng_effort = 6;  // Of compression.
+constexpr std::size_t apng_ticks_per_second = 1000;
 
 class ApngWriter : public FilmWriter {
 public:
     ApngWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings)
-        : file_(std::move(file)), times_(settings.frames_per_second, ticks_per_second) {}
+        : file_(std::move(file)), times_(settings.frames_per_second, apng_ticks_per_second) {}
 
     /// Everything before the first frame.
     Result<void> begin(std::int64_t width, std::int64_t height, const PngTexts& texts) {
@@ -33,7 +33,7 @@ public:
         place_of_count_ = header.size();
         header += count_chunk();
         append_srgb_chunk(header);
-        append_texts(header, texts, effort);
+        append_texts(header, texts, apng_effort);
         return file_->append(header);
     }
 
@@ -84,7 +84,8 @@ private:
             append_big_endian(data, static_cast<std::size_t>(number));
         }
         // Two numbers of 16 bits: the time of the frame in ticks, and ticks in a second.
-        append_big_endian(data, static_cast<std::size_t>(times_.next()) << 16 | ticks_per_second);
+        append_big_endian(data,
+                          static_cast<std::size_t>(times_.next()) << 16 | apng_ticks_per_second);
         return data.append(2, '\0');  // The frame stays, and replaces what was there.
     }
 
@@ -95,7 +96,7 @@ private:
                           [&](std::int64_t y, std::uint8_t* out) {
                               std::memcpy(out, frame.row(part.y + y, part.x), count);
                           });
-        return deflated({reinterpret_cast<const char*>(rows.data()), rows.size()}, effort);
+        return deflated({reinterpret_cast<const char*>(rows.data()), rows.size()}, apng_effort);
     }
 
     std::unique_ptr<GrowingFile> file_;

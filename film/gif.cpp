@@ -14,7 +14,7 @@
 namespace cascade {
 namespace {
 
-constexpr double ticks_per_second = 100;
+constexpr double gif_ticks_per_second = 100;
 constexpr std::size_t most_colours = 256;
 
 struct FreeTable {
@@ -42,7 +42,7 @@ public:
     GifWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings, bool with_holes,
               std::vector<PackedColour> colours)
         : file_(std::move(file)),
-          times_(settings.frames_per_second, ticks_per_second),
+          times_(settings.frames_per_second, gif_ticks_per_second),
           with_holes_(with_holes),
           nearest_(std::move(colours)) {}
     ~GifWriter() override {

@@ -13,13 +13,13 @@
 namespace cascade {
 namespace {
 
-constexpr double ticks_per_second = 1000;
+constexpr double webp_ticks_per_second = 1000;
 constexpr std::uint64_t largest_file = 0xfffffff0U;
 constexpr std::size_t frame_header = 16;  // Bytes of a frame before its picture.
 constexpr std::size_t file_header = 12;   // RIFF, size, WEBP.
 
 /// 0, fast, to 9, small: higher ones take twice the time for some percent.
-constexpr int effort = 2;
+constexpr int webp_effort = 2;
 
 std::string little_endian(std::uint64_t number, int bytes) {
     std::string text;
@@ -55,7 +55,7 @@ public:
         picture_.writer = append;
         picture_.custom_ptr = &bytes;
         good_ = good_ && WebPConfigInit(&config) != 0 &&
-                WebPConfigLosslessPreset(&config, effort) != 0 &&
+                WebPConfigLosslessPreset(&config, webp_effort) != 0 &&
                 WebPPictureImportRGBA(&picture_, frame.row(part.y, part.x),
                                       static_cast<int>(frame.width * 4)) != 0 &&
                 WebPEncode(&config, &picture_) != 0;
@@ -76,7 +76,7 @@ private:
 class WebpWriter : public FilmWriter {
 public:
     WebpWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings)
-        : file_(std::move(file)), times_(settings.frames_per_second, ticks_per_second) {}
+        : file_(std::move(file)), times_(settings.frames_per_second, webp_ticks_per_second) {}
 
     Result<void> begin(std::int64_t width, std::int64_t height) {
         constexpr unsigned animated = 2, with_alpha = 16;
