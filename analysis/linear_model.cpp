@@ -74,6 +74,14 @@ private:
         return part;
     }
     const Part& part(const Node& node, std::size_t n) const { return parts_[node.operands[n]]; }
+    /// The node with the values of its operands in place of them.
+    Node of_values(const Node& node) const {
+        Node valued = node;
+        for (std::size_t n = 0; n < node.operand_count; ++n) {
+            valued.operands[n] = part(node, n).value[0];
+        }
+        return valued;
+    }
 
     void add(Slopes& sum, const Slopes& slopes, NodeId factor) {
         if (algebra_.is_number(factor, 0)) return;
@@ -127,14 +135,12 @@ private:
     }
 
     Result<void> add_tensor(const Node& node, Part& part) {
-        Node valued = node;
         for (std::size_t n = 0; n < node.operand_count; ++n) {
             if (!is_flat(this->part(node, n).slopes)) {
                 return failure("a tensor in its rates changes with a species");
             }
-            valued.operands[n] = this->part(node, n).value[0];
         }
-        part.matrix = tensor_matrix(algebra_, algebra_.add(valued));
+        part.matrix = tensor_matrix(algebra_, algebra_.add(of_values(node)));
         return {};
     }
 
@@ -333,10 +339,7 @@ private:
     }
 
     Result<void> add_function(const Node& node, Part& part) {
-        Node valued = node;
-        for (std::size_t n = 0; n < node.operand_count; ++n) {
-            valued.operands[n] = this->part(node, n).value[0];
-        }
+        const Node valued = of_values(node);
         const bool is_numeric = !varies_by_cell(node.function) && node.operand_count <= 3 &&
                                 info(node.function).kind <= FunctionKind::choice;
         if (!is_numeric) {

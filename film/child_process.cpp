@@ -19,7 +19,7 @@ extern char** environ;
 namespace cascade {
 namespace {
 
-/// What posix_spawn() is told.
+/// The attributes and file actions for posix_spawn().
 struct Orders {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;

@@ -28,6 +28,14 @@ std::vector<double> ticks_of(const AxisRange& range, int count) {
     return ticks;
 }
 
+void draw_frame(Drawing& drawing, const AxisBox& box) {
+    const auto& [left, top, right, bottom] = box;
+    drawing.add(DrawnLine{{{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}},
+                          axis_ink,
+                          1,
+                          false});
+}
+
 Axes::Axes(AxisRange across, AxisRange up, double width, double height)
     : Axes(std::move(across), std::move(up),
            {left_margin, top_margin, width - right_margin, height - bottom_margin}) {}
@@ -64,11 +72,7 @@ void Axes::draw(Drawing& drawing) const {
         line({left_ - length, y}, {left_, y});
         text({left_ - 9, y}, fmt::format("{:.6g}", tick), Anchor::end);
     }
-    drawing.add(DrawnLine{
-        {{left_, top_}, {right_, top_}, {right_, bottom_}, {left_, bottom_}, {left_, top_}},
-        axis_ink,
-        1,
-        false});
+    draw_frame(drawing, {left_, top_, right_, bottom_});
     text({(left_ + right_) / 2, bottom_ + 36}, across_.name, Anchor::middle);
     text({left_, top_ - 11}, up_.name, Anchor::start);
 }

@@ -22,6 +22,9 @@ struct AxisBox {
 /// Round numbers inside of a range, about `count` of them, in ascending order.
 std::vector<double> ticks_of(const AxisRange& range, int count);
 
+/// Adds the outline of a box.
+void draw_frame(Drawing& drawing, const AxisBox& box);
+
 class Axes {
 public:
     /// The box lies with the usual margins in a drawing of this size.

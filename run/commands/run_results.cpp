@@ -97,23 +97,42 @@ std::vector<Channel> RunResults::channels(const Canvas& canvas) const {
     return channels;
 }
 
-Result<void> RunResults::write_model_files(const Canvas& canvas) {
-    const ModelLook look = painter.look(canvas);
-    ModelFileWriter writer(*simulation.model(), look, channels(canvas), request.model_files,
-                           texts(request.picture));
+void RunResults::warn_of(const std::vector<std::string>& warnings) const {
+    for (const std::string& warning : warnings) {
+        if (control.warn) control.warn(warning);
+    }
+}
+
+/// Writes each model and each file of cells, even if another one fails.
+Result<void> RunResults::write_each(
+    const std::function<Result<WrittenFiles>(const std::filesystem::path&)>& write_one) {
     std::optional<Failure> first;
     for (const auto& output : outputs) {
         if (!is_of_model(output)) continue;
         say(fmt::format("writing {}", output.filename().string()));
-        auto written = writer.write(output);
-        if (written) report.written.insert(report.written.end(), written->begin(), written->end());
-        else if (!first) first = written.error();
-    }
-    for (const std::string& warning : writer.warnings()) {
-        if (control.warn) control.warn(warning);
+        const auto written = write_one(output);
+        if (!written) {
+            if (!first) first = written.error();
+            continue;
+        }
+        report.written.insert(report.written.end(), written->paths.begin(), written->paths.end());
+        warn_of(written->warnings);
     }
     if (first) return tl::unexpected(*first);
     return {};
+}
+
+Result<void> RunResults::write_model_files(const Canvas& canvas) {
+    const ModelLook look = painter.look(canvas);
+    ModelFileWriter writer(*simulation.model(), look, channels(canvas), request.model_files,
+                           texts(request.picture));
+    auto done = write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
+        auto paths = writer.write(path);
+        if (!paths) return tl::unexpected(paths.error());
+        return WrittenFiles{*std::move(paths), {}};
+    });
+    warn_of(writer.warnings());
+    return done;
 }
 
 /// Of a stage of cells that crawl.
@@ -121,23 +140,9 @@ Result<void> RunResults::write_cell_files(const Canvas& canvas) {
     const std::vector<Colour> colours = painter.colours_of_cells(canvas);
     const GrownCells cells{simulation, simulation.shown_stage().value_or(0), *canvas.cells,
                            colours};
-    std::optional<Failure> first;
-    for (const auto& output : outputs) {
-        if (!is_of_model(output)) continue;
-        say(fmt::format("writing {}", output.filename().string()));
-        const auto written =
-            write_cells(output, cells, request.model_files, texts(request.picture));
-        if (!written) {
-            if (!first) first = written.error();
-            continue;
-        }
-        report.written.insert(report.written.end(), written->paths.begin(), written->paths.end());
-        for (const std::string& warning : written->warnings) {
-            if (control.warn) control.warn(warning);
-        }
-    }
-    if (first) return tl::unexpected(*first);
-    return {};
+    return write_each([&](const std::filesystem::path& path) {
+        return write_cells(path, cells, request.model_files, texts(request.picture));
+    });
 }
 
 /// Of a plane, or a slice of a volume.
@@ -145,23 +150,9 @@ Result<void> RunResults::write_plane_files(const Canvas& canvas) {
     const PlaneLook look =
         painter.plane_look(painter.map_canvas(simulation, request.model_files.bake),
                            painter.range_of(canvas));
-    std::optional<Failure> first;
-    for (const auto& output : outputs) {
-        if (!is_of_model(output)) continue;
-        say(fmt::format("writing {}", output.filename().string()));
-        const auto written =
-            write_plane(output, look, request.model_files.bake, texts(request.picture));
-        if (!written) {
-            if (!first) first = written.error();
-            continue;
-        }
-        report.written.insert(report.written.end(), written->paths.begin(), written->paths.end());
-        for (const std::string& warning : written->warnings) {
-            if (control.warn) control.warn(warning);
-        }
-    }
-    if (first) return tl::unexpected(*first);
-    return {};
+    return write_each([&](const std::filesystem::path& path) {
+        return write_plane(path, look, request.model_files.bake, texts(request.picture));
+    });
 }
 
 Result<void> RunResults::write_outputs() {

@@ -5,6 +5,7 @@
 #include "run/commands/run.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/model_files.h"
+#include "run/pictures/written_files.h"
 
 #include <functional>
 
@@ -36,6 +37,9 @@ private:
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
     Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
     View turned_view(std::size_t number, std::size_t count) const;
+    void warn_of(const std::vector<std::string>& warnings) const;
+    Result<void> write_each(
+        const std::function<Result<WrittenFiles>(const std::filesystem::path&)>& write_one);
     Result<void> write_model_files(const Canvas& canvas);
     Result<void> write_cell_files(const Canvas& canvas);
     Result<void> write_plane_files(const Canvas& canvas);

@@ -104,8 +104,8 @@ Result<void> write_things(const std::filesystem::path& path, const GrownCells& c
     return write_instanced(path, {&skin.mesh, colours, copies}, is_merged);
 }
 
-Result<CellFiles> write_maps(const std::filesystem::path& path, const GrownCells& cells,
-                             std::int64_t side, const PngTexts& texts) {
+Result<WrittenFiles> write_maps(const std::filesystem::path& path, const GrownCells& cells,
+                                std::int64_t side, const PngTexts& texts) {
     Skin skin(*cells.simulation.model(), cells.drawn);
     const CellsFromOutside outside(skin.mesh, things_in_file(cells));
     BakeOptions options;
@@ -117,7 +117,7 @@ Result<CellFiles> write_maps(const std::filesystem::path& path, const GrownCells
     if (auto done = cascade::write_maps(path, skin.mesh, *baked, texts); !done) {
         return tl::unexpected(done.error());
     }
-    return CellFiles{map_paths(path, baked->maps), baked->warnings};
+    return WrittenFiles{map_paths(path, baked->maps), baked->warnings};
 }
 
 Result<void> write_values(const std::filesystem::path& path, const GrownCells& cells) {
@@ -145,13 +145,13 @@ Result<void> write_values(const std::filesystem::path& path, const GrownCells& c
 
 }  // namespace
 
-Result<CellFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
-                              const ModelFileOptions& options, const PngTexts& texts) {
+Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
+                                 const ModelFileOptions& options, const PngTexts& texts) {
     const bool has_things = output_kind(path) == OutputKind::model;
     if (has_things && options.is_baked(path)) return write_maps(path, cells, options.bake, texts);
     auto done = has_things ? write_things(path, cells, options.merge) : write_values(path, cells);
     if (!done) return tl::unexpected(done.error());
-    return CellFiles{{path}, {}};
+    return WrittenFiles{{path}, {}};
 }
 
 }  // namespace cascade

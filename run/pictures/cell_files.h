@@ -4,11 +4,10 @@
 #include "core/result.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/model_files.h"
+#include "run/pictures/written_files.h"
 
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace cascade {
 
@@ -20,17 +19,11 @@ struct GrownCells {
     std::span<const Colour> colours;
 };
 
-/// What was written.
-struct CellFiles {
-    std::vector<std::filesystem::path> paths;
-    std::vector<std::string> warnings;  ///< A sentence each.
-};
-
 /// Writes them in the coordinates of the model's file or, without a model, of scripts: .glb and
 /// .obj with the things that a picture shows, .npz and .cells.vtp with the cells and all their
 /// values; a .glb that is_baked() is the model alone, with maps that show the things, into which
 /// the texts are written. Throws std::bad_alloc. Fails as the writers of export/ do.
-Result<CellFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
-                              const ModelFileOptions& options, const PngTexts& texts);
+Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
+                                 const ModelFileOptions& options, const PngTexts& texts);
 
 }  // namespace cascade

@@ -51,14 +51,7 @@ void draw_bar(Drawing& drawing, const ColourBar& bar, const AxisBox& box) {
     drawing.add(
         DrawnImage{{box.left, box.top}, bar_width, box.bottom - box.top, image_of(*bar.palette)});
     const AxisBox frame{box.left, box.top, box.left + bar_width, box.bottom};
-    drawing.add(DrawnLine{{{frame.left, frame.top},
-                           {frame.right, frame.top},
-                           {frame.right, frame.bottom},
-                           {frame.left, frame.bottom},
-                           {frame.left, frame.top}},
-                          axis_ink,
-                          1,
-                          false});
+    draw_frame(drawing, frame);
     // A field that is the same everywhere has the middle of the palette.
     const AxisRange range =
         low == high ? AxisRange{low - 1, high + 1, {}} : AxisRange{low, high, {}};

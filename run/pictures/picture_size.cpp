@@ -14,7 +14,7 @@ bool is_drawn(const DomainSettings& domain, const PictureRequest& picture) {
     return domain.model || (domain.surface && !picture.flat);
 }
 
-/// One pixel for each cell of what is shown, or the usual size of drawn pictures.
+/// One pixel for each cell that is shown, or the default size of rendered pictures.
 PictureSize unscaled_size(const DomainSettings& domain, const PictureRequest& picture,
                           bool is_drawn) {
     if (is_drawn) return {DrawOptions().width, DrawOptions().height};

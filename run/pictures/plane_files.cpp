@@ -11,9 +11,9 @@
 
 namespace cascade {
 
-Result<PlaneFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
-                               std::int64_t texels, const PngTexts& texts) {
-    const auto write = [&]() -> Result<PlaneFiles> {
+Result<WrittenFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
+                                 std::int64_t texels, const PngTexts& texts) {
+    const auto write = [&]() -> Result<WrittenFiles> {
         Team team(hardware_threads());
         PaintedCells painted = look.painted();
         std::vector<float> occlusion;
@@ -24,7 +24,7 @@ Result<PlaneFiles> write_plane(const std::filesystem::path& path, const PlaneLoo
         const MaterialMaps maps = bake_plane(look.cells, painted, texels, team);
         const auto done = write_maps(path, plane_mesh(look.cells), maps, texts);
         if (!done) return tl::unexpected(done.error());
-        return PlaneFiles{map_paths(path, maps.maps), look.material.doubts};
+        return WrittenFiles{map_paths(path, maps.maps), look.material.doubts};
     };
     return enough_memory_for(write, fmt::format("there is not enough memory for maps of {} texels",
                                                 texels));

@@ -3,24 +3,18 @@
 
 #include "core/result.h"
 #include "picture/image.h"
+#include "run/pictures/written_files.h"
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 namespace cascade {
 
 struct PlaneLook;
 
-struct PlaneFiles {
-    std::vector<std::filesystem::path> paths;
-    std::vector<std::string> warnings;  ///< A sentence each.
-};
-
 /// Writes a rectangle with maps, of which the longer side has so many texels, as a GLB file, and
 /// the maps beside it (export/material_maps.h).
-Result<PlaneFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
-                               std::int64_t texels, const PngTexts& texts);
+Result<WrittenFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
+                                 std::int64_t texels, const PngTexts& texts);
 
 }  // namespace cascade

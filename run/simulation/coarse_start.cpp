@@ -3,6 +3,7 @@
 #include "run/simulation/coarse_start.h"
 
 #include "core/resample.h"
+#include "run/simulation/regridded_state.h"
 #include "run/simulation/stage_run.h"
 #include "run/simulation/stage_start.h"
 
@@ -62,32 +63,13 @@ Program on_coarser_grid(const Program& program, std::uint32_t stage, std::int64_
 
 /// An earlier stage's values on a coarser grid, for starting values.
 StageState restricted(const StageState& fine, const Grid& fine_grid, const Grid& coarse_grid) {
-    StageState coarse;
-    coarse.started = fine.started;
-    coarse.done = fine.done;
-    coarse.steps = fine.steps;
-    coarse.t = fine.t;
-    coarse.time = fine.time;
-    coarse.numbers = fine.numbers;
-    coarse.species_of_item = fine.species_of_item;
-    const auto all = [&](const std::vector<Field>& fields, std::vector<Field>& into) {
-        for (const Field& field : fields) {
-            into.push_back(field.empty() ? Field()
-                                         : restricted_field(field, fine_grid, coarse_grid));
-        }
-    };
-    all(fine.fields, coarse.fields);
-    all(fine.species, coarse.species);
-    coarse.sides = fine.sides;
-    for (SideRules& rules : coarse.sides) {
-        rules.spacing = coarse_grid.spacing;
-        for (std::size_t side = 0; side < side_count; ++side) {
-            auto& values = rules.at[side].values;
-            if (!values) continue;
-            values = restricted(*values, fine_grid, coarse_grid, side / 2);
-        }
-    }
-    return coarse;
+    return regridded(fine, {coarse_grid.spacing,
+                            [&](const Field& plane) {
+                                return restricted_field(plane, fine_grid, coarse_grid);
+                            },
+                            [&](const SideValues& values, std::size_t side) {
+                                return restricted(values, fine_grid, coarse_grid, side / 2);
+                            }});
 }
 
 /// Files on a coarser grid.

@@ -2,6 +2,7 @@
 #include "run/simulation/finer_view.h"
 
 #include "core/resample.h"
+#include "run/simulation/regridded_state.h"
 #include "run/simulation/stage_view.h"
 
 #include <memory>
@@ -27,20 +28,11 @@ std::shared_ptr<const SideValues> repeated(const SideValues& values, std::int64_
 }
 
 StageState finer_state(const StageState& state, const Grid& grid, std::int64_t times) {
-    StageState result;
-    result.started = state.started;
-    result.done = state.done;
-    result.steps = state.steps;
-    result.t = state.t;
-    result.time = state.time;
-    result.numbers = state.numbers;
-    result.species_of_item = state.species_of_item;
-    for (const Field& field : state.fields) {
-        result.fields.push_back(finer_field(field, grid, times));
-    }
-    for (const Field& field : state.species) {
-        result.species.push_back(finer_field(field, grid, times));
-    }
+    StageState result =
+        regridded(state,
+                  {grid.spacing / static_cast<double>(times),
+                   [&](const Field& plane) { return finer_field(plane, grid, times); },
+                   [&](const SideValues& values, std::size_t) { return repeated(values, times); }});
     if (!state.frozen.empty()) {
         const Grid finer = finer_grid(grid, times);
         result.frozen = Mask(PlaneLayout(finer));
@@ -49,14 +41,6 @@ StageState finer_state(const StageState& state, const Grid& grid, std::int64_t t
                 result.frozen.row(j)[i] =
                     state.frozen.row(grid.height > 1 ? j / times : j)[i / times];
             }
-        }
-    }
-    result.sides = state.sides;
-    for (SideRules& rules : result.sides) {
-        rules.spacing = grid.spacing / static_cast<double>(times);
-        for (std::size_t side = 0; side < side_count; ++side) {
-            auto& values = rules.at[side].values;
-            if (values) values = repeated(*values, times);
         }
     }
     return result;

@@ -1,4 +1,4 @@
-// Figures: the words and the places of what stands around a picture.
+// Figures: their titles, axes, colour bars and curves.
 #include "run_fixture.h"
 
 #include "run/pictures/figure.h"
