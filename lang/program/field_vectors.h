@@ -1,4 +1,4 @@
-// Vectors of systems of fields, written out in terms of what lowering and calculus know.
+// Vectors in systems of fields, rewritten as the operators that lowering and calculus support.
 //
 // A vector has two values. In a cell it is three numbers: grad(e) is (dx(e), dy(e), dz(e)), and
 // arithmetic is by components. Inside of div it is known at faces (lang/lower/lower_vectors.cpp),

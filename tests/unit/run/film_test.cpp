@@ -20,19 +20,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* growing = R"(
-domain { grid: 24, 18; seed: 5 }
-stage large: turing_spots { iterations: 300; interval: 100; ka: 1/80 }
-stage small: turing_spots {
-  iterations: 200
-  interval: 50
-  frozen: b < 4
-  a: if([frozen], 4, a)
-  b: if([frozen], 4, b)
-  beta: beta
-}
-)";
-
 /// The frames of a GIF film, as levels of red; empty if it cannot be read to its end. Its frames
 /// replace each other.
 struct Film {
@@ -97,7 +84,7 @@ protected:
 };
 
 TEST_F(FilmRun, HasThePixelsOfFrames) {
-    Script script = load(growing);
+    Script script = load(two_stages);
     for (const int threads : {1, 3}) {
         RunRequest wanted = film("a.gif");
         wanted.outputs.push_back(path("b.apng"));
@@ -117,7 +104,7 @@ TEST_F(FilmRun, HasThePixelsOfFrames) {
         EXPECT_THAT(film.times, testing::Each(10));
         // The first frame of an APNG is an ordinary picture, which carries the script.
         EXPECT_EQ(levels(path("b.apng")), levels(frames[0]));
-        EXPECT_EQ(read_png_texts(path("b.apng"))->at("Cascade script"), growing);
+        EXPECT_EQ(read_png_texts(path("b.apng"))->at("Cascade script"), two_stages);
     }
 }
 
@@ -139,7 +126,7 @@ stage s: g { iterations: 100; interval: 50 }
 }
 
 TEST_F(FilmRun, LastsAsLongAsAsked) {
-    Script script = load(growing);
+    Script script = load(two_stages);
     RunRequest wanted = film("a.gif");
     wanted.film.seconds = 2;
     run_well(script, wanted);
@@ -163,7 +150,7 @@ TEST(FilmPlans, LeaveOutFramesEvenly) {
 }
 
 TEST_F(FilmRun, EndsWhereTheRunIsStopped) {
-    Script script = load(growing);
+    Script script = load(two_stages);
     RunRequest wanted = film("a.gif");
     RunControl control;
     control.report = [&](const Progress& progress) {
@@ -176,7 +163,7 @@ TEST_F(FilmRun, EndsWhereTheRunIsStopped) {
 }
 
 TEST_F(FilmRun, EndsWhereDrawingIsStopped) {
-    Script script = load(growing);
+    Script script = load(two_stages);
     RunRequest wanted = film("a.gif");
     wanted.outputs.push_back(path("b.apng"));
     RunControl control;
@@ -212,7 +199,7 @@ stage s: g { iterations: 1 }
 }
 
 TEST_F(FilmRun, CarriesLabels) {
-    Script script = load(growing);
+    Script script = load(two_stages);
     const auto labelled = [&](std::vector<std::string> labels, const std::string& name) {
         RunRequest wanted = film(name + ".gif");
         wanted.frames = path(name);
@@ -261,10 +248,10 @@ stage s: g { iterations: 1 }
 }
 
 TEST_F(FilmRun, IsRefusedWithoutFrames) {
-    Script script = load(growing);
+    Script script = load(two_stages);
     Overrides none;
     none.steps = 0;
-    Script still = load(growing, none);
+    Script still = load(two_stages, none);
     EXPECT_THAT(run_badly(still, film("a.gif")), HasSubstr("has no frames"));
     RunRequest saved = request();
     saved.save = path("saved");
