@@ -63,10 +63,12 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     const Stage& stage = view_.stage();
     if (state_.course.empty()) look();
     if (timer_.substeps() > 1 && state_.steps == 0 && control_->warn) {
-        control_->warn(
-            fmt::format("stage '{}': each step is split into {}, so that it is stable in the "
-                        "smallest cells of the model",
-                        stage.name, timer_.substeps()));
+        const std::uint32_t stages = StageTimer::stages_for_parts(timer_.substeps());
+        const std::string how = stages > 0 ? fmt::format("taken in {} stages of rkl1", stages)
+                                           : fmt::format("split into {}", timer_.substeps());
+        control_->warn(fmt::format(
+            "stage '{}': each step is {}, so that it is stable in the smallest cells of the model",
+            stage.name, how));
     }
     if (is_frozen()) return end_frozen(last_step);
     if (state_.steps == 0 && last_step > 0 && stage.time.coarse > 1) {

@@ -132,14 +132,28 @@ const StepProblem& StageTimer::problem() {
     return problem_of(state_.time.stages, judges_all_steps(stage_));
 }
 
+/// Of first order, it generalises Euler's method. Three parts cost no more than three stages.
+std::uint32_t StageTimer::stages_for_parts(std::uint32_t parts) {
+    constexpr std::uint32_t few = 3;
+    const std::uint32_t stages = stages_for(Solver::rkl1, parts);
+    const bool is_stable = stability_interval(Solver::rkl1, stages) >= 2.0 * parts;
+    return parts > few && is_stable ? stages : 0;
+}
+
+Scheme StageTimer::scheme_of(std::uint32_t stages) const {
+    const Solver solver = stage_.time.solver;
+    if (solver != Solver::euler || stages <= 1)
+        return make_scheme(solver, species_, steps_by_item(stage_), stages);
+    const std::uint32_t of_legendre = stages_for_parts(stages);
+    return of_legendre > 0 ? make_scheme(Solver::rkl1, species_, false, of_legendre)
+                           : make_substeps(stages);
+}
+
 const StepProblem& StageTimer::problem_of(std::uint32_t stages, bool is_judged) {
     const std::pair key(stages, is_judged);
     const auto known = problems_.find(key);
     if (known != problems_.end()) return known->second;
-    const bool is_split = stage_.time.solver == Solver::euler && stages > 1;
-    Scheme scheme = is_split
-                        ? make_substeps(stages)
-                        : make_scheme(stage_.time.solver, species_, steps_by_item(stage_), stages);
+    Scheme scheme = scheme_of(stages);
     if (is_judged && !scheme.error_register) scheme = with_error_estimate(std::move(scheme));
     return problems_.emplace(key, tools_.bind(scheme)).first->second;
 }

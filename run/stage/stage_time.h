@@ -48,6 +48,8 @@ public:
     std::uint32_t substeps() const {
         return stage_.time.solver == Solver::euler ? state_.time.stages : 0;
     }
+    /// The stages of Runge-Kutta-Legendre that stand for so many parts; 0 if these are taken.
+    static std::uint32_t stages_for_parts(std::uint32_t parts);
     /// The passes of the first step.
     const StepProblem& problem();
     /// A complete schedule except for its threads. `interval` as in Schedule.
@@ -67,6 +69,7 @@ private:
     StepChoice choose_by_error(std::int64_t step, TimeState& time, bool rejected);
     std::int64_t stretch_after(const RateBounds& before, const TimeState& time, bool rejected,
                                double length, double longest) const;
+    Scheme scheme_of(std::uint32_t stages) const;
     const StepProblem& problem_of(std::uint32_t stages, bool is_judged);
     bool has_ended(std::int64_t step, double t);
 

@@ -81,6 +81,13 @@ public:
         return made;
     }
 
+    /// One triangle in eight thousand in three, two of them slivers, around a point near a corner.
+    Triangles with_few_slivers() const {
+        Triangles made = *this;
+        for (std::size_t n = 0; n < triangles_.size(); n += 8000) made.cut(n, {1, 1e-3, 1e-3});
+        return made;
+    }
+
     double area() const {
         double sum = 0;
         for (const Corners& t : triangles_) sum += area_of(t);
