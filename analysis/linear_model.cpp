@@ -135,12 +135,17 @@ private:
     }
 
     Result<void> add_tensor(const Node& node, Part& part) {
+        if (model_.program->domain.model) {
+            return failure(
+                "on a model it spreads in a direction, so that waves of one length decay "
+                "at different rates");
+        }
         for (std::size_t n = 0; n < node.operand_count; ++n) {
             if (!is_flat(this->part(node, n).slopes)) {
                 return failure("a tensor in its rates changes with a species");
             }
         }
-        part.matrix = tensor_matrix(algebra_, algebra_.add(of_values(node)));
+        part.matrix = tensor_matrix(algebra_, algebra_.add(of_values(node)), false);
         return {};
     }
 

@@ -107,11 +107,11 @@ void fit(const TangentFrame& frame, std::span<const VoronoiEdge> edges,
     }
 }
 
-}  // namespace
-
-std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const SurfaceCells& cells,
-                                            Team& team, const std::atomic<bool>& cancel) {
-    std::vector<Vector3d> weights(cells.edges.size());
+/// Calls `use(frame, edges, neighbours, first)` for each cell, in any order; `first` is the number
+/// of its first edge.
+template <typename Use>
+void for_each_cell(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,
+                   const std::atomic<bool>& cancel, const Use& use) {
     const EdgeShapes shapes(mesh);
     team.run([&](int thread) {
         const RowRange part =
@@ -120,12 +120,36 @@ std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const Surfa
         for (std::int64_t k = part.begin; k < part.end && !cancel; ++k) {
             const auto cell = static_cast<std::size_t>(k);
             const auto edges = cells.edges_of(cell);
-            const auto first = static_cast<std::size_t>(edges.data() - cells.edges.data());
-            fit(tangent_frame(mesh, cells.places[cell].triangle), edges, finder.find(cell),
-                std::span(weights).subspan(first, edges.size()));
+            use(tangent_frame(mesh, cells.places[cell].triangle), edges, finder.find(cell),
+                static_cast<std::size_t>(edges.data() - cells.edges.data()));
         }
     });
+}
+
+}  // namespace
+
+std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                                            Team& team, const std::atomic<bool>& cancel) {
+    std::vector<Vector3d> weights(cells.edges.size());
+    for_each_cell(mesh, cells, team, cancel,
+                  [&](const TangentFrame& frame, std::span<const VoronoiEdge> edges,
+                      std::span<const Vector2d> neighbours, std::size_t first) {
+                      fit(frame, edges, neighbours,
+                          std::span(weights).subspan(first, edges.size()));
+                  });
     return weights;
+}
+
+std::vector<Vector3d> unfolded_neighbours(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                                          Team& team, const std::atomic<bool>& cancel) {
+    std::vector<Vector3d> positions(cells.edges.size());
+    for_each_cell(mesh, cells, team, cancel,
+                  [&](const TangentFrame& frame, std::span<const VoronoiEdge>,
+                      std::span<const Vector2d> neighbours, std::size_t first) {
+                      for (const Vector2d& neighbour : neighbours)
+                          positions[first++] = frame.in_space(neighbour);
+                  });
+    return positions;
 }
 
 }  // namespace cascade

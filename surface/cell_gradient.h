@@ -25,4 +25,9 @@ namespace cascade {
 std::vector<Vector3d> cell_gradient_weights(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                             Team& team, const std::atomic<bool>& cancel);
 
+/// The positions of the neighbours that the fit uses, one for each of `cells.edges`: from the cell,
+/// unfolded into the plane of its triangle, in space.
+std::vector<Vector3d> unfolded_neighbours(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                                          Team& team, const std::atomic<bool>& cancel);
+
 }  // namespace cascade

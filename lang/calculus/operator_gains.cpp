@@ -11,6 +11,7 @@ OperatorGains::OperatorGains(Algebra& algebra, const Program& program, const Mod
     : algebra_(algebra),
       grid_(model ? model->grid : program.domain.grid),
       has_metric_(program.domain.surface && program.domain.surface->has_metric),
+      on_model_(program.domain.model.has_value()),
       links_(model ? std::optional(model->largest_weight) : std::nullopt),
       zero_(algebra.number(0)) {}
 
@@ -128,7 +129,7 @@ std::array<NodeId, 3> OperatorGains::components_of(const Node& node) {
             return is_first ? algebra_.product(of(a, axis), b) : algebra_.product(a, of(b, axis));
         });
     }
-    const TensorMatrix matrix = tensor_matrix(algebra_, a);
+    const TensorMatrix matrix = tensor_matrix(algebra_, a, on_model_);
     return each([&](auto row) {
         NodeId sum = zero_;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -41,7 +41,7 @@ private:
 
     Algebra& algebra_;
     const Grid& grid_;
-    bool has_metric_;
+    bool has_metric_, on_model_;
     std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
     NodeId zero_;
     std::unordered_map<NodeId, std::array<NodeId, 3>> components_;

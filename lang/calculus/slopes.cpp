@@ -258,6 +258,27 @@ std::optional<Slopes> SlopeRules::of_product(const Node& node,
     return slopes;
 }
 
+/// Waves of a gradient decay at most as fast as if the larger of a1² and a2² held in all directions
+/// (surface/cell_frames.h).
+Slopes SlopeRules::times_model_tensor(const Node& tensor, const Slopes& flux) {
+    const auto square = [&](std::size_t n) {
+        return algebra_.product(tensor.operands[n], tensor.operands[n]);
+    };
+    const NodeId most = algebra_.maximum(square(0), square(1));
+    Slopes slopes{zero(), zero(), zero()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        slopes[axis] = scaled(flux[axis], most);
+        for (std::size_t other = 0; other < 3; ++other) {
+            const bool is_of_gradient = flux[other].own == zero_ && flux[other].other == zero_;
+            if (other == axis || is_of_gradient) continue;
+            Slope across = scaled(flux[other], most);
+            across.diffusion.clear();
+            add(slopes[axis], across);
+        }
+    }
+    return slopes;
+}
+
 /// For a gradient the diagonal is enough. In units of 4/h², with sines s and cosines c along the
 /// axes, the symbol of div(A grad e) is Σ a_ii s_i² + 2 Σ a_ij s_i c_i s_j c_j. If A is not
 /// negative, then |a_ij| ≤ √(a_ii a_jj), and the symbol is at most the largest eigenvalue of
@@ -265,15 +286,16 @@ std::optional<Slopes> SlopeRules::of_product(const Node& node,
 /// s_i² = 3/4.
 Slopes SlopeRules::times_tensor(NodeId tensor, const Slopes& flux) {
     const Node node = algebra_[tensor];
+    if (gains_.is_on_model()) return times_model_tensor(node, flux);
     const bool in_space = node.calls(Function::symmetric) && node.operand_count == 6;
     const std::size_t size = in_space ? 3 : 2;
-    const TensorMatrix matrix = tensor_matrix(algebra_, tensor);
     const auto is_of_gradient = [&](const Slope& slope) {
         return slope.own == zero_ && slope.other == zero_;
     };
     const bool is_gradient =
         !gains_.has_metric() && std::all_of(flux.begin(), flux.end(), is_of_gradient);
     Slopes slopes{zero(), zero(), zero()};
+    const TensorMatrix matrix = tensor_matrix(algebra_, tensor, false);
     for (std::size_t axis = 0; axis < size; ++axis) {
         NodeId along = matrix[axis][axis];
         if (in_space) along = algebra_.product(algebra_.number(9.0 / 8), along);

@@ -62,6 +62,7 @@ private:
     Slope of_divergence(const Slopes& flux);
     std::optional<Slopes> of_vector(const Node& node, const IdVector<NodeId, Slopes>& before);
     std::optional<Slopes> of_product(const Node& node, const IdVector<NodeId, Slopes>& before);
+    Slopes times_model_tensor(const Node& tensor, const Slopes& flux);
     Slopes times_tensor(NodeId tensor, const Slopes& flux);
 
     Algebra& algebra_;

@@ -2,6 +2,7 @@
 #include "core/check.h"
 #include "core/palette.h"
 #include "ir/space.h"
+#include "lang/check/check_directions.h"
 #include "lang/check/expression_checker.h"
 #include "lang/program/fold.h"
 #include "lang/vocabulary/words_elsewhere.h"
@@ -37,6 +38,11 @@ std::string number_of_values(Arity arity) {
 }  // namespace
 
 void ExpressionChecker::visit(const ast::Call& call) {
+    if (is_direction_[NodeId(parts_.size() - 1)]) {
+        return take_direction(
+            call.function.text,
+            std::span(script_.arguments).subspan(call.first_argument, call.argument_count));
+    }
     const auto function = function_named(call.function.text);
     if (!function) return unknown_function(call.function);
     if (!info(*function).arity.takes(call.argument_count)) {
@@ -77,6 +83,31 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
         return error(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
     }
     formula_.nodes.back().kind = work_.program.literals->id_of(value);
+}
+
+/// Registers what `along` takes in place of a vector, a direction that the model has.
+void ExpressionChecker::take_direction(std::string_view word,
+                                       std::span<const ast::ExprId> arguments) {
+    const Span span = formula_.nodes.back().span;
+    std::vector<WrittenNumber> numbers;
+    for (const ast::ExprId argument : arguments) {
+        const NodeId part = part_of(argument);
+        if (parts_[part].has_error) parts_.back().has_error = true;
+        if (parts_.back().has_error) return;
+        if (!parts_[part].constant) {
+            return error(formula_.nodes[part].span,
+                         fmt::format("{} takes numbers that are known before the run", word),
+                         "along(vector(ex, ey, ez)) follows what changes");
+        }
+        numbers.push_back({parts_[part].value, formula_.nodes[part].span});
+    }
+    const auto read = direction_of(work_, word, numbers, span, "along({})");
+    if (!read) {
+        parts_.back().has_error = true;
+        return;
+    }
+    formula_.nodes.back().kind = work_.program.literals->id_of(
+        SurfaceValue{Function::along, read->numbers, read->kind, read->smoothing});
 }
 
 /// mean(e over domain), of touching cells, of near ones. Aggregates over an index have been
@@ -164,7 +195,8 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return refuse("a surface is made of numbers, sx, sy and functions of numbers");
     }
     if (context == Context::shape) {
-        const bool is_of_space = row.kind == FunctionKind::geometry || function == Function::vector;
+        const bool is_of_space =
+            (row.kind == FunctionKind::geometry && !varies) || function == Function::vector;
         return is_elementary(function) || is_of_space ||
                refuse("a shape is made of functions of numbers and vectors");
     }
@@ -223,6 +255,11 @@ void ExpressionChecker::apply(Function function, const Operands& operands, std::
         if (parts_[operands[i]].has_error) parts_.back().has_error = true;
     }
     if (parts_.back().has_error) return;
+    if (function == Function::along && is_direction_[operands[0]]) {
+        node.kind = std::exchange(formula_.nodes[operands[0]].kind, 0.0);
+        node.operand_count = 0;
+        return;
+    }
     check_types(node);
     if (parts_.back().has_error) return;
     check_angle(node);

@@ -48,17 +48,13 @@ const DirectionName* direction_named(std::string_view word) {
 }
 
 /// The numbers in brackets; reports an error and returns nothing if one is not constant.
-std::optional<std::vector<double>> numbers_of(Workspace& work, const ast::Script& script,
-                                              std::span<const ast::Expression> arguments) {
-    std::vector<double> numbers;
+std::optional<std::vector<WrittenNumber>> numbers_of(Workspace& work, const ast::Script& script,
+                                                     std::span<const ast::Expression> arguments) {
+    std::vector<WrittenNumber> numbers;
     for (const ast::Expression each : arguments) {
         const auto number = check_constant(work, script, each, "each number of directions");
         if (!number) return std::nullopt;
-        if (!(std::abs(*number) <= largest_number)) {
-            work.diagnostics.error(script.expressions[each.root].span, "this number is too large");
-            return std::nullopt;
-        }
-        numbers.push_back(*number);
+        numbers.push_back({*number, script.expressions[each.root].span});
     }
     return numbers;
 }
@@ -71,31 +67,49 @@ bool has_lengths(std::span<const double> numbers, std::size_t stride) {
     return true;
 }
 
-std::optional<DirectionSettings> read_numbers(Workspace& work, const ast::Script& script,
-                                              std::span<const ast::Expression> arguments,
-                                              const DirectionName& name, DirectionSettings read) {
-    auto numbers = numbers_of(work, script, arguments);
-    if (!numbers) return std::nullopt;
-    const std::size_t stride = name.kind == Kind::keys ? 6 : 3;
-    if (numbers->size() % stride == 1) {
-        read.smoothing = numbers->back();
-        numbers->pop_back();
-        if (read.smoothing < 0) {
-            work.diagnostics.error(script.expressions[arguments.back().root].span,
-                                   "a length of smoothing is not below 0");
-            return std::nullopt;
-        }
-    }
-    if (!has_lengths(*numbers, stride)) {
-        work.diagnostics.error(read.span, "a vector of length 0 has no direction",
-                               fmt::format("directions: {}", name.form));
-        return std::nullopt;
-    }
-    read.numbers = *std::move(numbers);
-    return read;
+}  // namespace
+
+bool names_direction(std::string_view word) {
+    const DirectionName* name = direction_named(word);
+    return name != nullptr && name->kind != Kind::gradient;
 }
 
-}  // namespace
+std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view word,
+                                              std::span<const WrittenNumber> numbers, Span span,
+                                              std::string_view form) {
+    const DirectionName& name = *direction_named(word);
+    const auto refuse = [&](Span at, const char* message, bool shows_form) {
+        work.diagnostics.error(
+            at, message, shows_form ? fmt::format(fmt::runtime(form), name.form) : std::string());
+        return std::nullopt;
+    };
+    const bool may_stand_alone = name.arity.least == 0;
+    if (numbers.empty() ? !may_stand_alone : !name.arity.takes(numbers.size())) {
+        return refuse(span, "this is not how directions are written", true);
+    }
+    DirectionSettings read;
+    read.kind = name.kind;
+    read.smoothing = name.smoothing;
+    read.span = span;
+    for (const WrittenNumber& number : numbers) {
+        if (!(std::abs(number.value) <= largest_number)) {
+            return refuse(number.span, "this number is too large", false);
+        }
+        read.numbers.push_back(number.value);
+    }
+    const std::size_t stride = name.kind == Kind::keys ? 6 : 3;
+    if (numbers.size() % stride == 1) {
+        read.smoothing = read.numbers.back();
+        read.numbers.pop_back();
+        if (read.smoothing < 0) {
+            return refuse(numbers.back().span, "a length of smoothing is not below 0", false);
+        }
+    }
+    if (!has_lengths(read.numbers, stride)) {
+        return refuse(span, "a vector of length 0 has no direction", true);
+    }
+    return read;
+}
 
 std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Script& script,
                                                   const ast::Statement& statement) {
@@ -113,25 +127,20 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
         return std::nullopt;
     }
     const std::vector<ast::Expression> arguments = arguments_of(script, statement.values[0]);
-    const bool may_stand_alone = name->arity.least == 0;
-    if (arguments.empty() ? !may_stand_alone : !name->arity.takes(arguments.size())) {
-        work.diagnostics.error(value.span, "this is not how directions are written",
-                               fmt::format("directions: {}", name->form));
-        return std::nullopt;
-    }
-    DirectionSettings read;
-    read.kind = name->kind;
-    read.smoothing = name->smoothing;
-    read.span = value.span;
-    if (name->kind == Kind::gradient) {
+    if (name->kind == Kind::gradient && arguments.size() == 1) {
         Scope scope;
         scope.context = Context::position;
         auto height = check_number(work, script, arguments[0], scope);
         if (!height) return std::nullopt;
+        DirectionSettings read;
+        read.kind = name->kind;
+        read.span = value.span;
         read.height = std::move(height->formula);
         return read;
     }
-    return read_numbers(work, script, arguments, *name, std::move(read));
+    const auto numbers = numbers_of(work, script, arguments);
+    if (!numbers) return std::nullopt;
+    return direction_of(work, word, *numbers, value.span, "directions: {}");
 }
 
 }  // namespace cascade::checking

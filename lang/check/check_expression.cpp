@@ -2,6 +2,7 @@
 #include "lang/check/expression_checker.h"
 
 #include "lang/calculus/algebra.h"
+#include "lang/check/check_directions.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     const std::uint32_t count = expression_.root - expression_.first + 1;
     formula_.nodes.reserve(count);
     parts_.reserve(count);
-    find_text_places();
+    find_places_of_words();
     bool has_error = false;
     for (const NodeId part : ids_below<NodeId>(count)) {
         formula_.nodes.push_back({0.0, expr(part).span});
@@ -57,16 +58,26 @@ bool ExpressionChecker::put_definitions_in(Formula& formula) {
     return true;
 }
 
-/// Finds the operands that must be strings, the names of palettes and files. A bare word there is a
-/// string without its quotes, not an unknown name. A call that is wrong itself is skipped.
-void ExpressionChecker::find_text_places() {
+/// Finds the operands that must be strings, the names of palettes and files, and those of `along`
+/// that name a direction. A bare word in place of a string is one without its quotes, not an
+/// unknown name. A call that is wrong itself is skipped.
+void ExpressionChecker::find_places_of_words() {
     wants_text_.assign(expression_.root - expression_.first + 1, false);
+    is_direction_ = wants_text_;
     for (ast::ExprId id = expression_.first; id <= expression_.root; ++id) {
         const auto* call = std::get_if<ast::Call>(&script_.expressions[id].node);
         if (call == nullptr) continue;
         const auto function = function_named(call->function.text);
         const std::uint32_t end = call->first_argument + call->argument_count;
-        if (!function || !info(*function).arity.takes(call->argument_count)) {
+        if (function == Function::along && call->argument_count > 0) {
+            const NodeId part = part_of(script_.arguments[call->first_argument]);
+            const auto* const direction = std::get_if<ast::Call>(&expr(part).node);
+            const auto* const name = std::get_if<ast::Name>(&expr(part).node);
+            const std::string_view word = direction != nullptr ? direction->function.text
+                                          : name != nullptr    ? name->name
+                                                               : std::string_view();
+            is_direction_[part] = names_direction(word);
+        } else if (!function || !info(*function).arity.takes(call->argument_count)) {
             for (std::uint32_t k = call->first_argument; k < end; ++k) {
                 const ast::ExprId argument = script_.arguments[k];
                 wants_text_[part_of(argument)] =
@@ -98,6 +109,7 @@ void ExpressionChecker::visit(const ast::Name& name) {
     if (wants_text_[NodeId(parts_.size() - 1)]) {
         return error(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
     }
+    if (is_direction_[NodeId(parts_.size() - 1)]) return take_direction(name.name, {});
     // In a function's body; a parameter of the system that calls it is not meant.
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {
         return error(span, fmt::format("'{}' is known to cells that crawl only", name.name));

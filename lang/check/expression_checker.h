@@ -10,7 +10,9 @@
 #include "lang/check/user_functions.h"
 
 #include <array>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade::checking {
@@ -56,7 +58,8 @@ private:
     bool in_cells() const { return is_of_cells(work_, scope_); }
 
     bool put_definitions_in(Formula& formula);
-    void find_text_places();
+    void find_places_of_words();
+    void take_direction(std::string_view word, std::span<const ast::ExprId> arguments);
     void visit(const ast::Number& number);
     void visit(const ast::Text& text);
     void visit(const ast::Name& name);
@@ -105,7 +108,7 @@ private:
     const Expanded* expanded_ = nullptr;
     Formula formula_;
     IdVector<NodeId, Part> parts_;
-    IdVector<NodeId, bool> wants_text_;
+    IdVector<NodeId, bool> wants_text_, is_direction_;
 };
 
 }  // namespace cascade::checking

@@ -10,10 +10,10 @@ namespace cascade::lowering {
 
 namespace {
 
-bool always(const PassContext&) { return true; }
 bool has_metric(const PassContext& context) { return context.has_metric(); }
 bool is_tissue(const PassContext& context) { return context.is_tissue(); }
 bool is_on_model(const PassContext& context) { return context.has_links() && !context.is_tissue(); }
+bool has_faces(const PassContext& context) { return !context.has_links(); }
 bool has_areas(const PassContext& context) { return context.has_metric() || context.has_links(); }
 bool has_mask(const PassContext& context) { return context.has_mask(); }
 
@@ -33,15 +33,16 @@ constexpr std::array passes{
     // numbers:
     // the operands of `theirs` are in planes.
     PassInfo{"tissue", is_tissue, any_node, lay_on_tissue},
-    // After this pass a tensor's operands are its entries, a11, a12 and a22 or in space a11, a12,
+    // Not on models. After this pass a tensor's operands are its entries, a11, a12 and a22 or in
+    // space a11, a12,
     // a13, a22, a23 and a33; diffuse has two operands, a tensor and the value to differentiate.
-    PassInfo{"tensors", always, is_tensor, write_out_tensors},
+    PassInfo{"tensors", has_faces, is_tensor, write_out_tensors},
     // After this pass lap, grad2 and derivatives along the surface are differences along columns
     // and rows times planes of the metric. Vectors are fluxes through faces, not directions along
     // the surface.
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
     // After this pass there are no limiters but slopes along an axis, in planes of their own.
-    PassInfo{"limiters", always, is_transport, write_out_limiters},
+    PassInfo{"limiters", has_faces, is_transport, write_out_limiters},
     // After this pass places and normals are planes of the model. There are no vectors: the operand
     // of div has become a sum of lap(weight, e).
     PassInfo{"links", is_on_model, is_of_cell, spread_over_links},

@@ -157,6 +157,13 @@ private:
 }  // namespace
 
 std::string text_of(const SurfaceValue& value) {
+    if (value.function == Function::along) {
+        constexpr std::array words{"axis", "gradient", "curvature_high", "curvature_low", "keys"};
+        std::vector<double> numbers = value.numbers;
+        if (value.direction != DirectionSettings::Kind::axis) numbers.push_back(value.smoothing);
+        return fmt::format("along({}({}))", words[static_cast<std::size_t>(value.direction)],
+                           fmt::join(numbers, ", "));
+    }
     return fmt::format("{}({})", info(value.function).spelling, fmt::join(value.numbers, ", "));
 }
 

@@ -11,13 +11,60 @@ namespace cascade {
 namespace {
 
 constexpr std::array first_derivatives{Function::dx, Function::dy, Function::dz};
+constexpr std::array right_planes{ModelPlane::right_x, ModelPlane::right_y, ModelPlane::right_z};
+constexpr std::array down_planes{ModelPlane::down_x, ModelPlane::down_y, ModelPlane::down_z};
 
 }  // namespace
 
-TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor) {
+ModelTensor model_tensor(ExpressionGraph& graph, NodeId tensor) {
+    // Enough of the mean for links to damp the shortest waves along a direction across which
+    // nothing spreads.
+    constexpr double least_part = 1.0 / 32;
+    const auto [a1, a2, theta, d, e, f] = graph[tensor].operands;
+    const auto call = [&](Function function, std::initializer_list<NodeId> operands) {
+        return graph.call(function, operands);
+    };
+    const NodeId first = call(Function::multiply, {a1, a1});
+    const NodeId second = call(Function::multiply, {a2, a2});
+    const NodeId half = graph.number(0.5);
+    const NodeId mean = call(Function::multiply, {half, call(Function::add, {first, second})});
+    const NodeId written =
+        call(Function::multiply, {half, call(Function::subtract, {first, second})});
+    const NodeId most = call(Function::multiply, {graph.leaf(ModelPlane::evenness), mean});
+    const NodeId apart =
+        call(Function::max, {call(Function::negate, {most}), call(Function::min, {written, most})});
+    const NodeId below =
+        call(Function::multiply, {graph.number(1 - 2 * least_part), call(Function::abs, {apart})});
+    ModelTensor result;
+    result.low = call(Function::subtract, {mean, below});
+    result.rest = call(Function::subtract, {below, apart});
+    result.along = call(Function::multiply, {graph.number(2), apart});
+    const NodeId cosine = call(Function::cos, {theta}), sine = call(Function::sin, {theta});
+    for (std::size_t k = 0; k < 3; ++k) {
+        result.t[k] =
+            call(Function::add, {call(Function::multiply, {cosine, graph.leaf(right_planes[k])}),
+                                 call(Function::multiply, {sine, graph.leaf(down_planes[k])})});
+    }
+    return result;
+}
+
+TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor, bool on_model) {
     const Node node = graph[tensor];
     const NodeId zero = graph.number(0);
     const auto& a = node.operands;
+    if (on_model) {
+        const ModelTensor of = model_tensor(graph, tensor);
+        const NodeId across = graph.call(Function::add, {of.low, of.rest});
+        TensorMatrix matrix;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const NodeId part = graph.call(Function::multiply, {of.along, of.t[i]});
+            for (std::size_t j = 0; j < 3; ++j) {
+                const NodeId entry = graph.call(Function::multiply, {part, of.t[j]});
+                matrix[i][j] = i == j ? graph.call(Function::add, {across, entry}) : entry;
+            }
+        }
+        return matrix;
+    }
     if (node.calls(Function::symmetric) && node.operand_count == 6) {
         return {{{a[0], a[1], a[2]}, {a[1], a[3], a[4]}, {a[2], a[4], a[5]}}};
     }
@@ -31,7 +78,7 @@ std::optional<FieldSpace> FieldSpace::of(const Program& program, const System& s
     if (system.cells) return std::nullopt;
     const DomainSettings& domain = program.domain;
     const bool has_metric = domain.surface && domain.surface->has_metric;
-    if (domain.model) return FieldSpace{{true, true, true}, false};
+    if (domain.model) return FieldSpace{{true, true, true}, false, true};
     const Stencil stencil = domain.grid.stencil();
     return FieldSpace{{stencil.x, stencil.y, stencil.z}, has_metric};
 }
@@ -81,6 +128,13 @@ std::optional<NodeId> FieldVectors::written_out(const Node& node) {
             return vector_of({part(1, 2), part(2, 0), part(0, 1)});
         }
         case Function::curl: return curl(node);
+        case Function::along: return angle(a);
+        case Function::diffuse: {
+            if (!space_.on_model) return std::nullopt;
+            const NodeId tensor = graph_.call(Function::tensor, {b, c, d}, ValueType::tensor);
+            const NodeId gradient = vector_call(Function::grad, {a});
+            return call(Function::div, {vector_call(Function::multiply, {tensor, gradient})});
+        }
         case Function::if_:
         case Function::mix:
             if (node.type != ValueType::vector) return std::nullopt;
@@ -129,6 +183,18 @@ NodeId FieldVectors::curl(const Node& node) {
     return vector_of({part(1, 2), part(2, 0), part(0, 1)});
 }
 
+/// From the first direction towards the second. On a model these are two directions of each cell.
+NodeId FieldVectors::angle(NodeId vector) {
+    const Components v = components(vector);
+    if (!space_.on_model) return call(Function::atan2, {v[1], v[0]});
+    NodeId right = zero(), down = zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+        right = sum(right, product(v[k], graph_.leaf(right_planes[k])));
+        down = sum(down, product(v[k], graph_.leaf(down_planes[k])));
+    }
+    return call(Function::atan2, {down, right});
+}
+
 /// if(c, v, w) or mix(v, w, t). In a cell `if` takes the components of one of both, unchanged.
 NodeId FieldVectors::choice(const Node& node) {
     const auto& [a, b, c, d, e, f] = node.operands;
@@ -170,7 +236,7 @@ std::optional<NodeId> FieldVectors::of_tensors(const Node& node) {
     std::array<TensorMatrix, 2> matrices{};
     for (std::size_t n = 0; n < node.operand_count; ++n) {
         const NodeId operand = node.operands[n];
-        if (is_tensor(operand)) matrices[n] = tensor_matrix(graph_, operand);
+        if (is_tensor(operand)) matrices[n] = tensor_matrix(graph_, operand, false);
     }
     const auto entry = [&](std::size_t i, std::size_t j) {
         const auto of = [&](std::size_t n) {
@@ -253,7 +319,7 @@ FieldVectors::Components FieldVectors::components_of(const Node& node) {
         default: CHECK(false, "every vector has components");
     }
     if (graph_[a].type == ValueType::tensor) {
-        const TensorMatrix matrix = tensor_matrix(graph_, a);
+        const TensorMatrix matrix = tensor_matrix(graph_, a, space_.on_model);
         return each([&](std::size_t i) {
             NodeId part = zero();
             for (std::size_t j = 0; j < 3; ++j) part = sum(part, product(matrix[i][j], of(b, j)));

@@ -9,8 +9,10 @@
 //   cross, curl                                        become vector(…) of such numbers;
 //   unit(v)                                            becomes (1 / length(v)) * v;
 //   if(c, v, w)                                        becomes if(c, 1, 0) * v + if(c, 0, 1) * w;
-//   mix(v, w, t)                                       becomes v + t * (w - v).
+//   mix(v, w, t)                                       becomes v + t * (w - v);
+//   along(v)                                           becomes an arc tangent of components.
 //
+// On a model diffuse(e, a1, a2, theta) becomes div(tensor(a1, a2, theta) * grad(e)).
 // Sums, differences and multiples of tensors become symmetric(…) of their entries.
 #pragma once
 
@@ -25,13 +27,25 @@ namespace cascade {
 /// The entries of a symmetric tensor, by row and column.
 using TensorMatrix = std::array<std::array<NodeId, 3>, 3>;
 /// The matrix of a node tensor(a1, a2, theta) or symmetric(…). Entries of z of a tensor of the
-/// plane are 0.
-TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor);
+/// plane are 0. On a model it is that of ModelTensor, in space.
+TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor, bool on_model);
+
+/// A node tensor(a1, a2, theta) in a cell of a model: T v = low v + (rest v + along (t · v) t) for
+/// a vector v in the cell's plane, t being the direction theta. Links carry low v, which damps
+/// waves of all directions, and cells the rest. a1² and a2² are brought nearer to their mean where
+/// the neighbours of a cell are spread so unevenly that the rest could make waves grow
+/// (surface/cell_frames.h).
+struct ModelTensor {
+    NodeId low, rest, along;
+    std::array<NodeId, 3> t;
+};
+ModelTensor model_tensor(ExpressionGraph& graph, NodeId tensor);
 
 /// The directions in which the cells of a system of fields have neighbours.
 struct FieldSpace {
     std::array<bool, 3> has_axis{};
     bool has_metric = false;  ///< On a surface of a formula: x and y are directions along it.
+    bool on_model = false;
 
     /// Nothing for a system of cells that crawl, whose vectors lowering takes apart itself.
     static std::optional<FieldSpace> of(const Program& program, const System& system);
@@ -59,6 +73,7 @@ private:
     NodeId dot(NodeId a, NodeId b);
     NodeId length(NodeId vector);
     NodeId curl(const Node& node);
+    NodeId angle(NodeId vector);
     NodeId choice(const Node& node);
     std::optional<NodeId> of_tensors(const Node& node);
     NodeId carried(const Node& node);

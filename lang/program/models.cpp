@@ -21,9 +21,9 @@ std::string_view reason_against(Function function) {
         case Function::transport:
             return "it needs columns and rows; "
                    "dot(v, grad(e)) is advection by central differences";
-        case Function::diffuse:
-        case Function::tensor:
         case Function::symmetric:
+            return "tensor(a1, a2, theta) has a meaning there, with theta along(grad(v)) or "
+                   "along(axis(0, 1, 0))";
         case Function::curl: return "it needs columns and rows, which a model does not have";
         case Function::field:
             return "a model has no rows and columns; "
@@ -43,8 +43,8 @@ std::optional<Function> of_model_only(const Program& program, const Node& node) 
     return std::nullopt;
 }
 
-/// Finds the vectors that are not sums of gradients times numbers: the flow through a link of a
-/// model is not known for them.
+/// Finds the vectors that are not sums of gradients times numbers: the flow through a link of
+/// stretched cells is not known for them.
 class LooseVectors {
 public:
     /// A system's definitions come after those that they read.
@@ -71,24 +71,39 @@ private:
     IdVector<DefinitionId, bool> definitions_;
 };
 
-bool has_meaning_on_model(const LooseVectors& loose, const Formula& formula,
+bool has_meaning_on_model(const Program& program, const LooseVectors& loose, const Formula& formula,
                           Diagnostics& diagnostics) {
     bool has_meaning = true;
+    const auto refuse = [&](Span span, std::string message, std::string hint) {
+        has_meaning = false;
+        diagnostics.error(span, std::move(message), std::move(hint));
+    };
+    const bool is_stretched = program.domain.model->directions.has_value();
     const auto is_loose = loose.in(formula);
     for (const Node& node : formula.nodes) {
         if (!node.is<Call>()) continue;
-        if (node.calls(Function::div) && is_loose[node.operands[0]]) {
-            has_meaning = false;
-            diagnostics.error(formula.nodes[node.operands[0]].span,
-                              "div of this vector has no meaning on a model",
-                              "a flux on a model is made of gradients, as in div(a * grad(e))");
+        if (is_stretched && node.calls(Function::div) && is_loose[node.operands[0]]) {
+            refuse(formula.nodes[node.operands[0]].span,
+                   "div of this vector has no meaning on stretched cells",
+                   "the domain has 'directions'; a flux there is made of gradients: "
+                   "div(a * grad(e))");
+        }
+        const bool is_directed = node.calls(Function::diffuse) || node.calls(Function::tensor);
+        if (is_stretched && is_directed) {
+            refuse(node.span,
+                   fmt::format("{} cannot be used on stretched cells",
+                               info(node.function).spelling),
+                   "the domain has 'directions', in which all species spread");
+        }
+        if (node.type == ValueType::tensor &&
+            info(node.function).kind == FunctionKind::arithmetic) {
+            refuse(node.span, "a tensor on a model is no part of a sum or a product of tensors",
+                   "its rates may be formulas: tensor(a1, a2, theta)");
         }
         const std::string_view reason = reason_against(node.function);
         if (reason.empty()) continue;
-        has_meaning = false;
-        diagnostics.error(node.span,
-                          fmt::format("{} cannot be used on a model", info(node.function).spelling),
-                          std::string(reason));
+        refuse(node.span, fmt::format("{} cannot be used on a model", info(node.function).spelling),
+               std::string(reason));
     }
     return has_meaning;
 }
@@ -100,9 +115,13 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula,
         const auto function = of_model_only(program, node);
         if (!function) continue;
         has_meaning = false;
+        const bool is_angle = *function == Function::along;
         diagnostics.error(node.span,
-                          fmt::format("{} has a meaning on models only", info(*function).spelling),
-                          "domain { mesh: \"horse.ply\" } or { surface: creature } is one");
+                          fmt::format("{} has a meaning on models only",
+                                      is_angle ? "this direction" : info(*function).spelling),
+                          is_angle
+                              ? "along(vector(1, 1)) and along(grad(e)) are angles of a plane, too"
+                              : "domain { mesh: \"horse.ply\" } or { surface: creature } is one");
     }
     return has_meaning;
 }
@@ -195,7 +214,8 @@ bool has_meaning_on_domain(const Program& program, const Formula& formula, const
                            Diagnostics& diagnostics) {
     if (!program.domain.model) return has_meaning_on_plane(program, formula, diagnostics);
     // Functions that cells do not have are refused where they are written.
-    return system.cells || has_meaning_on_model(LooseVectors(system), formula, diagnostics);
+    return system.cells ||
+           has_meaning_on_model(program, LooseVectors(system), formula, diagnostics);
 }
 
 bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics) {
@@ -208,7 +228,7 @@ bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics) {
         } else if (!system.cells) {
             if (known != &system) loose.emplace(system);
             known = &system;
-            has_meaning &= has_meaning_on_model(*loose, formula, diagnostics);
+            has_meaning &= has_meaning_on_model(program, *loose, formula, diagnostics);
         }
     });
     return has_meaning;

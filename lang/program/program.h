@@ -50,17 +50,22 @@ enum class ModelPlane : std::uint8_t {
     // Computed when they are first read (run/domain/surface_values.h).
     curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
     curvature_gauss,                                ///< In 1 / unit².
+    right_x, right_y, right_z,  ///< Where the angle 0 points, of length 1 (surface/cell_frames.h),
+    down_x, down_y, down_z,     ///< and a quarter turn.
+    evenness,                   ///< By which the ratio of a directed diffusion is limited, 0 … 1.
+    place_x, place_y, place_z,  ///< The cell's place in units, from the middle of the model's box.
     // Of cells that crawl only, in lengths of scripts.
     off,      ///< The signed distance from the surface, positive on the side of the normal.
     feature,  ///< The square root of the area of the nearest triangle.
 };
 // clang-format on
-inline constexpr std::size_t model_plane_count = 18;
+inline constexpr std::size_t model_plane_count = 28;
 // clang-format off
 inline constexpr std::array<std::string_view, model_plane_count> model_names{
     "(number)", "(area)", "(x)", "(y)", "(z)", "(sx)", "(sy)", "(sz)", "(nx)", "(ny)", "(nz)",
     "(curvature)", "(curvature_mean)", "(curvature_high)", "(curvature_low)", "(curvature_gauss)",
-    "(off)", "(feature)"};
+    "(right_x)", "(right_y)", "(right_z)", "(down_x)", "(down_y)", "(down_z)", "(evenness)",
+    "(place_x)", "(place_y)", "(place_z)", "(off)", "(feature)"};
 // clang-format on
 /// Is the plane only made for formulas that read it?
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
@@ -435,11 +440,14 @@ struct ModelSettings {
     Span span;           ///< Of the name of the model.
 };
 
-/// Values of a model's cells that come from places on it: distance(…) and keys(…) with constant
-/// arguments.
+/// Values of a model's cells that come from places on it: distance(…), keys(…) and along(…) with
+/// constant arguments.
 struct SurfaceValue {
     Function function = Function::distance;
-    std::vector<double> numbers;  ///< As written.
+    std::vector<double> numbers;  ///< As written; of along(…) those of DirectionSettings.
+    // Of along(…):
+    DirectionSettings::Kind direction = DirectionSettings::Kind::axis;
+    double smoothing = 0;
 
     friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
 };

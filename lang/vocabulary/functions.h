@@ -118,7 +118,9 @@ inline bool differentiates(Function function) {
 /// True if the value varies by cell, for some operands or for all.
 inline bool varies_by_cell(Function function) {
     const FunctionKind kind = info(function).kind;
-    return kind >= FunctionKind::derivative && kind <= FunctionKind::landmarks;
+    // An angle is measured from a direction that differs from cell to cell.
+    return (kind >= FunctionKind::derivative && kind <= FunctionKind::landmarks) ||
+           function == Function::along;
 }
 /// True if it reads what a string names (a file, an attribute of a model), which is stored in a
 /// plane of its own.

@@ -60,16 +60,19 @@ std::vector<Vector3d> lines_of(const DirectionSettings& settings, const SurfaceM
 
 }  // namespace
 
+std::vector<Vector3d> direction_lines(const DirectionSettings& settings, const SurfaceMesh& mesh,
+                                      Team& team, const std::atomic<bool>& cancel) {
+    const TangentPlanes planes = planes_of_triangles(mesh);
+    std::vector<Vector3d> found = lines_of(settings, mesh, planes, cancel);
+    if (!(settings.smoothing > 0) || cancel) return found;
+    const double length = settings.smoothing * ModelBox(mesh).longest;
+    return smoothed_directions(planes, found, lines, length, team, cancel);
+}
+
 Anisotropy anisotropy_of(const DirectionSettings& settings, double stretch, const SurfaceMesh& mesh,
                          Team& team, const std::atomic<bool>& cancel) {
-    const TangentPlanes planes = planes_of_triangles(mesh);
     Anisotropy anisotropy;
-    anisotropy.direction = lines_of(settings, mesh, planes, cancel);
-    if (settings.smoothing > 0 && !cancel) {
-        const double length = settings.smoothing * ModelBox(mesh).longest;
-        anisotropy.direction =
-            smoothed_directions(planes, anisotropy.direction, lines, length, team, cancel);
-    }
+    anisotropy.direction = direction_lines(settings, mesh, team, cancel);
     anisotropy.ratio.assign(mesh.triangles.size(), stretch);
     return anisotropy;
 }

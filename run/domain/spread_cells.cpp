@@ -11,6 +11,7 @@
 #include "run/domain/model_directions.h"
 #include "surface/cell_file.h"
 #include "surface/cell_order.h"
+#include "surface/conduction.h"
 #include "surface/curvature.h"
 #include "surface/make_cells.h"
 #include "surface/place_values.h"
@@ -19,40 +20,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
 namespace cascade {
 
 namespace {
-
-// A cell smaller than this part of the mean counts as this large, because steps would have to be
-// just as short.
-constexpr double least_area = 1e-3;
-// A few in some thousand spread cells are so tight that the sum of their links' weights exceeds
-// this over the mean area. They count as larger, so that they do not shorten the steps of all
-// cells. Regular hexagons have 3.46.
-constexpr double most_weight = 7.5;
-// Faces and points of a mesh may all be tighter than that; of them only this part is loosened.
-constexpr double tightest_part = 1e-3;
-
-/// The largest number c for which the sum of min(w, c) over the weights is at most `sum`.
-double cap_for(std::vector<double> weights, double sum) {
-    std::sort(weights.begin(), weights.end());
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-        const double cap = sum / static_cast<double>(weights.size() - k);
-        if (weights[k] > cap) return cap;
-        sum -= weights[k];
-    }
-    return std::numeric_limits<double>::infinity();
-}
-
-/// What cells and Voronoi edges count as in steps.
-struct Conduction {
-    std::vector<double> areas;  ///< By cell, in square units.
-    std::vector<double> flows;  ///< By edge: its weight, never below 0.
-};
 
 /// Weights of a Laplacian in units, one for each Voronoi edge.
 std::vector<double> weights_of(const SurfaceCells& cells, ModelLaplacian laplacian,
@@ -133,13 +106,8 @@ public:
         const double total = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
         const double mean = total / static_cast<double>(count());
         made_.unit = settings_.unit.value_or(std::sqrt(mean));
-        Conduction conduction{cells.areas, {}};
-        for (double& area : conduction.areas) {
-            area = std::max(area, least_area * mean) / (made_.unit * made_.unit);
-        }
-        for (const VoronoiEdge& edge : cells.edges)
-            conduction.flows.push_back(edge.distance > 0 ? edge.weight() : 0);
-        loosen_tight_cells(conduction);
+        const bool are_spread = settings_.cells == ModelCellKind::spread;
+        const Conduction conduction = conduction_of(cells, are_spread, made_.unit);
         link_cells(weights_of(cells, settings_.laplacian, conduction, made_.unit, mean));
         make_planes(conduction.areas);
         return std::move(made_);
@@ -147,64 +115,6 @@ public:
 
 private:
     std::size_t count() const { return made_.cells.places.size(); }
-
-    std::span<const double> flows_of(const Conduction& conduction, std::size_t cell) const {
-        const auto edges = made_.cells.edges_of(cell);
-        const auto first = static_cast<std::size_t>(edges.data() - made_.cells.edges.data());
-        return {conduction.flows.data() + first, edges.size()};
-    }
-
-    /// Spread cells are made larger. Of faces and points, which may be slivers, single edges may
-    /// conduct a hundred times as much as those of other cells; these are limited first.
-    void loosen_tight_cells(Conduction& conduction) const {
-        std::vector<double>& areas = conduction.areas;
-        const double mean =
-            std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
-        std::vector<double> sums(areas.size());
-        for (std::size_t cell = 0; cell < areas.size(); ++cell) {
-            for (const double flow : flows_of(conduction, cell)) sums[cell] += flow;
-        }
-        double most = most_weight;
-        if (settings_.cells != ModelCellKind::spread) {
-            most = std::max(most, usual_most(sums, areas, mean));
-            cap_tight_edges(conduction, sums, most / mean);
-        }
-        for (std::size_t cell = 0; cell < areas.size(); ++cell)
-            areas[cell] = std::max(areas[cell], sums[cell] * mean / most);
-    }
-
-    /// What the sum of weights over the area, relative to the mean, is at most in nearly all cells.
-    static double usual_most(const std::vector<double>& sums, const std::vector<double>& areas,
-                             double mean) {
-        std::vector<double> relative;
-        for (std::size_t cell = 0; cell < areas.size(); ++cell)
-            relative.push_back(sums[cell] * mean / areas[cell]);
-        const auto tight =
-            static_cast<std::ptrdiff_t>(tightest_part * static_cast<double>(areas.size()));
-        const auto limit = relative.end() - 1 - tight;
-        std::nth_element(relative.begin(), limit, relative.end());
-        return *limit;
-    }
-
-    /// Limits what the edges of cells with more than `most` times their area as the sum of their
-    /// weights conduct, until the sum is that or `most_weight`. Both cells of an edge see the same.
-    void cap_tight_edges(Conduction& conduction, std::vector<double>& sums, double most) const {
-        std::vector<double> caps(sums.size(), std::numeric_limits<double>::infinity());
-        for (std::size_t cell = 0; cell < caps.size(); ++cell) {
-            const double sum = std::max(most * conduction.areas[cell], most_weight);
-            const auto flows = flows_of(conduction, cell);
-            if (sums[cell] > sum) caps[cell] = cap_for({flows.begin(), flows.end()}, sum);
-        }
-        std::size_t edge = 0;
-        for (std::size_t cell = 0; cell < caps.size(); ++cell) {
-            sums[cell] = 0;
-            for (; edge < made_.cells.ends[cell]; ++edge) {
-                double& flow = conduction.flows[edge];
-                flow = std::min({flow, caps[cell], caps[made_.cells.edges[edge].neighbour]});
-                sums[cell] += flow;
-            }
-        }
-    }
 
     void link_cells(std::vector<double> weights) {
         const SurfaceCells& cells = made_.cells;

@@ -3,6 +3,9 @@
 
 #include "core/near_name.h"
 #include "lang/program/models.h"
+#include "run/domain/cell_planes.h"
+#include "run/domain/model_directions.h"
+#include "surface/cell_frames.h"
 #include "surface/curvature.h"
 #include "surface/distance.h"
 #include "surface/key_positions.h"
@@ -148,9 +151,10 @@ const SurfaceValues::Kept& SurfaceValues::made(SurfaceValueId id, double reach,
     if (known != values_.end() && known->second.reach >= reach) return known->second;
     const SurfaceValue& value = program_.literals->surface_value(id);
     if (value.function != Function::distance) reach = std::numeric_limits<double>::infinity();
-    const std::vector<double> found = value.function == Function::distance
-                                          ? distances(value.numbers, reach, cancel)
-                                          : key_values(model_, value.numbers, team_, cancel);
+    const std::vector<double> found =
+        value.function == Function::distance ? distances(value.numbers, reach, cancel)
+        : value.function == Function::along  ? angles(value, cancel)
+                                             : key_values(model_, value.numbers, team_, cancel);
     Kept& kept = values_[id];
     kept.field = field_of_cells(found, model_, program_.domain.precision);
     kept.reach = reach;
@@ -202,7 +206,9 @@ const Field& SurfaceValues::value(SurfaceValueId id) {
 }
 
 const Field& SurfaceValues::plane(ModelPlane plane) {
-    if (planes_.empty()) make_curvatures();
+    if (!planes_.contains(plane)) {
+        plane >= ModelPlane::right_x ? make_directions() : make_curvatures();
+    }
     return planes_.at(plane);
 }
 
@@ -224,6 +230,51 @@ void SurfaceValues::make_curvatures() {
     planes_[ModelPlane::curvature_high] = in_cells(found.high, unit);
     planes_[ModelPlane::curvature_low] = in_cells(found.low, unit);
     planes_[ModelPlane::curvature_gauss] = in_cells(gauss, unit * unit);
+}
+
+void SurfaceValues::make_directions() {
+    const SpreadCells& spread = model_.spread();
+    const SurfaceCells& cells = spread.cells;
+    const bool are_spread = program_.domain.model->cells == ModelCellKind::spread;
+    const CellFrames frames = cell_frames(model_.mesh, cells);
+    const auto put = [&](ModelPlane plane, const auto& value) {
+        planes_[plane] = plane_of_cells(model_.grid(), spread.order, program_.domain.precision,
+                                        [&](std::size_t cell, bool) { return value(cell); });
+    };
+    put(ModelPlane::right_x, [&](std::size_t k) { return frames.right[k].x; });
+    put(ModelPlane::right_y, [&](std::size_t k) { return frames.right[k].y; });
+    put(ModelPlane::right_z, [&](std::size_t k) { return frames.right[k].z; });
+    put(ModelPlane::down_x, [&](std::size_t k) { return frames.down[k].x; });
+    put(ModelPlane::down_y, [&](std::size_t k) { return frames.down[k].y; });
+    put(ModelPlane::down_z, [&](std::size_t k) { return frames.down[k].z; });
+    const std::vector<double> evenness =
+        evenness_of_cells(model_.mesh, cells, frames, conduction_of(cells, are_spread, spread.unit),
+                          team_, never);
+    put(ModelPlane::evenness, [&](std::size_t k) { return evenness[k]; });
+    const SurfaceMesh::Box box = model_.mesh.box();
+    const Vector3d middle = (box.low + box.high) * 0.5;
+    std::vector<Vector3d> places;
+    for (const SurfacePlace& place : cells.places)
+        places.push_back((position_of(model_.mesh, place) - middle) * (1 / spread.unit));
+    put(ModelPlane::place_x, [&](std::size_t k) { return places[k].x; });
+    put(ModelPlane::place_y, [&](std::size_t k) { return places[k].y; });
+    put(ModelPlane::place_z, [&](std::size_t k) { return places[k].z; });
+}
+
+/// The angles of a direction field in the frames of cells.
+std::vector<double> SurfaceValues::angles(const SurfaceValue& value,
+                                          const std::atomic<bool>& cancel) {
+    const SurfaceCells& cells = model_.spread().cells;
+    const DirectionSettings settings{
+        value.direction, value.numbers, std::nullopt, value.smoothing, {}};
+    const std::vector<Vector3d> lines = direction_lines(settings, model_.mesh, team_, cancel);
+    const CellFrames frames = cell_frames(model_.mesh, cells);
+    std::vector<double> found;
+    for (std::size_t cell = 0; cell < cells.places.size(); ++cell) {
+        const Vector3d line = lines[cells.places[cell].triangle];
+        found.push_back(std::atan2(dot(line, frames.down[cell]), dot(line, frames.right[cell])));
+    }
+    return found;
 }
 
 Result<const PointAttribute*> find_attribute(const std::string& name, const SurfaceMesh& mesh) {

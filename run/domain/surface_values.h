@@ -1,5 +1,5 @@
 // Values of a model's cells that come from places on its surface: distances, values of keys,
-// curvatures, and attributes of its points and its texture.
+// curvatures, directions, and attributes of its points and its texture.
 #pragma once
 
 #include "core/parallel.h"
@@ -63,6 +63,8 @@ private:
     std::vector<double> distances(std::span<const double> places, double reach,
                                   const std::atomic<bool>& cancel);
     void make_curvatures();
+    void make_directions();
+    std::vector<double> angles(const SurfaceValue& value, const std::atomic<bool>& cancel);
     Field in_cells(const std::vector<double>& of_points, double factor) const;
 
     const Program& program_;

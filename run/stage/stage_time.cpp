@@ -122,6 +122,8 @@ std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) 
         const Formula* const formulas[] = {&bound->whole, &bound->reaction};
         const std::vector<double> bounds = tools_.numbers(formulas)();
         decay = bounds[0] - bounds[1];
+    } else {
+        decay = tools_.estimate();  // As of a direction that turns with a species.
     }
     if (!std::isfinite(decay)) return state_.time.stages;
     const double parts = std::ceil(speed_ * decay / (2 * safety));

@@ -186,8 +186,6 @@ inline constexpr HintCase hint_cases[] = {
      "left: fixed(0); right: noflux"},
     {"bent", "div(tensor(1, 2, 0) * (tensor(1, 2, 0) * grad(u)))", "make one tensor of the two",
      "div(tensor(1, 4, 0) * grad(u))"},
-    {"model", "div(vector(u, 0, 0))",
-     "a flux on a model is made of gradients, as in div(a * grad(e))", "div(u * grad(u))"},
     {"domain", "mesh: sphere", "write surface: sphere", "surface: sphere"},
 
     // Cells that crawl.
