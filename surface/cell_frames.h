@@ -18,20 +18,22 @@ struct CellFrames {
 };
 CellFrames cell_frames(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
-/// How far, from 0 to 1, diffusion may differ along and across a direction in each cell, as (a - b)
-/// / (a + b) of its rates a and b, so that no wave grows. `frames` are those of the cells.
+/// How far, from 0 to 1, diffusion may differ along and across a direction in each cell, as
+/// |a − b| / (a + b) of its rates a and b, so that no wave grows. `frames` are those of the cells.
 ///
-/// A flow F in cells, A times the gradient of u by least squares, leaves cell i by
-/// Σ w_ij (F_i + F_j) / 2 · c_ij, with the straight lines c_ij to its neighbours. Were the gradient
-/// G the adjoint of that, the energy Σ F · G could not fall below 0. It differs by what the cell's
-/// neighbours at r_ij and the lines differ. With M = Σ l/|r| r rᵀ, the links carrying the mean m of
-/// the rates and the cells the rest, ± a − m along and across, the energy of cell i is at least
+/// Links carry the smaller rate. The rest flows by F, in cells a matrix times G, the gradient by
+/// least squares; of F, Σ w_ij (F_i + F_j) / 2 · c_ij leaves cell i, where c_ij are the straight
+/// lines to its neighbours. If G were the adjoint of this, Σ F · G would be an energy that falls.
+/// It is another fit of the same differences: with M = Σ v r_jᵀ, v = l r_j / |r_j|, of the
+/// neighbours at r_j, unfolded, G is the inverse of M times Σ v (u_j − u_i). In the metric of that
+/// inverse the rest of a cell takes at least
 ///
-///     m/2 Σ w (u_j − u_i)² (1 − (a − m)/m (1/√(1 − σ²) + 2 √κ μ)),
+///     −½ |a − b|/2 (1/√(1 − σ²) + 2 √κ μ) Σ w (u_j − u_i)²
 ///
-/// where κ is the ratio of the eigenvalues of M, σ = (κ − 1) / (κ + 1), and
-/// μ² = Σ |w c − l/|r| r|² / w in the metric of the inverse of M. Of regular hexagons in a plane σ
-/// and μ are 0. Spread cells of a smooth surface have 0.95 and more, slivers next to nothing.
+/// from the energy ½ (a + b)/2 Σ w (u_j − u_i)² of the mean rate, where κ is the ratio of the
+/// eigenvalues of M, σ = (κ − 1) / (κ + 1), and μ² = Σ |w c − v|² / w. Evenness is one over that
+/// bracket: 1 in regular hexagons of a plane, 0.9 and more in most spread cells of smooth surfaces,
+/// less beside sharp edges, and next to nothing in slivers.
 std::vector<double> evenness_of_cells(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                       const CellFrames& frames, const Conduction& conduction,
                                       Team& team, const std::atomic<bool>& cancel);

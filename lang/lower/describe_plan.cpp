@@ -17,14 +17,14 @@ namespace {
 constexpr NodeId longest_shown{60};
 
 /// Nodes that the script does not contain: entries of a tensor, and the parts of operators on a
-/// surface.
+/// surface or a model.
 std::string describe_made(const PlanGraph& graph, const Node& node) {
     if (graph.context().is_tissue()) return "a component of a vector";
     const bool is_sine = node.calls(Function::sin);
     if ((is_sine || node.calls(Function::cos)) && graph.origin(node.operands[0]) != nullptr) {
         return fmt::format("the {} of a direction", is_sine ? "sine" : "cosine");
     }
-    return "an entry of a tensor";
+    return graph.is_linked() ? "a part of a flow" : "an entry of a tensor";
 }
 
 /// The text of a node, or its name.

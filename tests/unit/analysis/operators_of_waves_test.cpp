@@ -108,6 +108,11 @@ TEST(OperatorsOfWaves, RatesThatDependOnPlacesAreRefused) {
     EXPECT_EQ(refusal_of(
                   "system s { u: 0; u' = disc(0.5, 0.5, 0.1) - u }\nstage a: s { iterations: 1 }"),
               "'disc' in its rates differs from place to place, so that no state is flat");
+    EXPECT_EQ(refusal_of("domain { surface: sphere }\n"
+                         "system s { u: 0; u' = diffuse(u, 2, 1, 0) - u }\n"
+                         "stage a: s { iterations: 1 }"),
+              "on a model it spreads in a direction, so that waves of one length decay at "
+              "different rates");
 }
 
 TEST(OperatorsOfWaves, WordsNameStateAndWaves) {

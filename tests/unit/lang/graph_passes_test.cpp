@@ -54,6 +54,15 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
+TEST(GraphPasses, OnAModelNoTensorIsLeft) {
+    const auto steps =
+        step_of(sphere,
+                "diffuse(u, 2, k, along(grad(u))) + div(tensor(k, 1, x) * vector(u, 1, 0))");
+    EXPECT_EQ(steps.count("tensors"), 0u);
+    EXPECT_NE(steps.at("flatten").find("tensor("), std::string::npos);
+    EXPECT_NE(steps.at("links").find("(place_x)"), std::string::npos) << steps.at("links");
+}
+
 TEST(GraphPasses, EveryGraphOfTheLibraryIsWhole) {
     std::size_t count = 0;
     for (const auto& file :

@@ -33,7 +33,6 @@ const std::map<std::string_view, std::string_view> frames{
     {"domain", "domain { @ }\nsystem s { u: 1; u' = 0 }\nstage a: s { }\n"},
     {"picture", "picture { @ }\nsystem s { u: 1; u' = 0 }\nstage a: s { }\n"},
     {"bent", "domain { surface: sx, sy, 0 }\nsystem s { u: 1; u' = @ }\nstage a: s { }\n"},
-    {"model", "domain { surface: sphere }\nsystem s { u: 1; u' = @ }\nstage a: s { }\n"},
     {"shape", "shape s { @ }\nsystem r { u: 1; u' = 0 }\nstage a: r { }\n"},
     {"cells", "cells c { a: 1; b: 1; a' = b\n@\n}\n"},
     {"tissue",
