@@ -116,7 +116,9 @@ private:
             const std::string_view name = row.spelling.substr(0, row.spelling.find(' '));
             return fmt::format("{}({} over domain)", name, expression(place, depth - 1));
         }
-        if (row.spelling == "div") return fmt::format("div({})", flux(place, depth - 1));
+        if (row.spelling == "div" || row.spelling == "along") {
+            return fmt::format("{}({})", row.spelling, flux(place, depth - 1));
+        }
         if (row.spelling == "dot") {
             return fmt::format("dot({}, {})", flux(place, depth - 1), flux(place, depth - 1));
         }
