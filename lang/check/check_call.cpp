@@ -2,7 +2,6 @@
 #include "core/check.h"
 #include "core/palette.h"
 #include "ir/space.h"
-#include "lang/check/check_directions.h"
 #include "lang/check/expression_checker.h"
 #include "lang/program/fold.h"
 #include "lang/vocabulary/words_elsewhere.h"
@@ -83,31 +82,6 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
         return error(formula_.nodes[part_of(last)].span, "a length of smoothing is not below 0");
     }
     formula_.nodes.back().kind = work_.program.literals->id_of(value);
-}
-
-/// Registers what `along` takes in place of a vector, a direction that the model has.
-void ExpressionChecker::take_direction(std::string_view word,
-                                       std::span<const ast::ExprId> arguments) {
-    const Span span = formula_.nodes.back().span;
-    std::vector<WrittenNumber> numbers;
-    for (const ast::ExprId argument : arguments) {
-        const NodeId part = part_of(argument);
-        if (parts_[part].has_error) parts_.back().has_error = true;
-        if (parts_.back().has_error) return;
-        if (!parts_[part].constant) {
-            return error(formula_.nodes[part].span,
-                         fmt::format("{} takes numbers that are known before the run", word),
-                         "along(vector(ex, ey, ez)) follows what changes");
-        }
-        numbers.push_back({parts_[part].value, formula_.nodes[part].span});
-    }
-    const auto read = direction_of(work_, word, numbers, span, "along({})");
-    if (!read) {
-        parts_.back().has_error = true;
-        return;
-    }
-    formula_.nodes.back().kind = work_.program.literals->id_of(
-        SurfaceValue{Function::along, read->numbers, read->kind, read->smoothing});
 }
 
 /// mean(e over domain), of touching cells, of near ones. Aggregates over an index have been

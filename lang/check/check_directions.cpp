@@ -1,6 +1,7 @@
 // A table of the directions with their arguments; numbers are folded, vectors of length 0 refused.
 #include "lang/check/check_directions.h"
 
+#include "lang/check/expression_checker.h"
 #include "lang/check/setting_words.h"
 
 #include <fmt/format.h>
@@ -141,6 +142,31 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
     const auto numbers = numbers_of(work, script, arguments);
     if (!numbers) return std::nullopt;
     return direction_of(work, word, *numbers, value.span, "directions: {}");
+}
+
+/// Registers what `along` takes in place of a vector, a direction that the model has.
+void ExpressionChecker::take_direction(std::string_view word,
+                                       std::span<const ast::ExprId> arguments) {
+    const Span span = formula_.nodes.back().span;
+    std::vector<WrittenNumber> numbers;
+    for (const ast::ExprId argument : arguments) {
+        const NodeId part = part_of(argument);
+        if (parts_[part].has_error) parts_.back().has_error = true;
+        if (parts_.back().has_error) return;
+        if (!parts_[part].constant) {
+            return error(formula_.nodes[part].span,
+                         fmt::format("{} takes numbers that are known before the run", word),
+                         "along(vector(ex, ey, ez)) follows what changes");
+        }
+        numbers.push_back({parts_[part].value, formula_.nodes[part].span});
+    }
+    const auto read = direction_of(work_, word, numbers, span, "along({})");
+    if (!read) {
+        parts_.back().has_error = true;
+        return;
+    }
+    formula_.nodes.back().kind = work_.program.literals->id_of(
+        SurfaceValue{Function::along, read->numbers, read->kind, read->smoothing});
 }
 
 }  // namespace cascade::checking

@@ -2,7 +2,8 @@
 //
 // check_expression.cpp walks the nodes and resolves names and strings; check_call.cpp checks calls:
 // arguments, contexts, types and constants; check_operators.cpp checks operators of derivatives,
-// vectors and tensors; check_links.cpp what cells that crawl read of their neighbours.
+// vectors and tensors; check_links.cpp what cells that crawl read of their neighbours;
+// check_directions.cpp the directions that `along` takes.
 #pragma once
 
 #include "lang/check/check_expression.h"
