@@ -1,18 +1,25 @@
 // `cascade analyze`: what will grow, before it runs.
 #include "app/commands.h"
 #include "app/exit_status.h"
+#include "run/stage/kernel_cache.h"
 
 #include <fmt/format.h>
 
 namespace cascade {
 
 int analyze_command(const Options& options, Console& console) {
-    const auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
+    auto file = load(options.scripts[0], options.overrides, console, typed_of(options));
     if (!file) return exit_status::wrong_script;
-    const Script& script = file->script;
+    Script& script = file->script;
     console.say(script.messages(console.error().colour));
     if (!script.program) return exit_status::wrong_script;
-    const auto report = analyze(script, options.analyze);
+    AnalyzeRequest request = options.analyze;
+    request.kernel_cache = usual_kernel_cache();
+    const auto report = analyze(script, request);
+    if (!report && script.diagnostics.has_errors()) {
+        console.say(script.messages(console.error().colour));
+        return exit_status::wrong_script;
+    }
     if (!report) {
         console.fail(report.error());
         return exit_status::failed_run;

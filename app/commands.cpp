@@ -12,6 +12,7 @@
 #include "run/commands/dump.h"
 #include "run/script/embedded_script.h"
 #include "run/session/session_log.h"
+#include "run/stage/kernel_cache.h"
 #include "run/stage/memory.h"
 
 #include <fmt/format.h>
@@ -182,7 +183,9 @@ int compile_command(const Options& options, Console& console) {
             return exit_status::failed_run;
         }
     }
-    const auto compiled = compile_step(script, options.compile);
+    CompileRequest request = options.compile;
+    request.kernel_cache = usual_kernel_cache();
+    const auto compiled = compile_step(script, request);
     if (!compiled) {
         if (script.diagnostics.has_errors()) {
             console.say(script.messages(console.error().colour));

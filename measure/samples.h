@@ -1,6 +1,9 @@
 // A field to be measured: plain numbers with the shape of their grid.
 #pragma once
 
+#include "core/grid.h"
+#include "core/plane.h"
+
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -36,5 +39,8 @@ struct Samples {
         return periodic[axis] ? cell + last * stride(axis) : cell;
     }
 };
+
+/// Of a field on this grid.
+Samples to_samples(const Field& field, const Grid& grid);
 
 }  // namespace cascade::measure

@@ -163,6 +163,24 @@ Spectrum radial_spectrum(const Samples& samples) {
     return spectrum;
 }
 
+Spectrum in_wide_rings(const Spectrum& spectrum) {
+    constexpr double rings_below = 12;
+    if (spectrum.power.size() < 2) return spectrum;
+    const auto strongest = std::max_element(spectrum.power.begin() + 1, spectrum.power.end());
+    const auto middle = static_cast<double>(strongest - spectrum.power.begin());
+    const double times = std::max(1.0, std::round(middle / rings_below));
+    Spectrum wide;
+    wide.ring_width = times * spectrum.ring_width;
+    for (std::size_t ring = 0; ring < spectrum.power.size(); ++ring) {
+        const auto to = static_cast<std::size_t>(std::lround(static_cast<double>(ring) / times));
+        wide.power.resize(std::max(wide.power.size(), to + 1));
+        wide.moment.resize(wide.power.size());
+        wide.power[to] += spectrum.power[ring];
+        wide.moment[to] += spectrum.moment[ring];
+    }
+    return wide;
+}
+
 double peak_wavelength(const Spectrum& spectrum) {
     const Peak peak = peak_of(spectrum);
     return peak.power > 0 ? peak.power / peak.moment : std::numeric_limits<double>::quiet_NaN();

@@ -26,6 +26,10 @@ Spectrum radial_spectrum(const Samples& samples);
 /// waves of a lattice (√2 for a square one, √3 for a hexagonal one). NaN if nothing varies.
 double peak_wavelength(const Spectrum& spectrum);
 
+/// The spectrum in wider rings, so that some twelve lie below the strongest one. In a large domain
+/// rings are narrow, and chance decides which of a broad peak is the strongest.
+Spectrum in_wide_rings(const Spectrum& spectrum);
+
 /// The fraction of the variance in those rings, 0 … 1: near 1 for one regular wave.
 double peak_share(const Spectrum& spectrum);
 

@@ -171,7 +171,8 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     const Field fields[] = {values_of(run, {stage, *x}), values_of(run, {stage, *y})};
     const Spread spreads[] = {spread_of(fields[0]), spread_of(fields[1])};
     if (spreads[0].count == 0 || spreads[1].count == 0) return reply;
-    const measure::Samples samples[] = {to_samples(fields[0], grid), to_samples(fields[1], grid)};
+    const measure::Samples samples[] = {measure::to_samples(fields[0], grid),
+                                        measure::to_samples(fields[1], grid)};
     std::vector<int> histogram(bins_of_histogram), density(bins_of_density * bins_of_density);
     const Bins bins(spreads[0], bins_of_histogram);
     const Bins columns(spreads[0], bins_of_density), rows(spreads[1], bins_of_density);

@@ -8,6 +8,7 @@
 #include "lang/check/check_shape.h"
 #include "lang/check/check_semi_implicit.h"
 #include "lang/check/check_side_values.h"
+#include "lang/check/check_size.h"
 #include "lang/check/check_time.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"
@@ -115,7 +116,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
                 checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
             }
             checking::check_coarse_starts(program, own);
-            (void)has_meaning_on_domain(program, own);
+            if (has_meaning_on_domain(program, own)) checking::check_sizes(program, own);
         }
     }
     for (Diagnostic& diagnostic : own.sorted()) diagnostics.add(std::move(diagnostic));

@@ -46,7 +46,9 @@ bool has_name(const Workspace& work, const Stage& stage, const ast::Statement& s
     if (!statement.index.empty()) return has_family(work.program.systems[stage.system], name);
     if (reserved(name) != Reserved::no) return true;
     const bool has_cells = work.program.systems[stage.system].cells.has_value();
-    if (has_cells && is_setting_of(SettingBlock::cell_stage, name)) return true;
+    if (is_setting_of(has_cells ? SettingBlock::cell_stage : SettingBlock::field_stage, name)) {
+        return true;
+    }
     return find(work.names[stage.system], name) != nullptr;
 }
 
@@ -66,7 +68,8 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
     if (!names.empty()) {
         diagnostic.notes.push_back({std::nullopt, "there are " + list_names(names)});
     }
-    for (std::string& each : settings_of({SettingBlock::stage})) names.push_back(std::move(each));
+    for (std::string& each : settings_of({SettingBlock::stage, SettingBlock::field_stage}))
+        names.push_back(std::move(each));
     diagnostic.hint = hint_about(work, name.text, WordContext::stage, names);
     work.diagnostics.add(std::move(diagnostic));
 }

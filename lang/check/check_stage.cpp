@@ -3,6 +3,7 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
+#include "lang/check/check_size.h"
 #include "lang/check/check_time.h"
 #include "lang/program/dependencies.h"
 #include "lang/vocabulary/settings.h"
@@ -184,6 +185,10 @@ void StageChecker::set(const Declaration& declaration) {
         return;
     }
     const Meaning* meaning = find(work_.names[stage().system], name);
+    if (meaning == nullptr && !system().cells && is_setting_of(SettingBlock::field_stage, name)) {
+        stage().size = check_size(work_, script_, statement);
+        return;
+    }
     if (meaning == nullptr) return report_unknown(declaration);
     if (meaning->has_error) return;
     if (meaning->is_definition()) {
@@ -222,6 +227,7 @@ void StageChecker::report_unknown(const Declaration& declaration) {
             {std::nullopt, fmt::format("{} has {}", system().name, list_names(names))});
         for (std::string& each : settings_of({SettingBlock::stage}))
             names.push_back(std::move(each));
+        if (!system().cells) names.emplace_back("size");
         if (system().cells) names.insert(names.end(), {"founders", "remove", "body", "ey", "ez"});
         diagnostic.hint = hint_about(work_, declaration.name, WordContext::stage, names);
         if (is_side_word(declaration.name)) {
@@ -341,6 +347,7 @@ void check_stages(Workspace& work, const ast::Script& script) {
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
         StageChecker(work, script, i, copied).run(*blocks[i], overrides[i], asked.time);
         Stage& stage = work.draft->stages[i];
+        if (stage.size) stage.size->steps = stage.iterations;
         if (static_cast<double>(stage.iterations) > most_steps) {
             stage.iterations = static_cast<std::int64_t>(most_steps);
         }

@@ -207,7 +207,8 @@ bool has_settings_of(std::string_view block, SettingBlock of) {
     if (block == "domain") return of == SettingBlock::domain;
     if (of == SettingBlock::system) return block == "system" || block == "cells";
     if (of == SettingBlock::cells) return block == "cells";
-    return of == SettingBlock::stage || (of == SettingBlock::cell_stage && block == "stage");
+    const bool is_of_stages = of == SettingBlock::cell_stage || of == SettingBlock::field_stage;
+    return of == SettingBlock::stage || (is_of_stages && block == "stage");
 }
 
 /// What statements of a block can begin with.

@@ -150,6 +150,7 @@ void print_stage(const Program& program, std::uint32_t index, Output out) {
     fmt::format_to(out, "stage {}: {} {{  # in order of computing\n", stage.name, system.name);
     fmt::format_to(out, "  iterations: {}\n  interval: {}\n", stage.iterations, stage.interval);
     print_time(program, system, stage, index, out);
+    if (stage.size) fmt::format_to(out, "  size: {}\n", stage.size->wanted);
     if (system.cells) print_start_of_cells(program, system, stage, index, out);
     for (const ItemId item : stage.order) {
         fmt::format_to(out, "  {}: {}  # {}\n", system.item_name(item),

@@ -360,6 +360,17 @@ struct Founders {
     Span span;
 };
 
+/// The wavelength that the pattern of a stage is to have, `size: 16`.
+struct StageSize {
+    double wanted = 0;  ///< In units of the domain, like its spacing.
+    Span span;          ///< Where it was written.
+    /// Of a stage that ends by its steps, all of them; fewer may run.
+    std::int64_t steps = 0;
+    /// By how much lengths in the stage are scaled for that; with_lengths() has scaled them if it
+    /// is not 1.
+    double factor = 1;
+};
+
 struct Stage {
     std::string name;  ///< As written, or stage1, stage2, … by position.
     Span span;
@@ -371,6 +382,7 @@ struct Stage {
     std::int64_t interval = 1;        ///< 0 if the stage is observed at tenths of the duration.
     Formula show;
     StageTime time;
+    std::optional<StageSize> size;
     /// By species, in their order; empty if the boundary holds at all sides.
     IdVector<SpeciesId, std::array<SideSetting, side_count>> sides;
     std::vector<DefinitionSides> definition_sides;  ///< In order of their definitions.

@@ -51,7 +51,8 @@ std::string_view home_of(std::string_view word) {
     const auto setting = setting_named(word);
     if (!setting) return "";
     switch (info(*setting).block) {
-        case SettingBlock::stage: return "it is a setting of a stage";
+        case SettingBlock::stage:
+        case SettingBlock::field_stage: return "it is a setting of a stage";
         case SettingBlock::domain:
         case SettingBlock::side: return "it is a setting of the domain";
         case SettingBlock::picture: return "it is a setting of the picture";

@@ -33,6 +33,7 @@ enum class SettingBlock : std::uint8_t {
     system,
     cells,
     cell_stage,
+    field_stage,
 };
 enum class SettingValue : std::uint8_t {
     count,

@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/near_name.h"
 #include "run/commands/analyze_json.h"
+#include "run/simulation/stage_sizes.h"
 
 #include <fmt/format.h>
 
@@ -188,8 +189,13 @@ bool is_analysis_output(const std::filesystem::path& path) {
     return ending == ".svg" || ending == ".png" || ending == ".json";
 }
 
-Result<AnalyzeReport> analyze(const Script& script, const AnalyzeRequest& request) {
-    const Program& program = *script.program;
+Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request) {
+    SimulationOptions options;
+    options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
+    options.kernel_cache = request.kernel_cache;
+    const auto sized = sized_program(script, options);
+    if (!sized) return tl::unexpected(sized.error());
+    const Program& program = **sized;
     if (program.stages.empty()) {
         return failure("there is no stage to analyze", example_of_stage(program));
     }
@@ -200,6 +206,9 @@ Result<AnalyzeReport> analyze(const Script& script, const AnalyzeRequest& reques
 
 std::string outlook(const Program& program, std::uint32_t stage) {
     if (program.system_of(stage).cells) return "";
+    // Lengths are not yet those of the run, whose trial will show whether something grows.
+    const auto& size = program.stages[stage].size;
+    if (size && size->factor == 1) return "";
     const auto reason = analysis::why_nothing_grows(program, stage);
     if (!reason) return "";
     return fmt::format("stage '{}': nothing will grow: {}", program.stages[stage].name, *reason);

@@ -1,4 +1,5 @@
-// `cascade analyze`: what will grow, from the equations alone. Takes no step.
+// `cascade analyze`: what will grow, from the equations alone. Takes no step, except for the trial
+// run of a stage with a size.
 #pragma once
 
 #include "core/result.h"
@@ -19,6 +20,8 @@ struct AnalyzeRequest {
     std::vector<VariedRange> varied;
     bool as_json = false;          ///< The report is JSON instead of words.
     std::filesystem::path output;  ///< A file for the result, by its ending; may be empty.
+    /// Where the sizes of stages are kept (SimulationOptions::kernel_cache); empty: nowhere.
+    std::filesystem::path kernel_cache = {};
 };
 
 /// The endings that an output may have: .svg and .png, a plot; .json.
@@ -29,9 +32,9 @@ struct AnalyzeReport {
     std::vector<std::filesystem::path> written;
 };
 
-/// Fails if the stage has no flat states by its nature, if a parameter cannot be varied, or if the
-/// output cannot be written.
-Result<AnalyzeReport> analyze(const Script& script, const AnalyzeRequest& request);
+/// Fails if the stage has no flat states by its nature or cannot have its size, if a parameter
+/// cannot be varied, or if the output cannot be written.
+Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request);
 
 /// A remark for each stage of fields from whose start no pattern can come, which its equations tell
 /// before it runs: "stage 'a': nothing will grow: no wave grows from …".

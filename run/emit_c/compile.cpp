@@ -7,6 +7,8 @@
 #include "run/domain/metric_planes.h"
 #include "run/emit_c/c_header.h"
 #include "run/emit_c/c_stage.h"
+#include "run/simulation/stage_sizes.h"
+#include "run/stage/stage_time.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
 #endif
@@ -56,8 +58,10 @@ std::string c_identifier(const std::string& text) {
 
 /// The scheme of a step, which must have a fixed length. `asked_solver`: the solver comes from
 /// --solver, and may choose its steps for that reason only.
+/// `parts`: those of a step of Euler.
 Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
-                            std::optional<std::uint32_t> stages, bool asked_solver) {
+                            std::optional<std::uint32_t> stages, std::uint32_t parts,
+                            bool asked_solver) {
     const Stage& stage = program.stages[k];
     const std::string name(name_of(stage.time.solver));
     if (is_adaptive(stage.time.solver)) {
@@ -98,8 +102,39 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
         return failure(fmt::format("{} cannot take the speed of stage '{}', which varies by cell",
                                    name, stage.name));
     }
+    if (parts > 1) {
+        return StageTimer::split_scheme(program.system_of(k).species_count(), parts);
+    }
     return make_scheme(stage.time.solver, program.system_of(k).species_count(),
                        takes_speed_by_cell(stage.time.solver), stages.value_or(3));
+}
+
+/// What sizes of stages change.
+struct SizedStages {
+    Program program;
+    std::uint32_t parts = 0;  ///< Into which a step of the stage is split; 0 or 1: it is not.
+};
+
+Result<SizedStages> with_sizes(Script& script, const std::string& asked,
+                               const std::filesystem::path& kernel_cache) {
+    SizedStages result{*script.program};
+    if (!has_sizes(script)) return result;
+    const auto stage = find_stage(result.program, asked);
+    if (!stage) return tl::unexpected(stage.error());
+    SimulationOptions options;
+    options.kernel_cache = kernel_cache;
+    const auto made = Simulation::create(script, options);
+    if (!made) return tl::unexpected(made.error());
+    Simulation& simulation = **made;
+    result.program = simulation.program();
+    for (std::uint32_t k = 0; k <= *stage; ++k) {
+        if (auto started = simulation.start_stage(k); !started)
+            return tl::unexpected(started.error());
+    }
+    (void)simulation.step_work(*stage);  // Begins the time of the stage.
+    if (result.program.stages[*stage].time.solver == Solver::euler)
+        result.parts = simulation.state(*stage).time.stages;
+    return result;
 }
 
 /// Refuses domains and stages that the header cannot express.
@@ -140,12 +175,14 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
 }  // namespace
 
 Result<CompiledStep> compile_step(Script& script, const CompileRequest& request) {
-    Program program = *script.program;
-    if (program.stages.empty()) return failure("this script has no stage to compile");
-    if (!request.target.empty()) program.domain.fast = script.overrides.fast;
+    if (script.program->stages.empty()) return failure("this script has no stage to compile");
     if (auto good = check_for_fields(script, "C is made of"); !good) {
         return tl::unexpected(good.error());
     }
+    auto sized = with_sizes(script, request.stage.value_or("1"), request.kernel_cache);
+    if (!sized) return tl::unexpected(sized.error());
+    Program& program = sized->program;
+    if (!request.target.empty()) program.domain.fast = script.overrides.fast;
     const auto stage = find_stage(program, request.stage.value_or("1"));
     if (!stage) return tl::unexpected(stage.error());
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
@@ -156,8 +193,8 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     if (auto good = make_per_cell(program, *stage, request.per_cell); !good) {
         return tl::unexpected(good.error());
     }
-    const auto scheme =
-        fixed_scheme(program, *stage, request.stages, script.overrides.solver.has_value());
+    const auto scheme = fixed_scheme(program, *stage, request.stages, sized->parts,
+                                     script.overrides.solver.has_value());
     if (!scheme) return tl::unexpected(scheme.error());
     const auto files = read_input_files(script, nullptr);
     if (!files) return tl::unexpected(files.error());

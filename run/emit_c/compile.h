@@ -5,6 +5,7 @@
 #include "run/script/script.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct CompileRequest {
     std::string target = {};                 ///< A processor name; "" for this machine's.
     std::string function_name = {};          ///< "" derives it from the script's name.
     std::optional<std::uint32_t> stages = {};  ///< Of a step of rkl1 or rkl2: odd, from 3.
+    /// Where the sizes of stages are kept (SimulationOptions::kernel_cache); empty: nowhere.
+    std::filesystem::path kernel_cache = {};
 };
 
 struct CompiledStep {

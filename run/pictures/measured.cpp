@@ -1,5 +1,4 @@
-// Copies the rows without padding; if the picture shows colours, the stage's default number is
-// measured.
+// If the picture shows colours, the stage's default number is measured.
 #include "run/pictures/measured.h"
 
 #include "core/spread.h"
@@ -31,24 +30,6 @@ measure::Features without_places(const std::vector<double>& values) {
 
 }  // namespace
 
-measure::Samples to_samples(const Field& field, const Grid& grid) {
-    measure::Samples samples;
-    samples.cells = {static_cast<std::size_t>(grid.width), static_cast<std::size_t>(grid.height),
-                     static_cast<std::size_t>(grid.depth)};
-    const Boundaries& boundary = grid.boundary;
-    samples.periodic = {boundary.x == Boundary::periodic, boundary.y == Boundary::periodic,
-                        boundary.z == Boundary::periodic};
-    samples.spacing = grid.spacing;
-    samples.values.reserve(static_cast<std::size_t>(grid.cell_count()));
-    field.visit([&](const auto& plane) {
-        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-            samples.values.insert(samples.values.end(), plane.row(row),
-                                  plane.row(row) + grid.width);
-        }
-    });
-    return samples;
-}
-
 Field shown_number(Painter& painter, const Simulation& simulation) {
     Canvas shown = painter.values(simulation);
     if (!shown.is_colour()) return std::move(shown.fields[0]);
@@ -61,7 +42,7 @@ measure::Features measure_shown(Painter& painter, const Simulation& simulation) 
     const auto& tissue = simulation.state(simulation.shown_stage().value_or(0)).tissue;
     if (tissue) return without_places(number_order(shown, *tissue));
     if (const auto model = simulation.model()) return without_places(cell_values(shown, *model));
-    return measure::measure(to_samples(shown, simulation.grid()));
+    return measure::measure(measure::to_samples(shown, simulation.grid()));
 }
 
 }  // namespace cascade

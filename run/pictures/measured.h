@@ -8,8 +8,6 @@
 
 namespace cascade {
 
-measure::Samples to_samples(const Field& field, const Grid& grid);
-
 /// The number that a picture shows, in all cells, also of a volume. For a colour it is the number
 /// that the stage shows by default (its `show`, or its last species).
 Field shown_number(Painter& painter, const Simulation& simulation);

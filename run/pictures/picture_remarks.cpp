@@ -71,7 +71,7 @@ std::string describe_even(const Canvas& canvas) {
 std::string describe_waves(Painter& painter, const Simulation& simulation, std::uint32_t stage) {
     if (simulation.model() || simulation.grid().cell_count() > most_cells_of_spectrum) return {};
     const measure::Samples samples =
-        to_samples(shown_number(painter, simulation), simulation.grid());
+        measure::to_samples(shown_number(painter, simulation), simulation.grid());
     const double cells = measure::unresolved_wavelength(samples);
     const char* const why = "the grid shapes them as much as the equations do";
     if (!std::isnan(cells)) {

@@ -113,6 +113,7 @@ Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunContr
     options.control = &control;
     const bool is_known = simulation_ && have_same_cells(*script_->program, *script.program);
     if (is_known) options.known_model = simulation_->model();
+    if (simulation_) options.known_sizes = simulation_->known_sizes();
     auto made = Simulation::create(script, options);
     if (!made) return refuse(std::move(script), made.error());
     return std::move(*made);

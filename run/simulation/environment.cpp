@@ -4,6 +4,7 @@
 #include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
+#include "run/simulation/stage_sizes.h"
 #include "run/simulation/stage_view.h"
 #include "run/simulation/undefined_values.h"
 #include "run/stage/memory.h"
@@ -215,6 +216,8 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
                                           options.starts_interpreted, here.account);
         here.ground = std::make_shared<TissueGround>(here.grid, here.model.get());
     }
+    if (auto found = find_sizes(here, script, options, control); !found)
+        return tl::unexpected(found.error());
     warn_of_even_pictures(here, control);
     if (auto found = find_mask(here, script, control); !found) return tl::unexpected(found.error());
     return made;

@@ -18,6 +18,7 @@
 #include "run/tissue/ground.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,7 +30,7 @@ namespace cascade {
 struct Environment {
     const Script* script = nullptr;
     const Program* program = nullptr;
-    std::optional<Program> own_program;  ///< For a coarser grid.
+    std::optional<Program> own_program;  ///< For another grid, or with lengths that are scaled.
     std::string progress_note;           ///< After the stage's name in reports of progress.
     Grid grid;
     double memory = 0;  ///< Bytes of all planes.
@@ -42,6 +43,8 @@ struct Environment {
     std::shared_ptr<TissueGround> ground;         ///< and where they do; else null.
     std::unique_ptr<Team> team;                   ///< Computes starting values and pictures.
     InputFiles files;
+    std::map<std::string, double>
+        known_sizes;            ///< As in SimulationOptions, with those of this run.
     std::vector<Field> metric;  ///< By MetricPlane; empty without a surface.
     std::optional<DomainMask> mask;
     std::shared_ptr<const ModelCells> model;        ///< Null on grids.

@@ -278,6 +278,9 @@ StepWork Simulation::step_work(std::uint32_t k) {
 }
 
 const Program& Simulation::program() const { return *self_->environment->program; }
+const std::map<std::string, double>& Simulation::known_sizes() const {
+    return self_->environment->known_sizes;
+}
 const Grid& Simulation::grid() const { return self_->environment->grid; }
 std::shared_ptr<const ModelCells> Simulation::model() const { return self_->environment->model; }
 const DomainMask* Simulation::mask() const { return self_->environment->inside(); }

@@ -55,6 +55,8 @@ struct SimulationOptions {
     std::uint64_t memory_limit = 0;  ///< The most bytes for all fields; 0: the free memory.
     /// The cells of the script's model, where another simulation has made them; else null.
     std::shared_ptr<const ModelCells> known_model = nullptr;
+    /// Of an earlier simulation (Simulation::known_sizes); no result depends on them.
+    std::map<std::string, double> known_sizes = {};
     /// The choice of operands that are written to planes. No result depends on it.
     PlanOptions planning = {Materialise::when_cheaper, false, true};
     /// The tiling; none: chosen by size and by time. No result depends on it.
@@ -167,7 +169,10 @@ public:
     /// The work of one step of a started stage, as it would be taken now.
     StepWork step_work(std::uint32_t stage);
 
+    /// The program as it runs: lengths of stages with a size are scaled.
     const Program& program() const;
+    /// By what lengths of stages were multiplied, under keys that say for what.
+    const std::map<std::string, double>& known_sizes() const;
     const Grid& grid() const;
     /// The cells that belong to the domain; null if all do.
     const DomainMask* mask() const;

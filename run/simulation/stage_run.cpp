@@ -66,9 +66,9 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
         const std::uint32_t stages = StageTimer::stages_for_parts(timer_.substeps());
         const std::string how = stages > 0 ? fmt::format("taken in {} stages of rkl1", stages)
                                            : fmt::format("split into {}", timer_.substeps());
-        control_->warn(fmt::format(
-            "stage '{}': each step is {}, so that it is stable in the smallest cells of the model",
-            stage.name, how));
+        control_->warn(
+            fmt::format("stage '{}': each step is {}, so that it is stable {}", stage.name, how,
+                        here.model ? "in the smallest cells of the model" : "with its size"));
     }
     if (is_frozen()) return end_frozen(last_step);
     if (state_.steps == 0 && last_step > 0 && stage.time.coarse > 1) {

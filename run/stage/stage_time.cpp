@@ -80,7 +80,8 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
     if (chooses_by_error()) set_first_step();
-    if (program.domain.model) state_.time.stages = substeps(program, stage);
+    const bool is_finer = stage_.size && stage_.size->factor > 1;
+    if (program.domain.model || is_finer) state_.time.stages = substeps(program, stage);
     if (stage_.time.steady) state_.watch.begin(state_.species);
 }
 
@@ -110,8 +111,8 @@ void StageTimer::set_first_step() {
 }
 
 /// The links of a model's cells have different weights, and the largest decides which steps are
-/// stable; a script that is stable on the plane must be stable on a model, too. Explicit Euler is
-/// stable up to 2 over the largest eigenvalue.
+/// stable; a script that is stable on the plane must be stable on a model, too, and with a larger
+/// size. Explicit Euler is stable up to 2 over the largest eigenvalue.
 std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
     constexpr double safety = 0.95;
     const bool is_split =
@@ -146,9 +147,13 @@ Scheme StageTimer::scheme_of(std::uint32_t stages) const {
     const Solver solver = stage_.time.solver;
     if (solver != Solver::euler || stages <= 1)
         return make_scheme(solver, species_, steps_by_item(stage_), stages);
-    const std::uint32_t of_legendre = stages_for_parts(stages);
-    return of_legendre > 0 ? make_scheme(Solver::rkl1, species_, false, of_legendre)
-                           : make_substeps(stages);
+    return split_scheme(species_, stages);
+}
+
+Scheme StageTimer::split_scheme(std::uint32_t species, std::uint32_t parts) {
+    const std::uint32_t of_legendre = stages_for_parts(parts);
+    return of_legendre > 0 ? make_scheme(Solver::rkl1, species, false, of_legendre)
+                           : make_substeps(parts);
 }
 
 const StepProblem& StageTimer::problem_of(std::uint32_t stages, bool is_judged) {

@@ -17,7 +17,7 @@
 
 namespace cascade {
 
-/// The largest number of parts into which a step on a model is split.
+/// The largest number of parts into which a step on a model, or with a size, is split.
 inline constexpr std::uint32_t most_substeps = 10000;
 
 /// Computes some numbers from the present values.
@@ -44,12 +44,15 @@ public:
     /// `state` is the stage's; a stage that has not taken a step begins its time here.
     StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
 
-    /// The number of parts of each step that make it stable on the cells of a model.
+    /// The number of parts of each step that make it stable on the cells of a model and with a
+    /// size.
     std::uint32_t substeps() const {
         return stage_.time.solver == Solver::euler ? state_.time.stages : 0;
     }
     /// The stages of Runge-Kutta-Legendre that stand for so many parts; 0 if these are taken.
     static std::uint32_t stages_for_parts(std::uint32_t parts);
+    /// A step of Euler that is split into parts, at least 2, or what stands for them.
+    static Scheme split_scheme(std::uint32_t species, std::uint32_t parts);
     /// The passes of the first step.
     const StepProblem& problem();
     /// A complete schedule except for its threads. `interval` as in Schedule.

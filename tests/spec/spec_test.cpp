@@ -194,8 +194,9 @@ TEST(FunctionsPage, HasARowForEveryFunction) {
 }
 
 std::string_view word_of(SettingBlock block) {
-    constexpr std::array<std::string_view, 7> words{"stage",  "domain", "side",          "picture",
-                                                    "system", "cells",  "stage of cells"};
+    constexpr std::array<std::string_view, 8> words{"stage",          "domain",         "side",
+                                                    "picture",        "system",         "cells",
+                                                    "stage of cells", "stage of fields"};
     return words[static_cast<std::size_t>(block)];
 }
 

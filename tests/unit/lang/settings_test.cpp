@@ -26,6 +26,7 @@ std::string set_in(SettingBlock block, std::string_view word) {
     const std::string plain = "system s { u: 1; u' = 0 }\nstage a: s { }\n";
     switch (block) {
         case SettingBlock::stage:
+        case SettingBlock::field_stage:
             return fmt::format("system s {{ u: 1; u' = 0 }}\nstage a: s {{ {}: 1 }}\n", word);
         case SettingBlock::domain:
         case SettingBlock::side: return fmt::format("domain {{ {}: 1 }}\n{}", word, plain);

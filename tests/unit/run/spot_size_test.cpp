@@ -75,7 +75,7 @@ protected:
                 << "the same surface";
             return count_spots(model->spread().cells, cell_values(field, *model));
         }
-        const measure::Samples samples = to_samples(field, simulation.grid());
+        const measure::Samples samples = measure::to_samples(field, simulation.grid());
         return measure::find_regions(samples, mean_of(samples.values)).above;
     }
 

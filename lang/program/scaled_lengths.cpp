@@ -1,0 +1,95 @@
+// Every call that depends on lengths is followed by a product with a power of the factor.
+#include "lang/program/scaled_lengths.h"
+
+#include <cmath>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// The power of a length by which the value of a function falls: of derivatives their order.
+double power_of_length(Function function, const DomainSettings& domain) {
+    switch (function) {
+        case Function::lap:
+        case Function::grad2:
+        case Function::diffuse: return 2;
+        case Function::advect:
+        case Function::transport:
+        case Function::grad:
+        case Function::div:
+        case Function::curl: return 1;
+        case Function::domain_sum: return domain.model ? -2 : 0;  // An integral on models only.
+        case Function::white: return axes_of(domain) / 2.0;  // By the root of a cell's content.
+        default: return derivative_of(function).order;
+    }
+}
+
+NodeId append(Formula& formula, Node node) {
+    const NodeId id = formula.nodes.next();
+    formula.nodes.push_back(node);
+    return id;
+}
+
+/// The product of a node with a number.
+NodeId scaled(Formula& formula, NodeId id, double factor) {
+    const Node& value = formula.nodes[id];
+    Node product{Call{}, value.span, value.type, Function::multiply, 2, {}};
+    const NodeId number = append(formula, Node{factor, product.span});
+    product.operands[0] = id;
+    product.operands[1] = number;
+    return append(formula, product);
+}
+
+Formula with_lengths(const Formula& formula, double factor, const DomainSettings& domain) {
+    Formula result;
+    IdVector<NodeId, NodeId> place;
+    for (Node node : formula.nodes) {
+        for (NodeId& operand : node.reads()) operand = place[operand];
+        const double power = node.is<Call>() ? power_of_length(node.function, domain) : 0;
+        NodeId id = append(result, node);
+        if (power != 0) id = scaled(result, id, std::pow(factor, power));
+        place.push_back(id);
+    }
+    return result;
+}
+
+/// Slopes fall and fluxes grow with lengths.
+void scale_sides(std::array<SideSetting, side_count>& sides, const DomainSettings& domain,
+                 double factor) {
+    for (std::size_t side = 0; side < side_count; ++side) {
+        SideSetting& setting = sides[side];
+        const auto& of_domain = domain.sides[side];
+        if (of_domain && of_domain->span == setting.span) continue;
+        if (setting.kind != SideKind::slope && setting.kind != SideKind::flux) continue;
+        const double by = setting.kind == SideKind::slope ? 1 / factor : factor;
+        scaled(setting.value, NodeId(setting.value.nodes.size() - 1), by);
+    }
+}
+
+}  // namespace
+
+int axes_of(const DomainSettings& domain) {
+    if (domain.model) return 2;
+    const Grid& grid = domain.grid;
+    return int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
+}
+
+Program with_lengths(const Program& program, std::uint32_t stage, double factor) {
+    Program result = program;
+    Stage& target = result.stages[stage];
+    if (target.size) target.size->factor = factor;
+    if (factor == 1) return result;
+    System system = program.system_of(stage);
+    for (Definition& each : system.definitions)
+        each.formula = with_lengths(each.formula, factor, program.domain);
+    for (Formula& rate : system.rates) rate = with_lengths(rate, factor, program.domain);
+    for (auto& sides : target.sides) scale_sides(sides, program.domain, factor);
+    for (DefinitionSides& each : target.definition_sides)
+        scale_sides(each.sides, program.domain, factor);
+    target.system = result.systems.next();
+    result.systems.push_back(std::move(system));
+    return result;
+}
+
+}  // namespace cascade

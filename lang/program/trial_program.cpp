@@ -1,0 +1,212 @@
+// Formulas that need the domain of the script or the patterns of other stages are replaced.
+#include "lang/program/trial_program.h"
+
+#include "lang/program/nodes_of_rates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+Formula number(double value) { return {{Node{value}}}; }
+
+/// Does the node depend on where in the domain the cell is?
+bool is_of_place(const Node& node) {
+    if (const auto* builtin = node.as<Builtin>()) return !is_moment(node) && *builtin >= Builtin::x;
+    if (node.is<SurfaceValueId>()) return true;
+    if (!node.is<Call>()) return false;
+    const FunctionKind kind = info(node.function).kind;
+    return kind == FunctionKind::shape || kind == FunctionKind::pattern ||
+           kind == FunctionKind::text || kind == FunctionKind::landmarks;
+}
+
+/// Does it need files or the surface of a model, which a plane of its own does not have?
+bool is_of_domain_alone(const Node& node) {
+    return node.is<TextId>() || node.is<SurfaceValueId>() ||
+           (node.is<Call>() && (reads_file(node.function) || needs_model(node.function)));
+}
+
+bool differentiates_or_sums(const Node& node) {
+    return node.is<Call>() && (differentiates(node.function) || is_aggregate(node));
+}
+
+class TrialMaker {
+public:
+    TrialMaker(const Program& program, std::uint32_t stage)
+        : program_(program), number_(stage), trial_(program) {}
+
+    tl::expected<Program, SizeObstacle> make() {
+        const Stage& stage = program_.stages[number_];
+        const System& system = program_.system_of(number_);
+        const Span size = stage.size->span;
+        const auto has_length = [](const Node& node) {
+            return node.is<Call>() && differentiates(node.function);
+        };
+        if (!holds_in_rates(system, has_length)) {
+            return obstacle(size,
+                            fmt::format("{} has no lengths: no rate compares a cell with its "
+                                        "neighbours",
+                                        system.name),
+                            "a size is that of a pattern that neighbours make");
+        }
+        if (holds_in_rates(system, is_of_place) || holds_in_rates(system, is_of_domain_alone)) {
+            return obstacle(size,
+                            fmt::format("the equations of {} depend on the place, so its pattern "
+                                        "has no size of its own",
+                                        system.name),
+                            "with size, equations are the same everywhere");
+        }
+        trial_.stages.resize(number_ + 1);
+        make_domain();
+        for (std::uint32_t k = 0; k < number_; ++k) make_earlier(k);
+        if (auto made = make_items(); !made) return tl::unexpected(made.error());
+        make_stage();
+        return std::move(trial_);
+    }
+
+private:
+    static tl::unexpected<SizeObstacle> obstacle(Span span, std::string message, std::string hint) {
+        return tl::unexpected<SizeObstacle>({span, std::move(message), std::move(hint)});
+    }
+
+    void make_domain() {
+        DomainSettings& domain = trial_.domain;
+        domain.model.reset();
+        domain.surface.reset();
+        domain.mask.reset();
+        domain.sides = {};
+        domain.grid.linked = false;
+        domain.grid.boundary = Boundary::periodic;
+        domain.seed = 1;
+        domain.precision = Precision::single;
+        domain.fast = false;
+    }
+
+    /// The first node that makes the value of a parameter depend on the place or on an earlier
+    /// pattern; null if the value can be had on any plane.
+    const Node* hindrance(const Formula& formula) const {
+        const auto found = std::ranges::find_if(formula.nodes, [&](const Node& node) {
+            if (is_of_place(node) || is_of_domain_alone(node) || differentiates_or_sums(node)) {
+                return true;
+            }
+            const auto* read = node.as<StageItem>();
+            return node.is<SensedItem>() || (read != nullptr && is_hindered(*read));
+        });
+        return found == formula.nodes.end() ? nullptr : &*found;
+    }
+
+    /// Of an earlier stage only parameters are known without its run.
+    bool is_hindered(const StageItem& read) const {
+        const System& system = program_.system_of(read.stage);
+        return system.cells || read.item >= system.frozen_item() || system.is_species(read.item) ||
+               hindrance(program_.stages[read.stage].items[read.item]) != nullptr;
+    }
+
+    /// A start may also depend on the place, in the same way on any plane.
+    bool can_start(const Formula& formula) const {
+        return std::ranges::none_of(formula.nodes, [&](const Node& node) {
+            const auto* read = node.as<StageItem>();
+            const auto* builtin = node.as<Builtin>();
+            return is_of_domain_alone(node) || differentiates_or_sums(node) ||
+                   node.is<SensedItem>() || (builtin != nullptr && is_of_model(*builtin)) ||
+                   (read != nullptr && is_hindered(*read));
+        });
+    }
+
+    void make_earlier(std::uint32_t k) {
+        Stage& stage = trial_.stages[k];
+        const System& system = trial_.system_of(k);
+        stage.sides = {};
+        stage.definition_sides = {};
+        stage.size.reset();
+        for (const ItemId item : stage.items.ids()) {
+            const bool is_known = !is_hindered({k, item});
+            if (!is_known) stage.items[item] = number(item == system.speed_item() ? 1 : 0);
+        }
+    }
+
+    tl::expected<void, SizeObstacle> make_items() {
+        Stage& stage = trial_.stages[number_];
+        const System& system = trial_.system_of(number_);
+        for (const ItemId item : stage.items.ids()) {
+            Formula& formula = stage.items[item];
+            const std::string name(system.item_name(item));
+            if (item == system.frozen_item()) {
+                formula = number(0);
+                stage.uniform[item] = true;
+            } else if (system.is_species(item)) {
+                // On models places are those of space.
+                const auto is_placed = [](const Node& node) { return is_of_place(node); };
+                const bool is_lost = program_.domain.model && holds_in(formula, is_placed);
+                if (!is_lost && can_start(formula)) continue;
+                formula = system.quantities[item].start;
+                if (formula.nodes.empty()) formula = number(0);
+                if (can_start(formula)) continue;
+                return obstacle(stage.size->span,
+                                fmt::format("size needs a start of '{}' that can be had on a plane "
+                                            "of its own",
+                                            name),
+                                fmt::format("the start of '{}' in {} would do if it read neither "
+                                            "files nor operators",
+                                            name, system.name));
+            } else if (const Node* why = hindrance(formula)) {
+                return obstacle(why->span.source == stage.size->span.source ? why->span
+                                                                            : stage.size->span,
+                                fmt::format("'{}' differs with the place, and so does the size of "
+                                            "the pattern",
+                                            name),
+                                "with size, parameters are the same in all cells or random");
+            }
+        }
+        return {};
+    }
+
+    void make_stage() {
+        Stage& stage = trial_.stages[number_];
+        const System& system = trial_.system_of(number_);
+        stage.sides = {};
+        stage.definition_sides = {};
+        stage.time.until.reset();
+        stage.time.coarse = 1;
+        const auto reads_others = [](const Node& node) { return node.is<StageItem>(); };
+        if (holds_in(stage.show, reads_others) || holds_in(stage.show, is_of_domain_alone) ||
+            stage.show.nodes.back().type != ValueType::number) {
+            stage.show = {{Node{system.species().front()}}};
+        }
+    }
+
+    const Program& program_;
+    std::uint32_t number_;
+    Program trial_;
+};
+
+std::string cells_in_words(double cells, double cell) {
+    if (cell == 1) return fmt::format("{:.4g}", cells);
+    return fmt::format("{:.4g}, {:.4g} cells,", cells * cell, cells);
+}
+
+}  // namespace
+
+tl::expected<Program, SizeObstacle> trial_program(const Program& program, std::uint32_t stage) {
+    return TrialMaker(program, stage).make();
+}
+
+std::optional<SizeObstacle> unfit_size(const StageSize& size, double cell, double most_cells) {
+    const double cells = size.wanted / cell;
+    if (cells < fewest_cells_of_size) {
+        return SizeObstacle{size.span,
+                            fmt::format("a wave of {:.3g} cells is too short for the cells", cells),
+                            fmt::format("size must be at least {} here",
+                                        cells_in_words(fewest_cells_of_size, cell))};
+    }
+    if (cells <= most_cells) return std::nullopt;
+    return SizeObstacle{
+        size.span, fmt::format("a wave of {:.4g} cells is longer than the domain", cells),
+        fmt::format("size must be at most {} here", cells_in_words(most_cells, cell))};
+}
+
+}  // namespace cascade

@@ -1,0 +1,164 @@
+// The key of a factor is the trial program as text: equations, parameters, start, solver.
+#include "run/simulation/stage_sizes.h"
+
+#include "core/check.h"
+#include "core/decimal.h"
+#include "core/kept_files.h"
+#include "core/version.h"
+#include "lang/program/scaled_lengths.h"
+#include "lang/program/trial_program.h"
+#include "run/simulation/size_trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// The last byte of the magic changes with the way in which factors are found.
+constexpr KeptFiles::Kind kind{".size", "CascSiz1", std::uint64_t{1} << 20};
+
+/// Factors by their keys: those that the simulation was given and has found, and those on disk.
+class KeptFactors {
+public:
+    KeptFactors(const std::filesystem::path& folder, std::map<std::string, double>& known)
+        : files_(folder, kind), known_(known) {}
+
+    std::optional<double> find(const std::string& key) {
+        if (const auto known = known_.find(key); known != known_.end()) return known->second;
+        const auto text = files_.find(key);
+        if (!text) return std::nullopt;
+        double factor = 0;
+        const char* const end = text->data() + text->size();
+        const auto read = from_decimal(text->data(), end, factor);
+        if (read.ec != std::errc() || read.ptr != end || !(factor > 0)) return std::nullopt;
+        known_[key] = factor;
+        return factor;
+    }
+
+    void keep(const std::string& key, double factor) {
+        known_[key] = factor;
+        files_.keep(key, fmt::format("{}", factor));
+    }
+
+private:
+    KeptFiles files_;
+    std::map<std::string, double>& known_;
+};
+
+/// The side of a square as large as the mean cell, in units of the domain.
+double cell_width(const Environment& here) {
+    const DomainSettings& domain = here.program->domain;
+    if (here.model) {
+        const SpreadCells& spread = here.model->spread();
+        double area = 0;
+        for (const double each : spread.cells.areas) area += each;
+        return std::sqrt(area / static_cast<double>(spread.cells.areas.size())) / spread.unit;
+    }
+    if (here.metric.empty() || !domain.surface->unit) return domain.grid.spacing;
+    const Field& areas = here.metric[static_cast<std::size_t>(MetricPlane::area)];
+    double area = 0;
+    for (std::int64_t row = 0; row < here.grid.height; ++row) {
+        for (std::int64_t i = 0; i < here.grid.width; ++i) area += areas.number_at(i, row);
+    }
+    return std::sqrt(area / static_cast<double>(here.grid.cell_count()));
+}
+
+/// The longest wave, in cells: a side of the grid, or of a square with as many cells as the model.
+double most_cells(const Environment& here) {
+    if (!here.model) return static_cast<double>(here.grid.longest_side());
+    return std::sqrt(static_cast<double>(here.model->count()));
+}
+
+/// The same for all ends of the stage, since the trial has an end of its own.
+std::string key_of(const Program& trial, std::uint32_t stage, double cell, double cells) {
+    Program keyed = trial;
+    const bool has_steps = !trial.stages[stage].time.has_duration();
+    // Fewer steps than trials take anyway make no difference.
+    if (has_steps) keyed.stages[stage].iterations = trial_steps(trial, stage);
+    keyed.stages[stage].interval = 0;
+    // Trials have a grid of their own.
+    Grid& grid = keyed.domain.grid;
+    grid.spacing = 1;
+    for (std::int64_t* const side : {&grid.width, &grid.height, &grid.depth}) {
+        *side = std::min<std::int64_t>(*side, 2);
+    }
+    return fmt::format("{}\n{} cells of {}\n{}", version(), cells, cell, print_program(keyed));
+}
+
+}  // namespace
+
+Result<void> find_sizes(Environment& here, Script& script, const SimulationOptions& options,
+                        RunControl& control) {
+    here.known_sizes = options.known_sizes;
+    KeptFactors kept(options.kernel_cache, here.known_sizes);
+    std::optional<Program> scaled;
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        const Stage& stage = here.stage(k);
+        if (!stage.size) continue;
+        const auto refuse = [&](const std::string& message, const std::string& hint) {
+            script.diagnostics.error(stage.size->span, message, hint);
+            return failure(fmt::format("stage '{}' cannot have its size", stage.name));
+        };
+        const double cell = cell_width(here), cells = stage.size->wanted / cell;
+        if (const auto unfit = unfit_size(*stage.size, cell, most_cells(here)))
+            return refuse(unfit->message, unfit->hint);
+        const auto trial = trial_program(*here.program, k);
+        CHECK(trial, "the checker refuses sizes without a trial");
+        const std::string key = key_of(*trial, k, cell, cells);
+        std::optional<double> factor = kept.find(key);
+        if (!factor) {
+            const TrialTools tools{script,
+                                   here.kernels->stepper(),
+                                   here.kernels->starts_interpreted(),
+                                   here.plans->options(),
+                                   here.threads,
+                                   control};
+            const auto found = find_length_factor(*trial, k, cell, cells, tools);
+            if (control.cancel) return failure("stopped while sizes were found");
+            if (!found) return refuse(found.error().message, found.error().hint);
+            factor = *found;
+            kept.keep(key, *factor);
+        }
+        if (control.note) {
+            control.note(
+                fmt::format("stage '{}': its lengths are multiplied by {} for waves of {:g}, "
+                            "since its own are {:.3g} long",
+                            stage.name, *factor, stage.size->wanted, stage.size->wanted / *factor));
+        }
+        scaled = with_lengths(scaled ? *scaled : *here.program, k, *factor);
+    }
+    if (!scaled) return {};
+    here.plans.reset();
+    here.own_program = std::move(scaled);
+    here.program = &*here.own_program;
+    here.plans = std::make_unique<StagePlans>(*here.program, options.planning);
+    return {};
+}
+
+bool has_sizes(const Script& script) {
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
+        if (script.program->stages[k].size) return true;
+    }
+    return false;
+}
+
+Result<std::shared_ptr<const Program>> sized_program(Script& script,
+                                                     const SimulationOptions& options) {
+    if (!has_sizes(script)) return script.program;
+    const auto made = make_environment(script, options);
+    if (!made) return tl::unexpected(made.error());
+    return std::make_shared<const Program>(*(*made)->program);
+}
+
+}  // namespace cascade
