@@ -7,7 +7,7 @@ namespace cascade {
 
 std::span<const CommandEntry> command_table() {
     using enum AtPrompt;
-    static constexpr std::array<CommandEntry, 13> all = {{
+    static constexpr std::array<CommandEntry, 14> all = {{
         {Command::run, "run", run_command, absent},
         {Command::sweep, "sweep", sweep_command, of_script},
         {Command::check, "check", check_command, of_script},
@@ -16,6 +16,7 @@ std::span<const CommandEntry> command_table() {
         {Command::compile, "compile", compile_command, of_script},
         {Command::systems, "systems", systems_command, plain},
         {Command::new_script, "new", new_command, absent},
+        {Command::palettes, "palettes", palettes_command, plain},
         {Command::format, "fmt", format_command, absent},
         {Command::mesh, "mesh", mesh_command, plain},
         {Command::repl, "repl", repl_command, absent},

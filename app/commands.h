@@ -21,6 +21,7 @@ int bench_command(const Options& options, Console& console);
 int compile_command(const Options& options, Console& console);
 int systems_command(const Options& options, Console& console);
 int new_command(const Options& options, Console& console);
+int palettes_command(const Options& options, Console& console);
 int format_command(const Options& options, Console& console);
 int mesh_command(const Options& options, Console& console);
 int view_command(const Options& options, Console& console);

@@ -93,6 +93,12 @@ const std::string_view systems_examples = R"(Examples:
   cascade systems gray_scott                         its equations and parameters
   cascade systems my.cascade                         those of a script)";
 
+const std::string_view palettes = "Shows palettes: their colours, names and descriptions.";
+const std::string_view palettes_examples = R"(Examples:
+  cascade palettes                                   all of them, a line each
+  cascade palettes -o palettes.svg                   as a sheet
+  cascade palettes "#1b2a49 #f08a5d #fff3d6"         colours of one's own)";
+
 const std::string_view new_script = "Prints a script to start from: a system of the library.";
 const std::string_view new_script_examples = R"(Examples:
   cascade new brusselator -o my.cascade

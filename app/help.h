@@ -17,6 +17,7 @@ extern const std::string_view bench, bench_examples;
 extern const std::string_view compile, compile_examples;
 extern const std::string_view systems, systems_examples;
 extern const std::string_view new_script, new_script_examples;
+extern const std::string_view palettes, palettes_examples;
 extern const std::string_view format, format_examples;
 extern const std::string_view mesh, mesh_examples;
 extern const std::string_view repl, repl_examples;

@@ -54,6 +54,7 @@ struct Parser {
     CLI::App* compile = nullptr;
     CLI::App* systems = nullptr;
     CLI::App* new_script = nullptr;
+    CLI::App* palettes = nullptr;
     CLI::App* format = nullptr;
     CLI::App* mesh = nullptr;
     CLI::App* repl = nullptr;
@@ -181,6 +182,18 @@ void Parser::add_all() {
         ->type_name("FILE")
         ->group("Output");
 
+    palettes = command("palettes", help::palettes, help::palettes_examples);
+    palettes
+        ->add_option("WORDS", options.words,
+                     "Names of palettes, or colours of one's own in quotes; without them all")
+        ->type_name("");
+    palettes
+        ->add_option_function<std::string>(
+            "-o,--output", [&](const std::string& path) { options.sheet = path; },
+            "A sheet of them, .png or .svg")
+        ->type_name("FILE")
+        ->group("Output");
+
     format = command("fmt", help::format, help::format_examples);
     format->add_option("SCRIPTS", options.scripts, "Scripts, or - for standard input")
         ->type_name("");
@@ -214,8 +227,8 @@ void Parser::add_all() {
     groups::add_overrides(*view, options.overrides);
     groups::add_simulation(*view, options, "Threads; without it all cores");
 
-    for (CLI::App* sub : {run, sweep, check, analyze, bench, compile, systems, new_script, format,
-                          mesh, repl, view, export_page}) {
+    for (CLI::App* sub : {run, sweep, check, analyze, bench, compile, systems, new_script, palettes,
+                          format, mesh, repl, view, export_page}) {
         sub->set_help_flag("-h,--help", "This text")->group("More");
     }
 }

@@ -30,6 +30,7 @@ enum class Command {
     compile,
     systems,
     new_script,
+    palettes,
     format,
     mesh,
     repl,
@@ -76,6 +77,7 @@ struct Options {
     bool quiet = false;                ///< Neither progress nor remarks.
     std::vector<std::string> words;    ///< What `systems` searches for; the system of `new`.
     std::filesystem::path new_script;  ///< `new -o`
+    std::filesystem::path sheet;       ///< `palettes -o`
     bool check_only = false;           ///< `fmt --check`
     ScriptNotation notation = ScriptNotation::as_written;  ///< `fmt --unicode`, `--ascii`
     std::vector<std::string> models;                       ///< Arguments of `mesh`.

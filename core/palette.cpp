@@ -5,8 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace cascade {
 namespace {
@@ -35,11 +44,60 @@ constexpr std::array<Palette, 15> all_palettes{{
 
 std::span<const Palette> palettes() { return all_palettes; }
 
+namespace {
+
+constexpr std::size_t most_stops = 64;
+
+/// "#1b2a49" or "#fff"; nothing for other words.
+std::optional<Colour> colour_of(std::string_view word) {
+    if ((word.size() != 4 && word.size() != 7) || word[0] != '#') return std::nullopt;
+    const std::size_t digits = word.size() / 3;  // Of a channel.
+    Colour colour{};
+    for (std::size_t channel = 0; channel < colour.size(); ++channel) {
+        unsigned value = 0;
+        const char* const begin = word.data() + 1 + channel * digits;
+        const auto [end, error] = std::from_chars(begin, begin + digits, value, 16);
+        if (error != std::errc() || end != begin + digits) return std::nullopt;
+        colour[channel] = static_cast<float>(value) / (digits == 1 ? 15.0F : 255.0F);
+    }
+    return colour;
+}
+
+/// A palette by its colours, with the texts and the stops that it refers to.
+struct OwnPalette {
+    std::string name;
+    std::vector<Colour> stops;
+    Palette palette;
+};
+
+/// Entries are kept, as literals of scripts are.
+const Palette* find_own(std::string_view name) {
+    static std::mutex guard;
+    static std::map<std::string, std::unique_ptr<OwnPalette>, std::less<>> known;
+    auto made = std::make_unique<OwnPalette>();
+    made->name = std::string(name);
+    for (std::size_t at = 0; at < name.size();) {
+        const std::size_t end = std::min(name.find(' ', at), name.size());
+        if (end > at) {
+            const auto colour = colour_of(name.substr(at, end - at));
+            if (!colour || made->stops.size() == most_stops) return nullptr;
+            made->stops.push_back(*colour);
+        }
+        at = end + 1;
+    }
+    if (made->stops.size() < 2) return nullptr;
+    made->palette = {made->name, "colours of one's own", made->stops};
+    const std::scoped_lock lock(guard);
+    return &known.try_emplace(made->name, std::move(made)).first->second->palette;
+}
+
+}  // namespace
+
 const Palette* find_palette(std::string_view name) {
     for (const Palette& palette : all_palettes) {
         if (palette.name == name) return &palette;
     }
-    return nullptr;
+    return name.starts_with('#') ? find_own(name) : nullptr;
 }
 
 Colour colour_at(const Palette& palette, double position) {

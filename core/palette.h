@@ -23,7 +23,9 @@ struct Palette {
 /// All palettes, "grey" first.
 std::span<const Palette> palettes();
 
-/// The palette of that name; nullptr if there is none.
+/// The palette of that name, or one of the user's own: 2 to 64 colours in hexadecimal with blanks
+/// between them, "#1b2a49 #f08a5d #fff3d6" or "#000 #fff". nullptr if there is none. Never
+/// destroyed.
 const Palette* find_palette(std::string_view name);
 
 /// The colour at `position`, clamped to 0 … 1; colour_of_nan for NaN.

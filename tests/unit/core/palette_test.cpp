@@ -137,6 +137,25 @@ TEST(Palette, PositionsAreClampedAndNanIsMagenta) {
     }
 }
 
+TEST(Palette, MayBeColoursOfOnesOwn) {
+    const Palette* const own = find_palette("#000000 #8040ff  #fff");
+    ASSERT_NE(own, nullptr);
+    ASSERT_EQ(own->stops.size(), 3u);
+    EXPECT_EQ(own->stops[0], (Colour{0, 0, 0}));
+    EXPECT_EQ(own->stops[2], (Colour{1, 1, 1}));
+    EXPECT_FLOAT_EQ(colour_at(*own, 0.5)[0], 128.0F / 255);
+    EXPECT_FLOAT_EQ(colour_at(*own, 0.75)[1], (64.0F / 255 + 1) / 2);
+    EXPECT_EQ(find_palette("#000000 #8040ff  #fff"), own);
+    std::string many = "#000";
+    for (int k = 0; k < 63; ++k) many += " #fff";
+    EXPECT_NE(find_palette(many), nullptr);
+    EXPECT_EQ(find_palette(many + " #fff"), nullptr);
+    for (const char* text :
+         {"#", "#000", "#000 #ff", "#000 white", "#000000 #gggggg", "#000,#fff"}) {
+        EXPECT_EQ(find_palette(text), nullptr) << text;
+    }
+}
+
 TEST(Palette, TheSpecificationListsThem) {
     std::ifstream file(CASCADE_SOURCE_DIR "/spec/pictures.md");
     std::string spec((std::istreambuf_iterator<char>(file)), {});
