@@ -55,6 +55,7 @@ public:
         }
         if (const auto* item = node.as<ItemId>()) return add_item(*item, part);
         if (const auto* builtin = node.as<Builtin>()) return add_builtin(*builtin);
+        if (node.is<Unknown>()) return failure("there is no rule for constraints in its rates");
         if (!node.is<Call>()) {
             return failure("its rates read earlier stages or places, so that no state is flat");
         }
@@ -348,6 +349,11 @@ private:
         const bool is_numeric = !varies_by_cell(node.function) && node.operand_count <= 3 &&
                                 info(node.function).kind <= FunctionKind::choice;
         if (!is_numeric) {
+            if (is_nonlocal(node)) {
+                return failure(
+                    fmt::format("there is no rule for {} in its rates",
+                                node.calls(Function::solved) ? "constraints" : "convolutions"));
+            }
             if (varies_by_cell(node.function)) {
                 return failure(fmt::format(
                     "'{}' in its rates differs from place to place, so that no state is flat",

@@ -29,7 +29,7 @@ function describe(name, script) {
 }
 
 function collect(picture_of) {
-    const examples = ["", "witkin_kass/", "surfaces/", "on_models/", "cells/"].flatMap((folder) => names(`examples/${folder}`).map((name) => folder + name));
+    const examples = ["", "witkin_kass/", "surfaces/", "on_models/", "materials/", "cells/"].flatMap((folder) => names(`examples/${folder}`).map((name) => folder + name));
     return {
         systems: Object.fromEntries(names("lang/systems").map((name) => [name, picture_of(`models/${name}`, ({ systems }) => systems[name])])),
         examples: examples.map((name) => {

@@ -7,6 +7,7 @@
 #include "core/floating_point.h"
 #include "core/overloaded.h"
 #include "ir/draw_of_step.h"
+#include "solvers/constraint_solver.h"
 #include "solvers/tiling.h"
 
 #include <algorithm>
@@ -50,6 +51,30 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
             of_pass.copied = copied_columns(of_pass.rules.back(), layout_.width);
         }
     }
+    with_number(problem.precision, [&](auto zero) {
+        auto& all = std::get<Convolutions<decltype(zero)>>(convolutions_);
+        using Number = decltype(zero);
+        auto& solvers =
+            std::get<std::vector<std::vector<std::unique_ptr<ConstraintSolver<Number>>>>>(solvers_);
+        for (const StepProblem::Pass& pass : problem.passes) {
+            auto& of_pass = solvers.emplace_back();
+            for (const StepProblem::Solve& each : pass.solves) {
+                of_pass.push_back(std::make_unique<ConstraintSolver<Number>>(each, problem));
+            }
+        }
+        for (const StepProblem::Pass& pass : problem.passes) {
+            std::vector<std::size_t>& of_pass = convolutions_of_pass_.emplace_back();
+            for (const StepProblem::Convolution& each : pass.convolutions) {
+                const auto known = std::find_if(all.begin(), all.end(), [&](const auto& other) {
+                    return *other.first == *each.weights;
+                });
+                of_pass.push_back(static_cast<std::size_t>(known - all.begin()));
+                if (known != all.end()) continue;
+                all.emplace_back(each.weights, std::make_unique<ConvolutionRunner<decltype(zero)>>(
+                                                   problem.grid, *each.weights));
+            }
+        }
+    });
     row_values_.assign(problem.aggregates,
                        std::vector<double>(static_cast<std::size_t>(layout_.row_count())));
     if (problem.diffusion.empty()) return;
@@ -62,6 +87,8 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
             .emplace(problem.grid, sides);
     });
 }
+
+PassRunner::~PassRunner() = default;
 
 void PassRunner::prepare(Worker& worker, int number, int count) const {
     worker.number = number;
@@ -110,11 +137,42 @@ void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Re
                               const StepMoment& moment) {
     const StepProblem::Pass& pass = problem_.passes[number];
     std::visit(
-        [&](auto& arguments) {
+        [&]<typename Number>(Arguments<Number>& arguments) {
+            if (!pass.solves.empty()) solve<Number>(worker, number, team, registers, moment);
+            if (!pass.convolutions.empty()) convolve<Number>(worker, number, team, registers);
             if (!pass.reductions.empty()) reduce(worker, arguments, number, team, registers);
             if (pass.filter) filter(worker, arguments, *pass.filter, team, registers, moment);
         },
         worker.arguments);
+}
+
+template <typename Number>
+void PassRunner::solve(const Worker& worker, std::size_t pass_number, Team& team,
+                       Registers registers, const StepMoment& moment) {
+    auto& solvers =
+        std::get<std::vector<std::vector<std::unique_ptr<ConstraintSolver<Number>>>>>(solvers_);
+    const std::vector<StepProblem::Solve>& all = problem_.passes[pass_number].solves;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        solvers[pass_number][k]->solve(team, worker.number, worker.count, registers, moment,
+                                       temporaries_[all[k].target]);
+    }
+}
+
+/// The halo is filled by the threads that wrote the rows beside it.
+template <typename Number>
+void PassRunner::convolve(const Worker& worker, std::size_t pass_number, Team& team,
+                          Registers registers) {
+    const auto& runners = std::get<Convolutions<Number>>(convolutions_);
+    const std::vector<StepProblem::Convolution>& all = problem_.passes[pass_number].convolutions;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Number* const target = temporaries_[all[k].target].template origin<Number>();
+        runners[convolutions_of_pass_[pass_number][k]].second->apply(
+            team, worker.number, worker.count,
+            read(all[k].operand, registers).template origin<Number>(), target);
+        if (!all[k].needs_halo || !problem_.has_halo()) continue;
+        fill_halo_from(target, layout_, all[k].boundary, {worker.rows});
+        team.barrier();
+    }
 }
 
 /// Every thread reduces its rows; then each thread folds the sums of all rows. These are

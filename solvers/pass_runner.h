@@ -13,9 +13,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -36,10 +38,14 @@ using Registers = std::span<const std::span<Field>>;
 /// the cache, or, if grids are cut along columns, by any thread.
 using RowsWritten = std::function<void(RowRange)>;
 
+template <typename Number>
+class ConstraintSolver;
+
 class PassRunner {
 public:
     /// Allocates temporaries. `problem` must outlive the runner.
     explicit PassRunner(const StepProblem& problem);
+    ~PassRunner();
 
     /// A pass with everything that is needed to run it on some rows.
     template <typename Number>
@@ -81,8 +87,8 @@ public:
     /// Runs all passes once; the team shares the rows.
     void run_once(Team& team, Registers registers, const StepMoment& moment);
 
-    /// Does what must precede the pass's kernel: reductions and filters. Called like run(), by all
-    /// threads of the team.
+    /// Does what must precede the pass's kernel: constraints, convolutions, reductions and filters.
+    /// Called like run(), by all threads of the team.
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
     /// Binds a pass as level `level` of the worker. Registers are read now, not later. `is_near`:
@@ -95,6 +101,7 @@ public:
     void run_cells(Worker& worker, std::size_t level, const Patch& cells) const;
 
     const StepProblem& problem() const { return problem_; }
+    const Field& temporary(TemporaryId id) const { return temporaries_[id]; }
     const PlaneLayout& layout() const { return layout_; }
 
 private:
@@ -103,6 +110,11 @@ private:
     template <typename Number>
     void reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number, Team& team,
                 Registers registers);
+    template <typename Number>
+    void solve(const Worker& worker, std::size_t pass_number, Team& team, Registers registers,
+               const StepMoment& moment);
+    template <typename Number>
+    void convolve(const Worker& worker, std::size_t pass_number, Team& team, Registers registers);
     template <typename Number>
     void filter(Worker& worker, Arguments<Number>& arguments, const SweepFilter& filter, Team& team,
                 Registers registers, const StepMoment& moment) const;
@@ -124,6 +136,17 @@ private:
     PlaneLayout layout_;
     /// By pass; null for passes without a filter.
     std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
+    template <typename Number>
+    using Convolutions = std::vector<
+        std::pair<std::shared_ptr<const WeightedLags>, std::unique_ptr<ConvolutionRunner<Number>>>>;
+    /// Equal convolutions share one.
+    std::tuple<Convolutions<float>, Convolutions<double>> convolutions_;
+    /// By pass, one for each of its constraints.
+    std::tuple<std::vector<std::vector<std::unique_ptr<ConstraintSolver<float>>>>,
+               std::vector<std::vector<std::unique_ptr<ConstraintSolver<double>>>>>
+        solvers_;
+    /// By pass, and convolution of the pass: their positions in convolutions_.
+    std::vector<std::vector<std::size_t>> convolutions_of_pass_;
     struct PassSides {
         std::vector<SideRules> rules;       ///< By result, before any of them changes.
         std::optional<HaloColumns> copied;  ///< What a kernel fills columns of the halo with.

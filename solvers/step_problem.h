@@ -7,11 +7,14 @@
 #include "ir/diffusion.h"
 #include "ir/reduction.h"
 #include "solvers/changing_side.h"
+#include "solvers/convolution.h"
 #include "solvers/scheme.h"
+#include "solvers/solve_report.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <variant>
@@ -58,6 +61,39 @@ struct StepProblem {
         static constexpr double next_step = -1;
     };
 
+    /// A field that makes e of a constraint `0 = e` zero (solvers/constraint_solver.h). The results
+    /// of its problems are their last temporaries. They read registers as the problem that they are
+    /// part of, `unknown`, and the planes `constant`.
+    struct Solve {
+        /// A part of e that does not change with the field.
+        struct Part {
+            std::shared_ptr<Field> plane;
+            Boundaries boundary = {};
+        };
+        TemporaryId target;
+        bool needs_halo = false;              ///< The target is read at neighbours.
+        SideRules sides;                      ///< Of the field, before any of them changes.
+        std::optional<SpeciesId> rules = {};  ///< The number of those in StepProblem::sides, …
+        RegisterId in_register;               ///< … which read species here …
+        double read_at = 0;                   ///< … at this part of the step.
+        std::shared_ptr<const StepProblem> whole, linear, parts;  ///< The last one may be null.
+        std::shared_ptr<Field> unknown;
+        std::vector<Part> constant;  ///< The results of `parts`.
+        /// The areas of cells, 0 outside of the mask and in the padding of a linked grid; null: all
+        /// cells are alike.
+        std::shared_ptr<const Field> areas;
+        std::shared_ptr<SolveReport> report;  ///< Never null.
+    };
+
+    /// A sum over the cells around each cell, of whole planes (solvers/convolution.h).
+    struct Convolution {
+        PlaneRef operand;
+        TemporaryId target;
+        bool needs_halo = false;   ///< The target is read at neighbours.
+        Boundaries boundary = {};  ///< How its halo is filled.
+        std::shared_ptr<const WeightedLags> weights;
+    };
+
     /// A factor of a species' diffusion.
     struct DiffusionFactor {
         double value = 0;
@@ -65,8 +101,10 @@ struct StepProblem {
     };
 
     struct Pass {
-        std::vector<Reduction> reductions;  ///< Done before the kernel is run.
-        std::optional<SweepFilter> filter;  ///< Done after them, before the kernel is run.
+        std::vector<Solve> solves;              ///< Done before the convolutions.
+        std::vector<Convolution> convolutions;  ///< Done in order before the reductions.
+        std::vector<Reduction> reductions;      ///< Done before the kernel is run.
+        std::optional<SweepFilter> filter;      ///< Done after them, before the kernel is run.
         KernelPointer kernel;
         std::vector<PlaneRef> fields;  ///< By field slot of the kernel.
         std::vector<const std::uint8_t*> masks;

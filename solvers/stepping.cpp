@@ -77,8 +77,11 @@ Stepping stepping_with(const StepProblem& problem, const Tiling& tiling, int lev
     stepping.sweeps_at_once = passes / tiles;
     const bool is_tiled = stepping.sweeps_at_once > 1;
     stepping.meetings = tiles * (is_tiled ? phases : 1);
-    for (const StepProblem::Pass& pass : problem.passes)
+    for (const StepProblem::Pass& pass : problem.passes) {
         stepping.meetings += !pass.reductions.empty();
+        // Before and after each of them, and between transforms along the axes.
+        stepping.meetings += 4.0 * static_cast<double>(pass.convolutions.size());
+    }
     if (is_tiled) stepping.bytes_in_use = bytes_in_use(problem, tiling, levels);
     return stepping;
 }

@@ -156,7 +156,8 @@ Patch share_of(const Grid& grid, int index, int count) {
 }
 
 bool needs_all_rows(const StepProblem::Pass& pass) {
-    return !pass.reductions.empty() || pass.filter;
+    return !pass.reductions.empty() || !pass.convolutions.empty() || !pass.solves.empty() ||
+           pass.filter;
 }
 
 std::int64_t bytes_of_step(const StepProblem& problem) {

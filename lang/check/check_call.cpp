@@ -49,6 +49,7 @@ void ExpressionChecker::visit(const ast::Call& call) {
     }
     if (!belongs_here(*function, call.function.span)) return;
     if (info(*function).arity.is_groups) return take_surface_value(*function, call);
+    if (is_nonlocal(*function)) return take_convolution(call);
     Operands operands{};
     for (std::uint32_t i = 0; i < call.argument_count; ++i) {
         operands[i] = part_of(script_.arguments[call.first_argument + i]);
@@ -174,7 +175,8 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return is_elementary(function) || is_of_space ||
                refuse("a shape is made of functions of numbers and vectors");
     }
-    if (context == Context::mask && (row.is_aggregate || differentiates(function))) {
+    const bool reads_others = row.is_aggregate || differentiates(function) || is_nonlocal(function);
+    if (context == Context::mask && reads_others) {
         return refuse("a mask says which cells the domain has, and reads no others");
     }
     if (context == Context::mask && needs_model(function)) {
@@ -297,6 +299,9 @@ void ExpressionChecker::check_palette(const Node& node) {
         std::vector<std::string> names;
         for (const Palette& palette : palettes()) names.emplace_back(palette.name);
         std::string hint = did_you_mean(work_, name, names);
+        if (name.starts_with('#')) {
+            hint = "2 to 64 colours such as \"#1b2a49 #f08a5d #fff\" are a palette";
+        }
         if (hint.empty()) hint = "palettes are " + list_names(names);
         return error(text.span, fmt::format("there is no palette '{}'", name), std::move(hint));
     }

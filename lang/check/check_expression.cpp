@@ -3,6 +3,8 @@
 
 #include "lang/calculus/algebra.h"
 #include "lang/check/check_directions.h"
+#include "lang/program/dependencies.h"
+#include "lang/program/order.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     formula_.nodes.reserve(count);
     parts_.reserve(count);
     find_places_of_words();
+    in_kernel_ = kernel_parts(script_, expression_);
     bool has_error = false;
     for (const NodeId part : ids_below<NodeId>(count)) {
         formula_.nodes.push_back({0.0, expr(part).span});
@@ -28,7 +31,8 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     work_.call = std::nullopt;
     if (has_error) return std::nullopt;
     CheckedExpression checked;
-    checked.formula = expanded_ != nullptr ? formula_of(formula_.nodes, root) : std::move(formula_);
+    const bool has_other_nodes = expanded_ != nullptr || has_kernels_;
+    checked.formula = has_other_nodes ? formula_of(formula_.nodes, root) : std::move(formula_);
     if (scope_.context == Context::picture && !put_definitions_in(checked.formula)) {
         return std::nullopt;
     }
@@ -36,8 +40,8 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     return checked;
 }
 
-/// A picture of cells computes the definitions that it reads. Returns false, without a message, if
-/// errors have left the system incomplete.
+/// A picture computes the definitions that it reads. Returns false if one of them is random, or,
+/// without a message, if errors have left the system incomplete.
 bool ExpressionChecker::put_definitions_in(Formula& formula) {
     const auto is_definition = [](const Node& node) { return node.is<DefinitionId>(); };
     if (std::ranges::none_of(formula.nodes, is_definition)) return true;
@@ -45,9 +49,11 @@ bool ExpressionChecker::put_definitions_in(Formula& formula) {
     const auto is_missing = [&](ItemId item) { return system.rates[item].nodes.empty(); };
     const auto is_empty = [](const Definition& each) { return each.formula.nodes.empty(); };
     if (std::ranges::any_of(system.rate_order, is_missing) ||
-        std::ranges::any_of(system.definitions, is_empty)) {
+        std::ranges::any_of(system.definitions, is_empty) ||
+        !topological_order(step_dependencies(system)).cycles.empty()) {
         return false;
     }
+    const Span first = std::ranges::find_if(formula.nodes, is_definition)->span;
     if (scope_.system < work_.definitions_read.next()) {
         for (const Node& node : formula.nodes) {
             const auto* id = node.as<DefinitionId>();
@@ -55,7 +61,10 @@ bool ExpressionChecker::put_definitions_in(Formula& formula) {
         }
     }
     formula = without_definitions(system, formula);
-    return true;
+    if (in_cells() || std::ranges::none_of(formula.nodes, is_draw)) return true;
+    work_.diagnostics.error(first, "a picture cannot read a definition with random numbers",
+                            "they are drawn anew in every step");
+    return false;
 }
 
 /// Finds the operands that must be strings, the names of palettes and files, and those of `along`
@@ -109,6 +118,7 @@ void ExpressionChecker::visit(const ast::Name& name) {
     if (wants_text_[NodeId(parts_.size() - 1)]) {
         return error(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
     }
+    if (in_kernel_[NodeId(parts_.size() - 1)] && take_lag(name.name)) return;
     if (is_direction_[NodeId(parts_.size() - 1)]) return take_direction(name.name, {});
     // In a function's body; a parameter of the system that calls it is not meant.
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {

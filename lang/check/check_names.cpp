@@ -154,10 +154,9 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     report(work, span, not_a_parameter(name, system), std::move(hint), std::move(note));
 }
 
-/// Rates have the values of definitions, sides and pictures of cells that crawl compute them.
-bool reads_definitions(const Workspace& work, const Scope& scope) {
-    return scope.context == Context::rate || scope.is_side ||
-           (scope.context == Context::picture && is_of_cells(work, scope));
+/// Rates have the values of definitions; sides and pictures compute them.
+bool reads_definitions(const Scope& scope) {
+    return scope.context == Context::rate || scope.context == Context::picture || scope.is_side;
 }
 
 /// Resolves a name of the system itself, or of the stage that is being set or shown.
@@ -173,7 +172,7 @@ std::optional<Node> resolve_own(Workspace& work, const Scope& scope, std::string
     }
     if (meaning->has_error) return std::nullopt;
     if (meaning->is_definition()) {
-        if (reads_definitions(work, scope)) {
+        if (reads_definitions(scope)) {
             return Node{std::get<DefinitionId>(meaning->id), span, meaning->type};
         }
         report(work, span, fmt::format("'{}' is a definition and cannot be read here", name),

@@ -118,7 +118,8 @@ private:
                                           definition.name),
                               "");
             }
-            if (!is_read_beside(system(), sides.definition)) {
+            const bool is_solved = root.calls(Function::solved);  // Its constraint reads it.
+            if (!is_solved && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
                               fmt::format("no operator reads '{}', so a side of it has no effect",
                                           definition.name),

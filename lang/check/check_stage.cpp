@@ -1,6 +1,7 @@
 // Stages: checks each statement, fills in defaults, orders the items, and finds the uniform ones.
 #include "lang/check/cell_stages.h"
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_convolution.h"
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
 #include "lang/check/check_size.h"
@@ -146,6 +147,7 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     fill_defaults();
     order_items();
     find_uniform();
+    check_kernels_of_stage(work_, index_);
     if (asked.solver && system().cells) {
         change_cell_solver(work_, index_, asked);
     } else if (asked.solver) {

@@ -14,6 +14,7 @@ void SystemChecker::run() {
     for (const Index& index : system().indices) declared_.emplace(index.name, index.span);
     if (is_cells()) add_cell_quantities();
     for (const Declaration& declaration : declarations_) declare(declaration);
+    find_unknowns();
     report_families();
     work_.names[index_] = names_of(system());
     rates_.resize(system().quantities.size());
@@ -119,7 +120,8 @@ void SystemChecker::declare(const Declaration& declaration) {
             definitions_.push_back(&declaration);
             system().definitions.push_back({declaration.name, declaration.span(), {}});
             return;
-        case ast::StatementKind::index: return;
+        case ast::StatementKind::index:
+        case ast::StatementKind::constraint: return;
         case ast::StatementKind::rate:
         case ast::StatementKind::rate_term: rate_statements_.push_back(&declaration); return;
         case ast::StatementKind::at_least:

@@ -193,6 +193,10 @@ void mark_reads(Workspace& work, const Formula& formula, SystemId system) {
             if (other != unknown_system) work.items_read[other][earlier->item] = true;
         }
     }
+    for_each_kernel(formula, *work.program.literals, [&](const ConvolutionKernel& kernel) {
+        mark_reads(work, kernel.weight, system);
+        mark_reads(work, kernel.reach, system);
+    });
 }
 
 }  // namespace cascade::checking

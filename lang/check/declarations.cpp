@@ -173,6 +173,7 @@ public:
             case Kind::definition: return add_declaration(std::move(declaration));
             case Kind::rate: return add_rate(std::move(declaration));
             case Kind::rate_term: rates_[declaration.name].push_back(all_.size()); break;
+            case Kind::constraint: break;
             case Kind::at_least:
             case Kind::at_most: return add_bound(std::move(declaration));
             case Kind::index: return;

@@ -3,7 +3,8 @@
 // check_expression.cpp walks the nodes and resolves names and strings; check_call.cpp checks calls:
 // arguments, contexts, types and constants; check_operators.cpp checks operators of derivatives,
 // vectors and tensors; check_links.cpp what cells that crawl read of their neighbours;
-// check_directions.cpp the directions that `along` takes.
+// check_directions.cpp the directions that `along` takes; check_convolution.cpp the kernels of
+// convolutions.
 #pragma once
 
 #include "lang/check/check_expression.h"
@@ -78,6 +79,9 @@ private:
     void take(std::optional<Node> node);
     void apply(Function function, const Operands& operands, std::size_t count);
     void take_surface_value(Function function, const ast::Call& call);
+    void take_convolution(const ast::Call& call);
+    bool take_lag(std::string_view name);
+    bool is_kernel(NodeId root, bool reads_lags);
     void unknown_function(const ast::Word& name);
     void wrong_count(Function function, std::size_t count);
     bool belongs_here(Function function, Span span);
@@ -110,6 +114,11 @@ private:
     Formula formula_;
     IdVector<NodeId, Part> parts_;
     IdVector<NodeId, bool> wants_text_, is_direction_;
+    IdVector<NodeId, bool> in_kernel_;  ///< Of a convolution; see kernel_parts().
+    bool has_kernels_ = false;          ///< Some nodes are in kernels, which are kept elsewhere.
 };
+
+/// By node of the expression: is it in the kernel of a convolution?
+IdVector<NodeId, bool> kernel_parts(const ast::Script& script, ast::Expression expression);
 
 }  // namespace cascade::checking

@@ -34,7 +34,7 @@ bool is_of_one_member(const ast::Statement& statement) {
 
 /// Does `later` replace `earlier`, if it is of a higher level and about the same subject?
 bool replaces(const ast::Statement& later, const ast::Statement& earlier) {
-    if (later.kind == Kind::rate_term) return false;
+    if (later.kind == Kind::rate_term || later.kind == Kind::constraint) return false;
     return !is_of_one_member(later) || later.index.text == earlier.index.text;
 }
 

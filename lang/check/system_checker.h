@@ -53,6 +53,10 @@ private:
     void add_statement_of_rate(RateStatements& rate, const Declaration& declaration);
     void report_rate_of_definition(const Declaration& rate);
     void report_no_species(const Declaration& declaration, const Meaning* meaning);
+    void find_unknowns();
+    bool find_unknown(Declaration& constraint, bool in_definitions);
+    std::vector<ast::Word> names_without_values(const Declaration& constraint,
+                                                bool in_definitions) const;
     void report_families();
     void report_no_rates();
 

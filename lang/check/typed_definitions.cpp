@@ -3,6 +3,7 @@
 #include "lang/check/typed_definitions.h"
 
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_constraint.h"
 #include "lang/program/order.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,10 @@ namespace cascade::checking {
 namespace {
 
 using Declarations = IdVector<DefinitionId, const Declaration*>;
+
+bool is_constraint(const Declaration* declaration) {
+    return declaration != nullptr && declaration->kind() == ast::StatementKind::constraint;
+}
 
 /// The nodes of the dependencies: definitions by their ids, and then one for each family, which
 /// depends on all its members.
@@ -60,7 +65,10 @@ private:
         }
         const Meaning* meaning = find(names_, name);
         if (meaning == nullptr || !meaning->is_definition()) return;
-        reads_[reader.index()].push_back(std::get<DefinitionId>(meaning->id).index());
+        const DefinitionId id = std::get<DefinitionId>(meaning->id);
+        // What a constraint determines is a number, and its constraint may read definitions of it.
+        if (is_constraint(definitions_[id])) return;
+        reads_[reader.index()].push_back(id.index());
     }
 
     const Declarations& definitions_;
@@ -106,6 +114,9 @@ void check_definition(Workspace& work, SystemId system, Context context, Definit
     }
     mark_reads(work, checked->formula, system);
     meaning.type = type;
+    if (declaration.kind() == ast::StatementKind::constraint) {
+        return solve_constraint(work, system, id, std::move(checked->formula));
+    }
     work.draft->systems[system].definitions[id].formula = std::move(checked->formula);
 }
 

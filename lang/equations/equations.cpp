@@ -96,6 +96,9 @@ private:
                                     typeset_value(said, first) + (is_tex() ? ", \\dots, " : " … ") +
                                         typeset_value(said, statement.values.back())});
                 return;
+            case ast::StatementKind::constraint:
+                definitions_.push_back({"0", "=", typeset_value(said, first)});
+                return;
             case ast::StatementKind::value: break;
         }
         std::string value = typeset_value(said, first);

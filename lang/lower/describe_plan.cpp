@@ -83,6 +83,14 @@ std::string describe(const PlanGraph& graph, const PassPlanner& planner, const S
         const std::vector<std::string>& results = plan.passes[pass].bound.kernel.result_names;
         if (results.empty()) continue;
         text += fmt::format("\n  pass {}", pass + 1);
+        if (!plan.passes[pass].solves.empty()) {
+            text +=
+                fmt::format(", after {}", counted(plan.passes[pass].solves.size(), "constraint"));
+        }
+        if (!plan.passes[pass].convolutions.empty()) {
+            text += fmt::format(", after {}",
+                                counted(plan.passes[pass].convolutions.size(), "convolution"));
+        }
         if (!plan.passes[pass].reductions.empty()) {
             text += fmt::format(", after {}",
                                 counted(plan.passes[pass].reductions.size(), "aggregate"));

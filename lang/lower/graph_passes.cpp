@@ -104,14 +104,15 @@ class Areas : public GraphPass {
     }
 };
 
-/// Replaces the operand of an aggregate outside of the mask by a value without effect.
+/// Replaces the operand of an aggregate or a convolution outside of the mask by a value without
+/// effect.
 class MaskedAggregates : public GraphPass {
     using GraphPass::GraphPass;
 
     NodeId image_of(const Node& node) override {
-        if (!is_aggregate(node)) return keep(node);
-        const bool adds =
-            node.function == Function::domain_sum || node.function == Function::domain_mean;
+        if (!is_aggregate(node) && !is_nonlocal(node)) return keep(node);
+        const bool is_least = node.function == Function::domain_min;
+        const bool adds = !is_least && node.function != Function::domain_max;
         const Node& of = graph()[node.operands[0]];
         const bool is_item = of.is<ItemId>() || of.is<StageItem>();
         // Items that vary are 0 outside.
@@ -119,7 +120,6 @@ class MaskedAggregates : public GraphPass {
             return keep(node);
         }
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        const bool is_least = node.function == Function::domain_min;
         Node masked = node;
         masked.operands[0] = call(Function::if_, {graph().leaf(InsideMask()), node.operands[0],
                                                   graph().number(adds       ? 0

@@ -41,6 +41,10 @@ std::string KernelAssembly::name_of(const std::variant<Sources...>& source) cons
             return numbered(info(value.function).spelling, id);
         },
         [&](MetricPlane plane) { return of(metric_names, plane); },
+        [&](Unknown each) {
+            return program_.literals->constraint(each.number).unknown + " (unknown)";
+        },
+        [&](LagPart part) { return of(lag_part_names, part); },
         [&](ModelPlane plane) { return of(model_names, plane); },
         [&](Neighbourhood) { return std::string("(neighbourhood)"); },
         [&](StepInvariantId id) { return numbered("step-invariant", id); },

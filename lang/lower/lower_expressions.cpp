@@ -24,6 +24,7 @@ bool is_tensor(const Node& node) {
 }
 bool is_transport(const Node& node) { return node.calls(Function::transport); }
 bool is_operator(const Node& node) { return node.is<Call>() && differentiates(node.function); }
+bool is_of_whole_planes(const Node& node) { return is_aggregate(node) || is_nonlocal(node); }
 bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>(); }
 
 /// Before the first pass, definitions and rates have been replaced by their expressions
@@ -50,9 +51,27 @@ constexpr std::array passes{
     PassInfo{"weights", is_on_model, is_operator, take_out_even_weights},
     // After this pass sums over the domain weight cells by area, and a mean is a quotient of sums.
     PassInfo{"areas", has_areas, is_aggregate, weigh_by_areas},
-    // After this pass the operands of aggregates have no effect outside of the mask.
-    PassInfo{"mask", has_mask, is_aggregate, leave_out_masked_cells},
+    // After this pass the operands of aggregates and convolutions have no effect outside of the
+    // mask.
+    PassInfo{"mask", has_mask, is_of_whole_planes, leave_out_masked_cells},
 };
+
+/// Gives the fields of constraints the sides that the stage says of their definitions.
+void add_walls_of_constraints(Expressions& expressions, const PassContext& context) {
+    const System& system = context.program.system_of(context.stage);
+    const auto& sides = context.program.stages[context.stage].definition_sides;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        const Node& defined = system.definitions[sides[k].definition].formula.nodes.back();
+        if (!defined.calls(Function::solved)) continue;
+        const std::uint32_t number = defined.as<Call>()->detail;
+        for (const NodeId id : expressions.graph.nodes().ids()) {
+            const Node& node = expressions.graph[id];
+            const bool is_field = node.is(Unknown{number}) || (node.calls(Function::solved) &&
+                                                               node.as<Call>()->detail == number);
+            if (is_field) expressions.walls.emplace_back(id, k);
+        }
+    }
+}
 
 /// The flattening refers to the graph, so that the expressions move last.
 Expressions with_roots(Expressions&& expressions, const Flattening& flattening,
@@ -90,6 +109,7 @@ Expressions flat_step(const Program& program, std::uint32_t stage) {
     for (std::size_t k = 0; k < sides.size(); ++k) {
         flat.walls.emplace_back(flattening.definition(sides[k].definition), k);
     }
+    add_walls_of_constraints(flat, {program, stage});
     return with_roots(std::move(flat), flattening, std::move(roots));
 }
 
@@ -100,6 +120,7 @@ Expressions flat_formulas(std::span<const Formula* const> formulas, const PassCo
     Flattening flattening(flat.graph, FieldSpace::of(context.program, system));
     std::vector<NodeId> roots;
     for (const Formula* formula : formulas) roots.push_back(flattening.add(*formula, noise));
+    add_walls_of_constraints(flat, context);
     return with_roots(std::move(flat), flattening, std::move(roots));
 }
 

@@ -83,6 +83,8 @@ Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
         [&](SurfaceValueId id) -> Value { return {assembly.field(id, in.at)}; },
         [&](MetricPlane plane) -> Value { return {assembly.field(plane, in.at)}; },
         [&](ModelPlane plane) -> Value { return {assembly.field(plane, in.at)}; },
+        [&](LagPart part) -> Value { return {assembly.field(part, in.at)}; },
+        [&](Unknown unknown) -> Value { return {assembly.field(unknown, in.at)}; },
         [](auto) -> Value { CHECK(false, "lowering: a graph has no definitions and rates"); },
     };
     return std::visit(value, in.node().kind);
@@ -99,6 +101,8 @@ PlaneSource plane_source(const PlanGraph& graph, NodeId id) {
         [](MetricPlane plane) -> PlaneSource { return plane; },
         [](ModelPlane plane) -> PlaneSource { return plane; },
         [](SurfaceValueId id_of_value) -> PlaneSource { return id_of_value; },
+        [](LagPart part) -> PlaneSource { return part; },
+        [](Unknown unknown) -> PlaneSource { return unknown; },
         [&](Call) -> PlaneSource {
             return NamedPlane{node.function, std::get<TextId>(graph[node.operands[0]].kind)};
         },

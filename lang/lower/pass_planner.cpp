@@ -97,8 +97,7 @@ void PassPlanner::mark_needed(std::span<const NodeId> roots) {
     for (const NodeId root : roots) needed_[root] = true;
     for (const NodeId id : graph_.ids_backwards()) {
         if (!needed_[id] || step_invariant_[id]) continue;
-        const Node& node = graph_[id];
-        for (const NodeId operand : node.reads()) needed_[operand] = true;
+        for (const NodeId operand : operands_of(graph_[id])) needed_[operand] = true;
     }
 }
 
@@ -130,13 +129,14 @@ void PassPlanner::decide(NodeId id) {
         return;
     }
     const NodeId last = node.reads().back();
-    if (is_aggregate(node)) {
-        const bool written = !is_plane(last);
-        if (written && !written_[last]) {
-            choices_.push_back({last, id, 0, true, true, false});
-            written_[last] = true;
-        }
-        pass_[id] = beside_[id] = written ? pass_[last] + 1 : 0;
+    if (node.calls(Function::solved)) {
+        written_[id] = true;  // Before the first pass.
+        return;
+    }
+    if (is_aggregate(node) || is_nonlocal(node)) {
+        write_whole(last, id);
+        pass_[id] = beside_[id] = is_plane(last) ? 0 : first_reader(last);
+        written_[id] = is_nonlocal(node);
         return;
     }
     const bool differs = !graph_.is_uniform(id);
@@ -158,6 +158,13 @@ void PassPlanner::decide(NodeId id) {
         }
     }
     decide_own(id);
+}
+
+/// Writes what is read as a whole, unless it is in a plane.
+void PassPlanner::write_whole(NodeId operand, NodeId reader) {
+    if (is_plane(operand) || written_[operand]) return;
+    choices_.push_back({operand, reader, 0, true, true, false});
+    written_[operand] = true;
 }
 
 /// The first pass in which the values of a node that is computed from its operands are known.
@@ -220,7 +227,7 @@ std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
         for_each_closed(operand, [&](NodeId id) { pass = std::max(pass, pass_beside(id)); });
         return pass;
     }
-    return written_[operand] ? pass_[operand] + 1 : beside_[operand];
+    return written_[operand] ? first_reader(operand) : beside_[operand];
 }
 
 /// Provides an operand at neighbours, by a plane or by computing it there.

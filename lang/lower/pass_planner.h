@@ -100,11 +100,12 @@ public:
     /// Is the node written to a temporary plane?
     bool is_written(NodeId node) const { return written_[node]; }
     /// The first pass in which it can be computed in the cell itself; a node that is written is
-    /// computed then.
+    /// computed then, and a nonlocal one directly before.
     std::uint32_t pass_of(NodeId node) const { return pass_[node]; }
-    /// Is it read from a plane in `pass`?
+    /// Is it read from a plane in `pass`? A pass writes planes for later ones; what is computed on
+    /// whole planes is there when its pass begins.
     bool is_plane_in(NodeId node, std::uint32_t pass) const {
-        return written_[node] && pass_[node] < pass;
+        return written_[node] && first_reader(node) <= pass;
     }
     /// How an operand is provided at the neighbours where its reader needs it.
     struct OperandChoice {
@@ -127,6 +128,11 @@ private:
     void decide(NodeId id);
     void decide_own(NodeId id);
     std::uint32_t pass_beside(NodeId operand) const;
+    /// The first pass that can read the plane of a node that is written.
+    std::uint32_t first_reader(NodeId node) const {
+        return is_nonlocal(graph_[node]) ? pass_[node] : pass_[node] + 1;
+    }
+    void write_whole(NodeId operand, NodeId reader);
     void provide(NodeId operand, Offsets offsets, NodeId reader);
     void provide_over_links(NodeId operand, NodeId reader);
     void provide_open(NodeId operand, Offsets offsets, NodeId reader);

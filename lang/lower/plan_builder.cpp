@@ -2,10 +2,13 @@
 #include "lang/lower/plan_builder.h"
 
 #include "ir/contraction.h"
+#include "lang/lower/constraint_plan.h"
+#include "lang/lower/lower_expressions.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace cascade::lowering {
@@ -21,9 +24,29 @@ ReductionKind kind_of(Function function) {
     }
 }
 
+/// A plan for a formula of a kernel, which is computed where its lags are.
+std::shared_ptr<const StepPlan> plan_of_kernel(const PlanGraph& graph, const Formula& formula) {
+    const std::array only{&formula};
+    const PassContext context{graph.program(), graph.stage(), Extent::grid};
+    const PlanGraph lags(lower_expressions(flat_formulas(only, context), context), context);
+    PlanBuilder builder({lags, lags.roots(), {}});
+    builder.result("value", builder.value(lags.roots()[0])[0]);
+    return std::make_shared<const StepPlan>(std::move(builder).finish());
+}
+
+Convolution convolution(const PlanGraph& graph, NodeId id, const PlaneSource& operand,
+                        TemporaryId target) {
+    const ConvolutionKernel& kernel =
+        graph.program().literals->kernel(graph[id].as<Call>()->detail);
+    Convolution made{operand, target, graph.boundary(id), plan_of_kernel(graph, kernel.weight), {}};
+    if (!kernel.reach.nodes.empty()) made.reach = plan_of_kernel(graph, kernel.reach);
+    return made;
+}
+
 /// Calls visit(source) for everything that a pass reads.
 template <typename Visit>
 void for_each_read(Pass& pass, const Visit& visit) {
+    for (Convolution& convolution : pass.convolutions) visit(convolution.operand);
     for (Reduction& reduction : pass.reductions) visit(reduction.operand);
     for (PlaneSource& source : pass.bound.fields) visit(source);
 }
@@ -34,7 +57,8 @@ PlanBuilder::PlanBuilder(const PlanRequest& request)
     : request_(request),
       graph_(request.graph),
       planner_(graph_, request.wanted, request.options.materialise, request.step_invariants),
-      written_(planner_.pass_count()) {
+      written_(planner_.pass_count()),
+      nonlocal_(planner_.pass_count()) {
     plan_.passes.resize(planner_.pass_count());
     number_nodes();
     for (std::uint32_t pass = 0; pass < planner_.pass_count(); ++pass) {
@@ -54,7 +78,8 @@ void PlanBuilder::number_nodes() {
         if (!planner_.is_needed(id) || planner_.is_step_invariant(id)) continue;
         if (planner_.is_written(id)) {
             storage_.temporary[id] = TemporaryId(plan_.temporaries++);
-            written_[planner_.pass_of(id)].push_back(id);
+            auto& of_pass = is_nonlocal(graph_[id]) ? nonlocal_ : written_;
+            of_pass[planner_.pass_of(id)].push_back(id);
         }
         if (is_aggregate(graph_[id])) {
             storage_.aggregate[id] = AggregateId(plan_.aggregates++);
@@ -81,10 +106,19 @@ void PlanBuilder::lower(std::uint32_t pass) {
         result(name.empty() ? fmt::format("(temporary {})", target.index()) : name, value(id)[0]);
         plan_.passes[pass].targets.push_back({target, false, graph_.boundary(id), graph_.wall(id)});
     }
+    // What needs a whole plane reads it, however early the pass that writes it.
+    const PassView after{graph_, planner_, storage_, planner_.pass_count()};
+    for (const NodeId id : nonlocal_[pass]) {
+        if (graph_[id].calls(Function::solved)) {
+            plan_.passes[pass].solves.push_back(
+                plan_of_constraint(graph_, id, storage_.temporary[id]));
+            continue;
+        }
+        plan_.passes[pass].convolutions.push_back(
+            convolution(graph_, id, after.plane(graph_[id].operands[0]), storage_.temporary[id]));
+    }
     for (const NodeId id : aggregates_) {
         if (planner_.pass_of(id) != pass) continue;
-        // An aggregate needs a whole plane, however early the pass that writes it.
-        const PassView after{graph_, planner_, storage_, planner_.pass_count()};
         plan_.passes[pass].reductions.push_back({kind_of(graph_[id].function),
                                                  after.plane(graph_[id].operands[0]),
                                                  storage_.aggregate[id]});
@@ -123,16 +157,18 @@ void PlanBuilder::share_temporaries() {
     std::vector<TemporaryId> free;
     std::vector<std::vector<TemporaryId>> freed_after(plan_.passes.size());
     std::uint32_t count = 0;
+    const auto write = [&](TemporaryId& target, std::size_t pass) {
+        const TemporaryId written = target;
+        if (free.empty()) free.emplace_back(count++);
+        target = plane[written] = free.back();
+        free.pop_back();
+        freed_after[std::max(last_read[written], pass)].push_back(target);
+    };
     for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
+        for (Solve& each : plan_.passes[pass].solves) write(each.target, pass);
+        for (Convolution& each : plan_.passes[pass].convolutions) write(each.target, pass);
         for (PassTarget& target : plan_.passes[pass].targets) {
-            auto* const temporary = std::get_if<TemporaryId>(&target.id);
-            if (temporary == nullptr) continue;
-            const TemporaryId written = *temporary;
-            if (free.empty()) free.emplace_back(count++);
-            plane[written] = free.back();
-            free.pop_back();
-            *temporary = plane[written];
-            freed_after[std::max(last_read[written], pass)].push_back(plane[written]);
+            if (auto* id = std::get_if<TemporaryId>(&target.id)) write(*id, pass);
         }
         for_each_read(plan_.passes[pass], [&](PlaneSource& source) {
             if (auto* id = std::get_if<TemporaryId>(&source)) *id = plane[*id];

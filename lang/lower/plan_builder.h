@@ -49,7 +49,8 @@ private:
     const PlanGraph& graph_;
     PassPlanner planner_;
     Storage storage_;
-    std::vector<std::vector<NodeId>> written_;  ///< By pass.
+    std::vector<std::vector<NodeId>> written_;   ///< By pass.
+    std::vector<std::vector<NodeId>> nonlocal_;  ///< By the pass before which they are computed.
     std::vector<NodeId> aggregates_;
     std::unique_ptr<KernelAssembly> last_;  ///< The kernel of the open pass.
     std::unique_ptr<PassLowering> values_;  ///< The values of that kernel.

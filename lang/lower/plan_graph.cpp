@@ -145,7 +145,8 @@ bool PlanGraph::is_plane(NodeId id) const {
     }
     if (node.is<Call>()) return reads_file(node.function);
     return node.is<StageItem>() || node.is<SensedItem>() || node.is<MetricPlane>() ||
-           node.is<ModelPlane>() || node.is<SurfaceValueId>();
+           node.is<ModelPlane>() || node.is<SurfaceValueId>() || node.is<LagPart>() ||
+           node.is<Unknown>();
 }
 
 const DefinitionSides* PlanGraph::sides(NodeId id) const {

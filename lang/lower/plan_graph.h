@@ -63,6 +63,7 @@ public:
     const Origin* origin(NodeId id) const;
     NodeId position(NodeId id) const { return expressions_.graph.written(id).position; }
 
+    const Expressions& expressions() const { return expressions_; }
     const Program& program() const { return context_.program; }
     std::uint32_t stage() const { return context_.stage; }
     bool has_mask() const { return context_.has_mask(); }

@@ -47,7 +47,7 @@ inline constexpr std::array<std::string_view, 4> time_value_names{"step", "draw"
 /// Of a field slot.
 using PlaneSource =
     std::variant<StageItem, SensedItem, SweepInput, NamedPlane, SurfaceValueId, MetricPlane,
-                 ModelPlane, Neighbourhood, StepInvariantId, TemporaryId>;
+                 ModelPlane, Neighbourhood, LagPart, Unknown, StepInvariantId, TemporaryId>;
 /// Of a uniform slot.
 using UniformSource =
     std::variant<StageItem, StepInvariantId, AggregateId, TimeValue, CoefficientId>;

@@ -30,7 +30,7 @@ std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId
         if (is_chosen(id)) {
             nodes.push_back(id);
         } else {
-            for (const NodeId operand : graph[id].reads()) needed[operand] = true;
+            for (const NodeId operand : operands_of(graph[id])) needed[operand] = true;
         }
     }
     std::reverse(nodes.begin(), nodes.end());
@@ -57,7 +57,7 @@ public:
         for (const NodeId root : roots_) want(root);
         for (const NodeId id : graph_.ids()) {
             if (places_[id] == 0 || graph_.is_step_invariant(id)) continue;
-            for (const NodeId operand : graph_[id].reads()) want(operand);
+            for (const NodeId operand : operands_of(graph_[id])) want(operand);
         }
         return first_reached(graph_, roots_, [&](NodeId id) {
             const bool is_number = graph_.is_step_invariant(id) && is_aggregate(graph_[id]);
@@ -76,7 +76,8 @@ private:
         const Node& node = graph_[id];
         const bool is_operator = node.is<Call>() && !graph_.is_uniform(id);
         const bool at_faces = is_operator && node.type == ValueType::vector;
-        for (std::uint32_t k = 0; k < node.operand_count; ++k) {
+        const std::size_t count_of_operands = operands_of(node).size();
+        for (std::size_t k = 0; k < count_of_operands; ++k) {
             // A step-invariant is computed wherever its reader is.
             std::uint32_t places = graph_.is_step_invariant(id) ? places_[id] : 1;
             if (at_faces) {
@@ -96,7 +97,7 @@ private:
         const Node& node = graph_[id];
         const bool can_be_kept = node.type == ValueType::number && !graph_.is_open(id);
         std::vector<std::uint32_t> operands;
-        for (const NodeId operand : node.reads()) {
+        for (const NodeId operand : operands_of(node)) {
             if (is_costly(graph_, operand)) operands.push_back(number_[operand]);
         }
         number_[id] = cut_.add(can_be_kept ? operations_of_reading : MinimumCut::unlimited,

@@ -1,4 +1,5 @@
-// Computations on planes, in order: passes over the grid, and reductions between them.
+// Computations on planes, in order: passes over the grid, and between them reductions and
+// operations that need whole planes.
 //
 // Most formulas need one pass: every cell reads planes and writes its results. An operator whose
 // operand contains an operator, as in lap(c^3 - c - lap(c)), needs more: one pass writes the inner
@@ -12,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,8 +48,39 @@ struct Reduction {
     AggregateId aggregate;
 };
 
+struct StepPlan;
+
+/// convolve(…): weighted sums over the cells around each cell.
+struct Convolution {
+    PlaneSource operand;
+    TemporaryId target;
+    Boundaries boundary = {};  ///< How the target's halo is filled.
+    /// The weights, on a line of cells that stand for lags (LagPart), …
+    std::shared_ptr<const StepPlan> weight;
+    /// … and the distance up to which cells count, a number; null: all cells of the domain count.
+    std::shared_ptr<const StepPlan> reach;
+};
+
+/// The field that makes e of a constraint `0 = e` zero. e is L u + b with a linear operator L and
+/// the field u. The plans read u, or what L is applied to, as Unknown.
+struct Solve {
+    TemporaryId target;
+    std::uint32_t constraint = 0;  ///< Its number in Literals.
+    std::uint32_t stage = 0;
+    Boundaries boundary = {};                ///< How the target's halo is filled, …
+    std::optional<std::size_t> wall = {};    ///< … as that of PassTarget.
+    std::shared_ptr<const StepPlan> whole;   ///< e.
+    std::shared_ptr<const StepPlan> linear;  ///< L u.
+    /// What L does not change with u: the step-invariants of `linear`, which it reads; may be null.
+    std::shared_ptr<const StepPlan> parts;
+};
+
 struct Pass {
-    std::vector<Reduction> reductions;  ///< Executed before the pass and after the one before it.
+    /// Executed before the pass and after the one before it: first constraints and convolutions, in
+    /// order, …
+    std::vector<Solve> solves;
+    std::vector<Convolution> convolutions;
+    std::vector<Reduction> reductions;  ///< … then these.
     BoundKernel bound;
     std::vector<PassTarget> targets;  ///< One for each result of the kernel.
 };

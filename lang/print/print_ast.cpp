@@ -92,8 +92,8 @@ private:
 };
 
 std::string print_statement(const ast::Statement& statement, ExpressionPrinter& printer) {
-    static constexpr std::array<std::string_view, 7> relations = {":",   " =",  "' =", "' +=",
-                                                                  " >=", " <=", ":"};
+    static constexpr std::array<std::string_view, 8> relations = {":",   " =",  "' =", "' +=",
+                                                                  " >=", " <=", ":",   " ="};
     std::string result(statement.name.text);
     if (!statement.index.empty()) result += fmt::format("[{}]", statement.index.text);
     if (!statement.side.empty()) result += fmt::format(".{}", statement.side.text);

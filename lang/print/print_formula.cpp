@@ -140,6 +140,8 @@ private:
             [&](MetricPlane plane) { return of(metric_names, plane); },
             [&](ModelPlane plane) { return of(model_names, plane); },
             [](InsideMask) { return std::string("(inside)"); },
+            [&](LagPart part) { return of(lag_part_names, part); },
+            [&](Unknown unknown) { return program_.literals->constraint(unknown.number).unknown; },
             [](Call) { return std::string(); },
         };
         return std::visit(text, node.kind);

@@ -26,6 +26,7 @@ std::uint64_t word_of(const NodeKind& kind) {
         [](Rate rate) { return std::uint64_t{rate.species.index()}; },
         [](Call call) { return std::uint64_t{call.detail}; },
         [](InsideMask) { return std::uint64_t{0}; },
+        [](Unknown unknown) { return std::uint64_t{unknown.number}; },
         []<typename Tag>(Id<Tag> id) { return std::uint64_t{id.index()}; },
         [](auto of_enumeration) { return static_cast<std::uint64_t>(of_enumeration); },
     };

@@ -98,6 +98,7 @@ NodeId FieldVectors::product(NodeId a, NodeId b) {
 }
 
 NodeId FieldVectors::add(const Node& node, Written written) {
+    if (node.is(CellValue::distance)) return graph_.leaf(LagPart::distance);
     const auto instead = node.is<Call>() ? written_out(node) : std::nullopt;
     return instead ? *instead : graph_.add(node, written);
 }
@@ -301,6 +302,12 @@ FieldVectors::Components FieldVectors::components_of(const Node& node) {
         return Components{make(std::size_t{0}), make(std::size_t{1}), make(std::size_t{2})};
     };
     const auto of = [&](NodeId vector, std::size_t k) { return components_.at(vector)[k]; };
+    if (node.is(CellValue::direction)) {
+        constexpr std::array parts{LagPart::direction_x, LagPart::direction_y,
+                                   LagPart::direction_z};
+        return each(
+            [&](std::size_t k) { return space_.has_axis[k] ? graph_.leaf(parts[k]) : zero(); });
+    }
     switch (node.function) {
         case Function::grad: return gradient(a);
         case Function::vector:

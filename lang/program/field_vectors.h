@@ -13,7 +13,8 @@
 //   along(v)                                           becomes an arc tangent of components.
 //
 // On a model diffuse(e, a1, a2, theta) becomes div(tensor(a1, a2, theta) * grad(e)).
-// Sums, differences and multiples of tensors become symmetric(…) of their entries.
+// Sums, differences and multiples of tensors become symmetric(…) of their entries. In the kernel of
+// a convolution `distance` and the components of `direction` become LagParts.
 #pragma once
 
 #include "lang/program/expression_graph.h"

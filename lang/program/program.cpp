@@ -44,6 +44,16 @@ SurfaceValueId Literals::id_of(const SurfaceValue& value) {
     return id;
 }
 
+std::uint32_t Literals::add(ConvolutionKernel kernel) {
+    kernels_.push_back(std::move(kernel));
+    return static_cast<std::uint32_t>(kernels_.size() - 1);
+}
+
+std::uint32_t Literals::add(Constraint constraint) {
+    constraints_.push_back(std::move(constraint));
+    return static_cast<std::uint32_t>(constraints_.size() - 1);
+}
+
 bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
                      std::uint32_t stage) {
     const auto item_differs = [&](StageItem each) {

@@ -101,19 +101,39 @@ struct InsideMask {
     bool operator==(const InsideMask&) const = default;
 };
 
+/// A part of what the kernel of a convolution reads of the way from the cell to the one that is
+/// weighted.
+enum class LagPart : std::uint8_t {
+    distance,  ///< Between their centres, in the script's unit.
+    direction_x,
+    direction_y,
+    direction_z  ///< Of the unit vector along it; 0 at the distance 0.
+};
+inline constexpr std::size_t lag_part_count = 4;
+inline constexpr std::array<std::string_view, lag_part_count> lag_part_names{
+    "distance", "direction.x", "direction.y", "direction.z"};
+
+/// The field that a constraint `0 = e` determines, by the number that its constraint has in
+/// Literals. Only e reads it.
+struct Unknown {
+    std::uint32_t number = 0;
+    bool operator==(const Unknown&) const = default;
+};
+
 /// A function of operands.
 struct Call {
-    /// Of noise its octaves; of the parts of `transport` the axis.
-    std::uint8_t detail = 0;
+    /// Of noise its octaves; of the parts of `transport` the axis; of convolve the number of its
+    /// kernel in Literals; of solved the number of its constraint.
+    std::uint32_t detail = 0;
     bool operator==(const Call&) const = default;
 };
 
 /// What a node is. An ItemId is an item of this stage, a StageItem one of an earlier stage; of a
-/// vector they are the first of its three components. Only lowering makes nodes of the last three
-/// kinds.
+/// vector they are the first of its three components. Only lowering makes nodes of the kinds from
+/// SurfaceValueId to LagPart, but that the checker makes of constants.
 using NodeKind =
     std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, CellValue, DefinitionId,
-                 Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask>;
+                 Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask, LagPart, Unknown>;
 
 /// In a system of fields a vector has a value in each cell and, inside of div, a value at each face
 /// between cells (lang/program/field_vectors.h). In a system of cells that crawl it is three
@@ -157,6 +177,14 @@ inline bool is_draw(const Node& node) { return node.is<Call>() && is_random(node
 inline bool is_aggregate(const Node& node) {
     return node.is<Call>() && info(node.function).is_aggregate;
 }
+
+/// The operands whose values a node needs. Those of a constraint are computed while it is solved.
+inline std::span<const NodeId> operands_of(const Node& node) {
+    return node.calls(Function::solved) ? std::span<const NodeId>() : node.reads();
+}
+
+/// Is the node computed on whole planes?
+inline bool is_nonlocal(const Node& node) { return node.is<Call>() && is_nonlocal(node.function); }
 
 using Nodes = IdVector<NodeId, Node>;
 
@@ -464,6 +492,19 @@ struct SurfaceValue {
     friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
 };
 
+/// A constraint `0 = e`, which determines a field.
+struct Constraint {
+    std::string unknown;  ///< The name of the field.
+    Span span;            ///< Of e.
+};
+
+/// The kernel of a convolution: a formula of numbers, uniform parameters, and `distance` and
+/// `direction` from the cell to the one that is weighted (CellValue).
+struct ConvolutionKernel {
+    Formula weight;
+    Formula reach;  ///< Cells up to this distance count; empty: all cells of the domain.
+};
+
 struct DomainSettings {
     Grid grid;                               ///< 64 × 64, periodic, unless said otherwise.
     std::optional<ModelSettings> model;      ///< Then the grid is linked.
@@ -482,17 +523,24 @@ public:
     /// The id of an equal one, or of a new one.
     TextId id_of(const std::string& text);
     SurfaceValueId id_of(const SurfaceValue& value);
+    /// The number of a new kernel, or of a new constraint.
+    std::uint32_t add(ConvolutionKernel kernel);
+    std::uint32_t add(Constraint constraint);
 
     /// In quotes: the name of a palette, a path.
     const std::string& text(TextId id) const { return texts_[id.index()]; }
     const SurfaceValue& surface_value(SurfaceValueId id) const {
         return surface_values_[id.index()];
     }
+    const ConvolutionKernel& kernel(std::uint32_t number) const { return kernels_[number]; }
+    const Constraint& constraint(std::uint32_t number) const { return constraints_[number]; }
     auto text_ids() const { return ids_below<TextId>(texts_.size()); }
 
 private:
     std::deque<std::string> texts_;
     std::deque<SurfaceValue> surface_values_;
+    std::deque<ConvolutionKernel> kernels_;
+    std::deque<Constraint> constraints_;
 };
 
 struct Program {
@@ -504,6 +552,14 @@ struct Program {
 
     const System& system_of(std::uint32_t stage) const { return systems[stages[stage].system]; }
 };
+
+/// Calls visit(kernel) for the kernels of the convolutions in a formula.
+template <typename Visit>
+void for_each_kernel(const Formula& formula, const Literals& literals, const Visit& visit) {
+    for (const Node& node : formula.nodes) {
+        if (node.calls(Function::convolve)) visit(literals.kernel(node.as<Call>()->detail));
+    }
+}
 
 /// Does a node of a formula of `stage` differ from cell to cell? `operand_differs` says whether one
 /// of its operands does. Items of the stage that are not known yet count as different.

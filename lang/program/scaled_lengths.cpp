@@ -21,6 +21,7 @@ double power_of_length(Function function, const DomainSettings& domain) {
         case Function::curl: return 1;
         case Function::domain_sum: return domain.model ? -2 : 0;  // An integral on models only.
         case Function::white: return axes_of(domain) / 2.0;  // By the root of a cell's content.
+        case Function::convolve: return -axes_of(domain);    // An integral, by the content.
         default: return derivative_of(function).order;
     }
 }
@@ -41,11 +42,34 @@ NodeId scaled(Formula& formula, NodeId id, double factor) {
     return append(formula, product);
 }
 
-Formula with_lengths(const Formula& formula, double factor, const DomainSettings& domain) {
+/// The kernel for lengths that are scaled: a distance that is `factor` times as long counts as it
+/// did.
+ConvolutionKernel with_lengths(const ConvolutionKernel& kernel, double factor) {
+    ConvolutionKernel result;
+    IdVector<NodeId, NodeId> place;
+    for (Node node : kernel.weight.nodes) {
+        for (NodeId& operand : node.reads()) operand = place[operand];
+        NodeId id = append(result.weight, node);
+        if (node.is(CellValue::distance)) id = scaled(result.weight, id, 1 / factor);
+        place.push_back(id);
+    }
+    result.reach = kernel.reach;
+    if (!result.reach.nodes.empty()) {
+        scaled(result.reach, NodeId(result.reach.nodes.size() - 1), factor);
+    }
+    return result;
+}
+
+Formula with_lengths(const Formula& formula, double factor, const DomainSettings& domain,
+                     Literals& literals) {
     Formula result;
     IdVector<NodeId, NodeId> place;
     for (Node node : formula.nodes) {
         for (NodeId& operand : node.reads()) operand = place[operand];
+        if (node.calls(Function::convolve)) {
+            node.kind =
+                Call{literals.add(with_lengths(literals.kernel(node.as<Call>()->detail), factor))};
+        }
         const double power = node.is<Call>() ? power_of_length(node.function, domain) : 0;
         NodeId id = append(result, node);
         if (power != 0) id = scaled(result, id, std::pow(factor, power));
@@ -82,8 +106,9 @@ Program with_lengths(const Program& program, std::uint32_t stage, double factor)
     if (factor == 1) return result;
     System system = program.system_of(stage);
     for (Definition& each : system.definitions)
-        each.formula = with_lengths(each.formula, factor, program.domain);
-    for (Formula& rate : system.rates) rate = with_lengths(rate, factor, program.domain);
+        each.formula = with_lengths(each.formula, factor, program.domain, *result.literals);
+    for (Formula& rate : system.rates)
+        rate = with_lengths(rate, factor, program.domain, *result.literals);
     for (auto& sides : target.sides) scale_sides(sides, program.domain, factor);
     for (DefinitionSides& each : target.definition_sides)
         scale_sides(each.sides, program.domain, factor);

@@ -72,6 +72,7 @@ enum class StatementKind : std::uint8_t {
     at_least,    ///< name >= e
     at_most,     ///< name <= e
     index,       ///< name: low .. high; the values are the two ends
+    constraint,  ///< 0 = e; the name is the 0
 };
 
 /// in low .. high [step e], after the value of a parameter.

@@ -23,16 +23,18 @@ constexpr std::array<std::string_view, 2> ends_of_value{"in", "after"};
 /// Parses the statement at the cursor and moves to its end. Reports an error and returns nothing if
 /// its name or relation is wrong; a value that is wrong becomes Garbage.
 std::optional<ast::Statement> ScriptParser::parse_statement() {
-    if (!cursor_.at(TokenKind::name)) {
+    if (!cursor_.at(TokenKind::name) && !cursor_.begins_constraint()) {
         report_no_statement();
         return std::nullopt;
     }
     ast::Statement statement;
+    const bool is_constraint = cursor_.begins_constraint();
     statement.doc = docs_before();
     statement.name = cursor_.word(cursor_.take());
-    if (!parse_index(statement)) return std::nullopt;
+    if (!is_constraint && !parse_index(statement)) return std::nullopt;
     parse_side(statement);
     if (!parse_relation(statement)) return std::nullopt;
+    if (is_constraint) statement.kind = ast::StatementKind::constraint;
     parse_values(statement);
     statement.span = join(statement.name.span, cursor_.previous().span);
     add_docs(statement.doc, docs_after(statement.name.span.begin));
@@ -296,6 +298,7 @@ void ScriptParser::parse_values(ast::Statement& statement) {
         fmt::format("the {} of {}",
                     statement.kind == ast::StatementKind::value        ? "value"
                     : statement.kind == ast::StatementKind::definition ? "definition"
+                    : statement.kind == ast::StatementKind::constraint ? "right side"
                     : statement.kind == ast::StatementKind::rate ||
                             statement.kind == ast::StatementKind::rate_term
                         ? "rate"

@@ -130,7 +130,13 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
     return has_extra && kind(ahead + 2) == TokenKind::open_curly;
 }
 
+bool TokenCursor::begins_constraint(std::size_t ahead) const {
+    return kind(ahead) == TokenKind::number && text(peek(ahead)) == "0" &&
+           kind(ahead + 1) == TokenKind::assign;
+}
+
 bool TokenCursor::begins_statement(std::size_t ahead) const {
+    if (begins_constraint(ahead)) return true;
     if (kind(ahead) != TokenKind::name) return false;
     std::size_t relation = ahead + 1;
     const bool is_member =

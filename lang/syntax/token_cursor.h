@@ -55,6 +55,8 @@ public:
     /// True if a block begins here. `system`, `cells`, `stage`, `domain` and `picture` are names
     /// elsewhere.
     bool begins_block(std::size_t ahead = 0) const;
+    /// True if `0 = ` stands here.
+    bool begins_constraint(std::size_t ahead = 0) const;
     /// True if a statement or a block begins here, in a way that no correct expression contains.
     bool begins_statement(std::size_t ahead = 0) const;
     /// True if the token here is a name with this text.

@@ -26,7 +26,7 @@ inline constexpr std::size_t function_count = 0
 // clang-format off
 enum class FunctionKind : std::uint8_t {
     logic, comparison, arithmetic, elementary, choice,
-    derivative, stencil, flux, link, draw, pattern, shape, text, landmarks,
+    derivative, stencil, flux, link, nonlocal, draw, pattern, shape, text, landmarks,
     geometry, aggregate, colour,
 };
 // clang-format on
@@ -100,6 +100,8 @@ inline bool is_comparison(Function function) {
 inline bool is_over_neighbours(Function function) {
     return function >= Function::touching_sum && function <= Function::near_max;
 }
+/// True if it reads its operand in all cells of a neighbourhood and is computed on whole planes.
+inline bool is_nonlocal(Function function) { return info(function).kind == FunctionKind::nonlocal; }
 /// True if it draws random numbers.
 inline bool is_random(Function function) {
     const FunctionKind kind = info(function).kind;

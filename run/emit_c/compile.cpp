@@ -147,6 +147,14 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
         return failure("a stage in double precision is not compiled to an object file",
                        "'cascade run' compiles it in memory; --precision single is compiled");
     }
+    const StepPlan rates = plan_rates(program, stage, {});
+    for (const Pass& pass : rates.passes) {
+        if (pass.convolutions.empty() && pass.solves.empty()) continue;
+        return failure(fmt::format("stage '{}' has a {}, which is not compiled to an object file",
+                                   program.stages[stage].name,
+                                   pass.solves.empty() ? "convolution" : "constraint"),
+                       "'cascade run' compiles it in memory");
+    }
     for (const auto& sides : program.stages[stage].sides) {
         for (std::size_t side = 0; side < side_count; ++side) {
             if (!takes_value(sides[side].kind)) continue;

@@ -255,6 +255,10 @@ bool is_sure(const StageView& view, FlickerReport& report) {
 
 std::optional<std::string> find_doubt(const EndedStage& ended) {
     const StageView& view = ended.view;
+    for (const auto& [number, report] : *view.state().constraints) {
+        const std::string& unknown = view.program().literals->constraint(number).unknown;
+        if (auto doubt = describe(*report, unknown, view.stage().name)) return doubt;
+    }
     const bool allows_trial = allows_trial_steps(ended);
     std::optional<FlickerReport> flicker;
     if (allows_trial) flicker = find_flicker(ended);

@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "core/overloaded.h"
+#include "run/stage/bind_convolution.h"
 
 #include <algorithm>
 #include <map>
@@ -22,6 +23,8 @@ const Field& plane_of(const PlaneSource& source, const BindingContext& context) 
                        : &context.model->spread().planes[static_cast<std::size_t>(of)];
         },
         [&](Neighbourhood) { return &context.mask->neighbourhood; },
+        [&](Unknown) { return context.unknown; },
+        [&](LagPart part) { return &context.lags[static_cast<std::size_t>(part)]; },
         [&](StepInvariantId id) { return &(*context.step_invariants)[id].plane; },
         [](SensedItem) -> const Field* { CHECK(false, "cells of fields stay where they are"); },
         [](auto) -> const Field* { CHECK(false, "registers and temporaries are no fields"); },
@@ -30,6 +33,27 @@ const Field& plane_of(const PlaneSource& source, const BindingContext& context) 
 }
 
 namespace {
+
+/// The areas of cells where they differ, as on a surface, or where some do not count; else null.
+std::shared_ptr<const Field> areas_of_cells(const BindingContext& context) {
+    const Field* given = nullptr;
+    if (!context.metric.empty()) given = &plane_of(MetricPlane::area, context);
+    if (context.grid.linked) given = &plane_of(ModelPlane::area, context);
+    if (given == nullptr && context.mask == nullptr) return nullptr;
+    const PlaneLayout layout(context.grid);
+    auto areas = std::make_shared<Field>(layout, context.precision);
+    areas->visit([&]<typename Number>(Plane<Number>& plane) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i) {
+                const bool is_inside =
+                    context.mask == nullptr || context.mask->inside.row(row)[i] != 0;
+                const Number area = given != nullptr ? given->row<Number>(row)[i] : Number{1};
+                plane.row(row)[i] = is_inside ? area : Number{0};
+            }
+        }
+    });
+    return areas;
+}
 
 /// The number of cells that means are taken over; 0: all.
 std::int64_t cells_inside(const BindingContext& context) {
@@ -75,10 +99,15 @@ public:
             problem_.species_needs_halo.assign(context_.states[stage_].species.size(), false);
         }
         temporary_needs_halo_.assign(plan_.temporaries, false);
+        for (const Pass& pass : plan_.passes) {
+            for (const Solve& solve : pass.solves) add_constraint(solve);
+        }
         senses_ = context_.tissue && reads_what_is_sensed();
         for (const Pass& pass : plan_.passes) find_halos(pass);
     }
 
+    /// Results of the plan become the last temporaries of the problem.
+    void keep_results() { keeps_results_ = true; }
     /// By species: is it read at neighbours? Other plans of the same step may need more.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
     /// By register of the scheme: does any sweep read it at neighbours?
@@ -93,9 +122,13 @@ public:
         problem_.links = links_of(context_, plan_);
         problem_.temporaries = plan_.temporaries;
         problem_.aggregates = plan_.aggregates;
+        if (keeps_results_) problem_.temporaries += plan_.result_count;
         if (senses_) problem_.passes.push_back(sense());
         for (const Pass& pass : plan_.passes) {
             problem_.passes.push_back(bind_pass(pass));
+            for (const Solve& solve : pass.solves) {
+                problem_.passes.back().solves.push_back(bind_constraint(solve, compile));
+            }
             problem_.passes.back().kernel = compile(pass.bound.kernel);
         }
         return std::move(problem_);
@@ -125,6 +158,74 @@ private:
                                    return sensed(source).has_value();
                                });
         });
+    }
+
+    /// What the plans of a constraint read and write, and their binders.
+    struct OfConstraint {
+        std::shared_ptr<Field> unknown;
+        std::shared_ptr<StepInvariants> constant = std::make_shared<StepInvariants>();
+        BindingContext context;
+        std::vector<Binder> binders;  ///< Of the plans whole, linear and, if there is one, parts.
+    };
+
+    void add_constraint(const Solve& solve) {
+        auto made = std::make_unique<OfConstraint>(OfConstraint{{}, {}, context_, {}});
+        made->constant = std::make_shared<StepInvariants>();
+        const PlaneLayout layout(context_.grid);
+        made->unknown = std::make_shared<Field>(layout, context_.precision);
+        made->context.unknown = made->unknown.get();
+        if (solve.parts) {
+            for (const PassTarget& target : solve.parts->passes.back().targets) {
+                if (!std::holds_alternative<ResultId>(target.id)) continue;
+                made->constant->push_back({Field(layout, context_.precision), 0, target.boundary});
+            }
+        }
+        made->context.step_invariants = made->constant.get();
+        for (const auto& plan : {solve.whole, solve.linear, solve.parts}) {
+            if (!plan) continue;
+            Binder& binder =
+                made->binders.emplace_back(*plan, made->context, system_, stage_, nullptr, sweep_);
+            binder.keep_results();
+            for (std::size_t k = 0; k < problem_.species_needs_halo.size(); ++k) {
+                if (binder.species_needs_halo()[k]) problem_.species_needs_halo[k] = true;
+            }
+        }
+        constraints_.emplace(&solve, std::move(made));
+    }
+
+    StepProblem::Solve bind_constraint(const Solve& solve, const Compile& compile) {
+        OfConstraint& own = *constraints_.at(&solve);
+        StepProblem::Solve bound;
+        bound.target = solve.target;
+        bound.needs_halo = temporary_needs_halo_[solve.target];
+        bound.sides = solve.boundary;
+        const StageState& state = context_.states[solve.stage];
+        if (solve.wall && !state.sides.empty()) {
+            bound.rules = SpeciesId(state.species.size() + *solve.wall);
+            bound.sides = state.sides[bound.rules->index()];
+        }
+        if (system_ == nullptr) bound.rules = {};  // Then no side changes.
+        bound.in_register = sweep_ != nullptr ? sweep_->inputs[0] : old_register;
+        bound.read_at = sweep_ != nullptr ? sweep_->time : 0;
+        std::vector<std::shared_ptr<const StepProblem>> problems;
+        for (Binder& binder : own.binders) {
+            binder.species_needs_halo() = problem_.species_needs_halo;
+            binder.set_halo_registers(halo_registers_);
+            problems.push_back(std::make_shared<const StepProblem>(binder.bind(compile)));
+        }
+        bound.whole = problems[0];
+        bound.linear = problems[1];
+        if (solve.parts) bound.parts = problems[2];
+        bound.unknown = own.unknown;
+        for (StepInvariant& part : *own.constant) {
+            bound.constant.push_back(
+                {std::shared_ptr<Field>(own.constant, &part.plane), part.boundary});
+        }
+        bound.areas = areas_of_cells(context_);
+        std::shared_ptr<SolveReport>& report = (*state.constraints)[solve.constraint];
+        if (!report) report = std::make_shared<SolveReport>();
+        bound.report = report;
+        return bound;
     }
 
     /// The pass before all others, since places change with every evaluation of the rates.
@@ -197,6 +298,12 @@ private:
 
     StepProblem::Pass bind_pass(const Pass& pass) const {
         StepProblem::Pass bound;
+        for (const Convolution& convolution : pass.convolutions) {
+            bound.convolutions.push_back(
+                {bind_plane(convolution.operand), convolution.target,
+                 temporary_needs_halo_[convolution.target], convolution.boundary,
+                 std::make_shared<const WeightedLags>(weights_of(convolution, context_))});
+        }
         for (const Reduction& reduction : pass.reductions) {
             bound.reductions.push_back(
                 {reduction.kind, bind_plane(reduction.operand), reduction.aggregate});
@@ -264,6 +371,10 @@ private:
             return result;
         }
         const std::uint32_t number = std::get<ResultId>(target.id).index();
+        if (keeps_results_) {
+            result.plane = TemporaryId(plan_.temporaries + number);
+            return result;
+        }
         SpeciesPlane own{SpeciesId(number), new_register};
         if (form_ != nullptr) {
             // Outputs in order, each for all species that are written.
@@ -289,6 +400,8 @@ private:
     const Sweep* sweep_;
     std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
     bool senses_ = false;          ///< Do passes read what cells sense at their places?
+    bool keeps_results_ = false;
+    std::map<const Solve*, std::unique_ptr<OfConstraint>> constraints_;
     StepProblem problem_;
     IdVector<TemporaryId, bool> temporary_needs_halo_;
     IdVector<RegisterId, bool> halo_registers_;

@@ -54,6 +54,8 @@ struct BindingContext {
     SurfaceValues* surface_values = nullptr;          ///< For a model.
     const StepInvariants* step_invariants = nullptr;  ///< For the steps that are bound.
     const TissueBinding* tissue = nullptr;            ///< For a stage of cells that crawl.
+    std::span<const Field> lags = {};                 ///< By LagPart; for kernels of convolutions.
+    const Field* unknown = nullptr;                   ///< Of the constraint that is solved.
 };
 
 /// The plane of a slot whose values lie in one, other than a temporary.

@@ -29,6 +29,27 @@ std::string describe_sides(const Grid& grid) {
 
 namespace {
 
+/// Planes that operations between the passes of a plan need: the vectors of the solver of a
+/// constraint and the temporaries of its plans, and the waves of a convolution and of its kernel on
+/// a grid that is at most twice as wide along each axis.
+std::uint64_t planes_between_passes(const StepPlan& plan, const Grid& grid) {
+    std::uint64_t planes = 0;
+    for (const Pass& pass : plan.passes) {
+        for (const Solve& solve : pass.solves) {
+            planes += 6 + solve.whole->temporaries + solve.linear->temporaries + 2;
+            if (solve.parts) planes += solve.parts->temporaries + 2 * solve.parts->result_count;
+        }
+        for (std::size_t k = 0; k < pass.convolutions.size(); ++k) {
+            std::uint64_t waves = 2;
+            if (grid.width > 1 && grid.boundary.x != Boundary::periodic) waves *= 2;
+            if (grid.height > 1 && grid.boundary.y != Boundary::periodic) waves *= 2;
+            if (grid.depth > 1 && grid.boundary.z != Boundary::periodic) waves *= 2;
+            planes += waves;
+        }
+    }
+    return planes;
+}
+
 /// Planes that live while a stage is run: temporaries of passes, all registers but the old step,
 /// and the kept copy of the species.
 std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans,
@@ -40,8 +61,11 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
         scheme = with_error_estimate(std::move(scheme));
     }
     std::uint32_t temporaries = plans.start(k).temporaries;
+    std::uint64_t between_passes = 0;
     for (const SweepForm& form : scheme.forms) {
-        temporaries = std::max(temporaries, plans.sweep(k, form).temporaries);
+        const StepPlan& plan = plans.sweep(k, form);
+        temporaries = std::max(temporaries, plan.temporaries);
+        between_passes += planes_between_passes(plan, grid);
     }
     // Step-invariants are kept besides, and computed with their own temporaries.
     const StepPlan& step_invariants = plans.step_invariants(k);
@@ -50,7 +74,7 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     schedule.judges_all = judges_all_steps(stage);
     const bool keeps = keeps_copy(schedule, species, grid, program.domain.precision);
     std::uint64_t planes =
-        temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
+        between_passes + temporaries + std::uint64_t{scheme.registers - (keeps ? 0 : 1)} * species;
     if (!is_semi_implicit(stage.time.solver)) return planes;
     // Factors of diffusion that change are written to planes.
     for (const SpeciesDiffusion& diffusion : diffusion_of(program, k)) {

@@ -55,6 +55,25 @@ std::string describe(const AstrayReport& report) {
     return text + fmt::format("try 'speed: {:.2g}'", use.speed / 3);
 }
 
+std::optional<std::string> describe(const SolveReport& report, const std::string& unknown,
+                                    const std::string& stage) {
+    constexpr double largest_rest = 1e-3, largest_mean = 1e-3;
+    if (!(report.largest_rest <= largest_rest)) {
+        return fmt::format(
+            "stage '{}': the constraint of {} was not solved: {:.2g} of what it should balance was "
+            "left after {} iterations; the operator of {} may have no inverse, or its coefficients "
+            "may differ too much",
+            stage, unknown, report.largest_rest, report.most_iterations, unknown);
+    }
+    if (!(report.largest_mean <= largest_mean)) {
+        return fmt::format(
+            "stage '{}': no {} balances the mean of its constraint, {:.2g} of the whole, as any "
+            "constant may be added to it; it was found for the rest, and its own mean is 0",
+            stage, unknown, report.largest_mean);
+    }
+    return std::nullopt;
+}
+
 std::string describe(const LostChangeReport& report) {
     return fmt::format(
         "stage '{}': a step would change {} by about {:.2g}, which is too small to be added to "

@@ -2,12 +2,17 @@
 #pragma once
 
 #include "run/stage/step_advice.h"
+#include "solvers/solve_report.h"
 #include "solvers/stability.h"
 
 #include <optional>
 #include <string>
 
 namespace cascade {
+
+/// A warning if the field of a constraint was not found, or could not be; nothing if all is well.
+std::optional<std::string> describe(const SolveReport& report, const std::string& unknown,
+                                    const std::string& stage);
 
 /// Neighbours that alternate.
 struct ChequerboardReport {

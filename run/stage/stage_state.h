@@ -6,10 +6,12 @@
 #include "lang/program/program.h"
 #include "run/stage/stage_course.h"
 #include "solvers/changing_side.h"
+#include "solvers/solve_report.h"
 #include "solvers/stage_clock.h"
 #include "solvers/steady.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +21,9 @@ namespace cascade {
 
 class Tissue;
 class TissueGround;
+
+/// What is known of the solutions of constraints, by their numbers in Literals.
+using SolveReports = std::map<std::uint32_t, std::shared_ptr<SolveReport>>;
 
 /// Values of one stage's items. A copy owns planes of its own; it is made only where that is
 /// written.
@@ -47,6 +52,8 @@ struct StageState {
     /// By species, then by Stage::definition_sides; empty if the boundary holds for all.
     std::vector<SideRules> sides;
     std::vector<ChangingSide> changing_sides;  ///< The sides whose values change.
+    /// Of the constraints that its steps have solved; never null.
+    std::shared_ptr<SolveReports> constraints = std::make_shared<SolveReports>();
 
     /// Sets the progress of the stage, and the values of sides to those of that moment, at which
     /// species have their present values.

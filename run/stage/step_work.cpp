@@ -43,7 +43,8 @@ public:
 private:
     void add(const StepProblem::Pass& pass) {
         for (const StepProblem::Reduction& reduction : pass.reductions) add(reduction);
-        if (pass.filter) work_.has_waves = true;
+        if (pass.filter || !pass.convolutions.empty() || !pass.solves.empty())
+            work_.has_waves = true;
         const auto known = kernels_.find(pass.kernel.get());
         CHECK(known != kernels_.end(), "the kernels of a problem are known");
         const KernelCost cost = cost_of(known->second, problem_.grid.stencil(), work_.links);

@@ -82,6 +82,7 @@ private:
         if (node.calls(Function::tensor) && is_past("tensors")) {
             return node.operand_count == 3 || node.operand_count == 6;
         }
+        if (is_nonlocal(node)) return node.operand_count == 1;
         const bool is_weighted = node.calls(Function::lap) && node.operand_count == 2;
         if (is_weighted) return context_.has_links() && is_past("links");
         return info(node.function).arity.takes(node.operand_count);

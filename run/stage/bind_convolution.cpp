@@ -1,0 +1,84 @@
+// The kernel is computed on a line of cells, one for each lag, as starting values are: once, by the
+// interpreter.
+#include "run/stage/bind_convolution.h"
+
+#include "core/parallel.h"
+#include "ir/interpreter.h"
+#include "run/stage/plan_runner.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <new>
+
+namespace cascade {
+namespace {
+
+Grid line_of(std::int64_t cells) {
+    Grid line;
+    line.width = cells;
+    line.height = 1;
+    return line;
+}
+
+/// The values of a plan of one result on a line of cells.
+std::vector<double> values_on_line(const StepPlan& plan, const BindingContext& context,
+                                   std::int64_t cells) {
+    const std::unique_ptr<Backend> interpreter = make_interpreter();
+    const Grid line = line_of(cells);
+    const Compile compile = [&](const CellKernel& kernel) {
+        return *interpreter->compile(kernel, line.stencil());
+    };
+    Team team(1);
+    const Field values = std::move(run_plan(plan, compile, context, line, team).front());
+    return values.visit([&](const auto& plane) {
+        return std::vector<double>(plane.origin(), plane.origin() + cells);
+    });
+}
+
+std::array<Field, lag_part_count> parts_of(const std::vector<Lag>& lags, double spacing,
+                                           Precision precision) {
+    const PlaneLayout layout(line_of(static_cast<std::int64_t>(lags.size())));
+    std::array<Field, lag_part_count> parts;
+    for (Field& part : parts) part = Field(layout, precision);
+    with_number(precision, [&](auto zero) {
+        using Number = decltype(zero);
+        for (std::size_t n = 0; n < lags.size(); ++n) {
+            const auto x = static_cast<double>(lags[n].x), y = static_cast<double>(lags[n].y),
+                       z = static_cast<double>(lags[n].z);
+            const double length = std::sqrt(x * x + y * y + z * z);
+            const double each = length > 0 ? 1 / length : 0;
+            const std::array values{length * spacing, x * each, y * each, z * each};
+            for (std::size_t k = 0; k < values.size(); ++k) {
+                parts[k].template origin<Number>()[n] = static_cast<Number>(values[k]);
+            }
+        }
+    });
+    return parts;
+}
+
+}  // namespace
+
+WeightedLags weights_of(const Convolution& convolution, const BindingContext& context) {
+    const Grid& grid = context.grid;
+    std::optional<double> reach;
+    if (convolution.reach) {
+        const double value = values_on_line(*convolution.reach, context, 1).front();
+        reach = value > 0 ? value : 0;
+    }
+    auto lags = lags_within(grid, reach);
+    if (!lags) throw std::bad_alloc();
+    const auto parts = parts_of(*lags, grid.spacing, context.precision);
+    BindingContext here = context;
+    here.lags = parts;
+    WeightedLags weighted;
+    weighted.weights =
+        values_on_line(*convolution.weight, here, static_cast<std::int64_t>(lags->size()));
+    const Stencil stencil = grid.stencil();
+    const double content = std::pow(grid.spacing, stencil.axes());
+    for (double& weight : weighted.weights) weight *= content;
+    weighted.lags = std::move(*lags);
+    return weighted;
+}
+
+}  // namespace cascade

@@ -1,0 +1,487 @@
+// All threads take the same decisions, since each sums the same sums of rows.
+#include "solvers/constraint_solver.h"
+
+#include "ir/reduction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+namespace {
+
+/// With a preconditioner, and without one on a linked grid.
+constexpr int most_iterations = 200, most_iterations_on_links = 2000;
+/// The norm of what remains of e, over that of b.
+template <typename Number>
+constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
+/// A wave is left out of the preconditioner if L multiplies it by less than this part of what it
+/// multiplies others by.
+template <typename Number>
+constexpr double least_factor = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-14;
+/// Cells from one probe of the stencil to the next; stencils reach three cells.
+constexpr std::int64_t between_probes = 7;
+
+std::int64_t cells_along(const PlaneLayout& layout, std::size_t axis) {
+    return axis == 0 ? layout.width : axis == 1 ? layout.height : layout.depth;
+}
+
+}  // namespace
+
+template <typename Number>
+struct ConstraintSolver<Number>::Worker {
+    Team& team;
+    int thread, threads;
+    Registers registers;
+    StepMoment moment;
+    RowRange rows;
+    PassRunner::Worker whole, linear, parts;
+    std::size_t next_sum = 0;
+    bool knows_factors = false;
+};
+
+template <typename Number>
+template <typename Act>
+void ConstraintSolver<Number>::each_row(const Worker& worker, const Act& act) const {
+    for (std::int64_t row = worker.rows.begin; row < worker.rows.end; ++row) {
+        act(layout_.row_start(row));
+    }
+}
+
+template <typename Number>
+ConstraintSolver<Number>::ConstraintSolver(const StepProblem::Solve& solve,
+                                           const StepProblem& outer)
+    : problem_(solve),
+      outer_(outer),
+      layout_(outer.grid),
+      whole_(*solve.whole),
+      linear_(*solve.linear) {
+    if (solve.parts) parts_.emplace(*solve.parts);
+    for (Field* field : {&residual_, &shadow_, &direction_, &image_, &other_image_}) {
+        *field = Field(layout_, outer.precision);
+    }
+    for (std::vector<double>& sums : row_sums_) {
+        sums.resize(static_cast<std::size_t>(layout_.row_count()));
+    }
+    if (outer.grid.linked || outer.grid.cell_count() == 1) return;
+    transforms_.emplace(outer.grid, std::vector<SideRules>{problem_.sides});
+    std::size_t offsets = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t cells = cells_along(layout_, axis);
+        reach_[axis] = static_cast<int>(std::min<std::int64_t>(3, (cells - 1) / 2));
+        offsets *= static_cast<std::size_t>(2 * reach_[axis] + 1);
+    }
+    stencil_.resize(offsets);
+    factors_ = Field(layout_, outer.precision);
+}
+
+/// Runs a plan and takes its results.
+template <typename Number>
+void ConstraintSolver<Number>::apply(Worker& worker, PassRunner& runner,
+                                     PassRunner::Worker& of_runner, std::vector<Field*> results) {
+    runner.run(of_runner, worker.team, worker.registers, worker.moment);
+    const StepProblem& problem = runner.problem();
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        const TemporaryId id(problem.temporaries - results.size() + k);
+        const Number* const from = runner.temporary(id).template origin<Number>();
+        Number* const to = results[k]->template origin<Number>();
+        each_row(worker, [&](std::int64_t start) {
+            std::copy(from + start, from + start + layout_.width, to + start);
+        });
+    }
+}
+
+/// The sides of the field at the moment of the step at which it is found.
+template <typename Number>
+SideRules ConstraintSolver<Number>::sides_at(const Worker& worker) const {
+    if (!problem_.rules || outer_.changing_sides.empty()) return problem_.sides;
+    const SideMoment moment{worker.moment.complete,
+                            worker.moment.t + problem_.read_at * worker.moment.length};
+    const SpeciesPlanes present = planes_of(worker.registers[problem_.in_register.index()]);
+    return outer_.sides_of(*problem_.rules, moment, present, {{0, layout_.row_count()}});
+}
+
+/// The sides of the field itself, or those of a change of it: 0 in place of their values.
+template <typename Number>
+void ConstraintSolver<Number>::fill_halo_of_unknown(Worker& worker, bool is_linear) {
+    worker.team.barrier();
+    if (worker.thread == 0 && outer_.has_halo()) {
+        SideRules rules = is_linear ? problem_.sides : sides_at(worker);
+        if (is_linear) {
+            for (SideRule& rule : rules.at) {
+                rule.value = 0;
+                rule.values = nullptr;
+            }
+        }
+        problem_.unknown->fill_halo(rules);
+    }
+    worker.team.barrier();
+}
+
+/// L of the plane `unknown`, whose rows have been written.
+template <typename Number>
+void ConstraintSolver<Number>::apply_linear(Worker& worker, Field& result) {
+    fill_halo_of_unknown(worker, true);
+    apply(worker, linear_, worker.linear, {&result});
+}
+
+/// The sum of the products in all cells, by the same tree of sums for any number of threads.
+template <typename Number>
+double ConstraintSolver<Number>::dot(Worker& worker, const Field& a, const Field& b) {
+    std::vector<double>& sums = row_sums_[worker.next_sum++ % sums_in_use];
+    const Number* const first = a.origin<Number>();
+    const Number* const second = b.origin<Number>();
+    for (std::int64_t row = worker.rows.begin; row < worker.rows.end; ++row) {
+        const std::int64_t start = layout_.row_start(row);
+        std::array<double, 8> partial{};
+        std::int64_t i = start;
+        for (const std::int64_t end = start + layout_.width / 8 * 8; i < end; i += 8) {
+            for (std::int64_t k = 0; k < 8; ++k) {
+                partial[static_cast<std::size_t>(k)] +=
+                    static_cast<double>(first[i + k]) * static_cast<double>(second[i + k]);
+            }
+        }
+        for (; i < start + layout_.width; ++i) {
+            partial[0] += static_cast<double>(first[i]) * static_cast<double>(second[i]);
+        }
+        double sum = 0;
+        for (const double part : partial) sum += part;
+        sums[static_cast<std::size_t>(row)] = sum;
+    }
+    worker.team.barrier();
+    std::vector<double> rows = sums;
+    return reduce_rows(ReductionKind::sum, rows, 1);
+}
+
+/// Subtracts the mean over the domain, and returns it.
+template <typename Number>
+double ConstraintSolver<Number>::subtract_mean(Worker& worker, Field& from) {
+    const Number* const areas = areas_of_cells();
+    Number* const cells = from.origin<Number>();
+    std::vector<double>& sums = row_sums_[worker.next_sum++ % sums_in_use];
+    std::vector<double>& areas_of_rows = row_sums_[worker.next_sum++ % sums_in_use];
+    for (std::int64_t row = worker.rows.begin; row < worker.rows.end; ++row) {
+        const std::int64_t start = layout_.row_start(row);
+        double sum = 0, area = 0;
+        for (std::int64_t i = start; i < start + layout_.width; ++i) {
+            const double weight = areas == nullptr ? 1 : static_cast<double>(areas[i]);
+            sum += weight * static_cast<double>(cells[i]);
+            area += weight;
+        }
+        sums[static_cast<std::size_t>(row)] = sum;
+        areas_of_rows[static_cast<std::size_t>(row)] = area;
+    }
+    worker.team.barrier();
+    std::vector<double> all = sums, all_areas = areas_of_rows;
+    const double mean =
+        reduce_rows(ReductionKind::sum, all, 1) / reduce_rows(ReductionKind::sum, all_areas, 1);
+    each_row(worker, [&](std::int64_t start) {
+        for (std::int64_t i = start; i < start + layout_.width; ++i) {
+            if (areas == nullptr || areas[i] != 0) cells[i] -= static_cast<Number>(mean);
+        }
+    });
+    return mean;
+}
+
+/// Is L of a constant 0? It is computed exactly for operators of derivatives.
+template <typename Number>
+bool ConstraintSolver<Number>::is_blind_to_constants(Worker& worker) {
+    const Number* const areas = areas_of_cells();
+    Number* const unknown = problem_.unknown->template origin<Number>();
+    const auto size_of = [&](const auto& value) {
+        each_row(worker, [&](std::int64_t start) {
+            for (std::int64_t i = 0; i < layout_.width; ++i) {
+                const bool counts = areas == nullptr || areas[start + i] != 0;
+                unknown[start + i] = counts ? value(i) : Number{0};
+            }
+        });
+        apply_linear(worker, image_);
+        return dot(worker, image_, image_);
+    };
+    const double of_constant = size_of([](std::int64_t) { return Number{1}; });
+    if (of_constant == 0) return true;
+    const double of_waves =
+        size_of([](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
+    constexpr double part = least_factor<Number>;
+    return of_constant <= part * part * of_waves;
+}
+
+/// The mean of the responses of L to single cells that are far enough from each other, from sides
+/// and from the border of a mask.
+template <typename Number>
+void ConstraintSolver<Number>::find_stencil(Worker& worker) {
+    std::array<std::int64_t, 3> first{}, count{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t cells = cells_along(layout_, axis);
+        first[axis] = reach_[axis];
+        count[axis] = cells == 1 ? 1 : std::max<std::int64_t>(1, cells / between_probes);
+    }
+    const auto for_probes = [&](const auto& act) {
+        for (std::int64_t z = 0; z < count[2]; ++z) {
+            for (std::int64_t y = 0; y < count[1]; ++y) {
+                for (std::int64_t x = 0; x < count[0]; ++x) {
+                    act(first[0] + between_probes * x, first[1] + between_probes * y,
+                        first[2] + between_probes * z);
+                }
+            }
+        }
+    };
+    Number* const unknown = problem_.unknown->template origin<Number>();
+    each_row(worker, [&](std::int64_t start) {
+        std::fill(unknown + start, unknown + start + layout_.width, Number{0});
+    });
+    worker.team.barrier();
+    if (worker.thread == 0) {
+        for_probes([&](std::int64_t x, std::int64_t y, std::int64_t z) {
+            unknown[layout_.offset(x, y, z) - layout_.offset(0, 0, 0)] = Number{1};
+        });
+    }
+    apply_linear(worker, image_);
+    worker.team.barrier();
+    if (worker.thread == 0) {
+        const std::vector<double> before = stencil_;
+        std::fill(stencil_.begin(), stencil_.end(), 0.0);
+        const Number* const response = image_.template origin<Number>();
+        const Number* const areas = areas_of_cells();
+        double probes = 0;
+        std::vector<double> one(stencil_.size());
+        for_probes([&](std::int64_t x, std::int64_t y, std::int64_t z) {
+            std::size_t n = 0;
+            bool is_whole = true;
+            for (int dz = -reach_[2]; dz <= reach_[2]; ++dz) {
+                for (int dy = -reach_[1]; dy <= reach_[1]; ++dy) {
+                    const std::int64_t row =
+                        layout_.offset(x, y + dy, z + dz) - layout_.offset(0, 0, 0);
+                    for (int dx = -reach_[0]; dx <= reach_[0]; ++dx) {
+                        one[n++] = static_cast<double>(response[row + dx]);
+                        is_whole = is_whole && (areas == nullptr || areas[row + dx] != 0);
+                    }
+                }
+            }
+            if (!is_whole) return;
+            for (std::size_t k = 0; k < one.size(); ++k) stencil_[k] += one[k];
+            ++probes;
+        });
+        for (double& weight : stencil_) weight /= std::max(probes, 1.0);
+        if (probes == 0) stencil_[stencil_.size() / 2] = 1;
+        has_factors_ = has_factors_ && stencil_ == before;
+    }
+    worker.team.barrier();
+}
+
+/// Writes the preconditioner's inverse of `from` into the plane `unknown`.
+template <typename Number>
+void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
+    Number* const to = problem_.unknown->template origin<Number>();
+    const Number* const cells = from.template origin<Number>();
+    each_row(worker, [&](std::int64_t start) {
+        std::copy(cells + start, cells + start + layout_.width, to + start);
+    });
+    if (!transforms_) return;
+    const double h = outer_.grid.spacing;
+    const auto cosines = [&](int reach, double difference) {
+        std::array<double, 4> values{1, 1 + difference * h * h / 2, 0, 0};
+        for (int n = 2; n <= reach; ++n) {
+            const auto k = static_cast<std::size_t>(n);
+            values[k] = 2 * values[1] * values[k - 1] - values[k - 2];
+        }
+        return values;
+    };
+    double size = 0;
+    for (const double weight : stencil_) size += std::abs(weight);
+    const double least = size * least_factor<Number>;
+    std::vector<double> along;  // Of one line: the weights by |offset| along its axis.
+    const auto find_factors = [&](const WaveBlock<Number>& block, Number* factors) {
+        const std::size_t axis = block.axis;
+        for (std::int64_t line = 0; line < block.lines; ++line) {
+            std::array<std::array<double, 4>, 3> across{};
+            for (std::size_t other = 0; other < 3; ++other) {
+                if (other == axis) continue;
+                across[other] =
+                    cosines(reach_[other],
+                            static_cast<double>(block.differences[other][other == 0 ? line : 0]));
+            }
+            along.assign(static_cast<std::size_t>(reach_[axis]) + 1, 0);
+            std::size_t n = 0;
+            for (int dz = -reach_[2]; dz <= reach_[2]; ++dz) {
+                for (int dy = -reach_[1]; dy <= reach_[1]; ++dy) {
+                    for (int dx = -reach_[0]; dx <= reach_[0]; ++dx) {
+                        const std::array<std::size_t, 3> offset{
+                            static_cast<std::size_t>(std::abs(dx)),
+                            static_cast<std::size_t>(std::abs(dy)),
+                            static_cast<std::size_t>(std::abs(dz))};
+                        double weight = stencil_[n++];
+                        for (std::size_t other = 0; other < 3; ++other) {
+                            if (other != axis) weight *= across[other][offset[other]];
+                        }
+                        along[offset[axis]] += weight;
+                    }
+                }
+            }
+            for (std::int64_t wave = 0; wave < block.count; ++wave) {
+                const auto by =
+                    cosines(reach_[axis], static_cast<double>(block.differences[axis][wave]));
+                double factor = 0;
+                for (std::size_t k = 0; k < along.size(); ++k) factor += along[k] * by[k];
+                const double inverse = std::abs(factor) <= least ? 0 : 1 / (factor * block.gain);
+                factors[line * block.count + wave] = static_cast<Number>(inverse);
+            }
+        }
+    };
+    Number* const all_factors = factors_.template origin<Number>();
+    const auto divide = [&](const WaveBlock<Number>& block) {
+        Number* const factors = all_factors + block.offset;
+        if (!worker.knows_factors) find_factors(block, factors);
+        const std::int64_t count = block.lines * block.count;
+        for (std::int64_t n = 0; n < count; ++n) {
+            if (block.is_complex) {
+                block.waves[0][2 * n] *= factors[n];
+                block.waves[0][2 * n + 1] *= factors[n];
+            } else {
+                block.waves[0][n] *= factors[n];
+            }
+        }
+    };
+    Number* const planes[] = {to};
+    const std::span<Number* const> list(planes);
+    transforms_->apply(worker.team, worker.thread, worker.threads, {true}, {&list, 1}, divide);
+    worker.knows_factors = true;
+    const Number* const areas = areas_of_cells();
+    if (areas == nullptr) return;
+    each_row(worker, [&](std::int64_t start) {
+        for (std::int64_t i = start; i < start + layout_.width; ++i) {
+            if (areas[i] == 0) to[i] = 0;
+        }
+    });
+}
+
+/// Adds to the solution until what remains, `residual_`, is small.
+template <typename Number>
+void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
+    const auto cells = [](Field& field) { return field.origin<Number>(); };
+    Number *const r = cells(residual_), *const r0 = cells(shadow_), *const p = cells(direction_),
+                  *const v = cells(image_), *const t = cells(other_image_),
+                  *const x = cells(solution);
+    const Number* const y = cells(*problem_.unknown);
+    const auto each_cell = [&](const auto& act) {
+        each_row(worker, [&](std::int64_t start) {
+            for (std::int64_t i = start; i < start + layout_.width; ++i) act(i);
+        });
+    };
+    const double whole = std::sqrt(dot(worker, residual_, residual_));
+    if (!std::isfinite(whole)) {  // Nothing hides what is not finite.
+        each_cell([&](std::int64_t i) { x[i] = std::numeric_limits<Number>::quiet_NaN(); });
+        return;
+    }
+    const double wanted = tolerance<Number> * whole;
+    each_cell([&](std::int64_t i) {
+        r0[i] = r[i];
+        p[i] = v[i] = 0;
+    });
+    double rho = 1, alpha = 1, omega = 1, left = whole;
+    int taken = 0;
+    const int most = transforms_ ? most_iterations : most_iterations_on_links;
+    while (left > wanted && taken < most) {
+        ++taken;
+        const double next_rho = dot(worker, shadow_, residual_);
+        if (next_rho == 0 || omega == 0) break;
+        const auto beta = static_cast<Number>(next_rho / rho * (alpha / omega));
+        const auto back = static_cast<Number>(omega);
+        rho = next_rho;
+        each_cell([&](std::int64_t i) { p[i] = r[i] + beta * (p[i] - back * v[i]); });
+        precondition(worker, direction_);
+        apply_linear(worker, image_);
+        const double along = dot(worker, shadow_, image_);
+        if (along == 0) break;
+        alpha = rho / along;
+        const auto step = static_cast<Number>(alpha);
+        each_cell([&](std::int64_t i) {
+            x[i] += step * y[i];
+            r[i] -= step * v[i];
+        });
+        left = std::sqrt(dot(worker, residual_, residual_));
+        if (!(left > wanted)) break;
+        precondition(worker, residual_);
+        apply_linear(worker, other_image_);
+        const double size = dot(worker, other_image_, other_image_);
+        if (size == 0) break;
+        omega = dot(worker, other_image_, residual_) / size;
+        const auto further = static_cast<Number>(omega);
+        each_cell([&](std::int64_t i) {
+            x[i] += further * y[i];
+            r[i] -= further * t[i];
+        });
+        left = std::sqrt(dot(worker, residual_, residual_));
+    }
+    if (worker.thread != 0) return;
+    SolveReport& report = *problem_.report;
+    report.most_iterations = std::max(report.most_iterations, taken);
+    const double part = whole > 0 ? left / whole : 0;
+    report.largest_rest = std::isfinite(part) ? std::max(report.largest_rest, part)
+                                              : std::numeric_limits<double>::infinity();
+}
+
+template <typename Number>
+void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Registers registers,
+                                     const StepMoment& moment, Field& target) {
+    Worker worker{team, thread, threads, registers, moment, {}, {}, {}, {}, 0, false};
+    worker.rows = split_rows(layout_.row_count(), thread, threads);
+    whole_.prepare(worker.whole, thread, threads);
+    linear_.prepare(worker.linear, thread, threads);
+    team.barrier();
+    if (parts_) {
+        parts_->prepare(worker.parts, thread, threads);
+        std::vector<Field*> parts;
+        for (const auto& part : problem_.constant) parts.push_back(part.plane.get());
+        apply(worker, *parts_, worker.parts, parts);
+        team.barrier();
+        if (thread == 0 && outer_.has_halo()) {
+            for (const auto& part : problem_.constant) part.plane->fill_halo(part.boundary);
+        }
+        team.barrier();
+    }
+    if (transforms_) find_stencil(worker);
+    worker.knows_factors = has_factors_;
+    const bool is_singular = is_blind_to_constants(worker);
+    // b is what e is without the field.
+    Number* const unknown = problem_.unknown->template origin<Number>();
+    Number* const x = target.origin<Number>();
+    each_row(worker, [&](std::int64_t start) {
+        std::fill(unknown + start, unknown + start + layout_.width, Number{0});
+        std::fill(x + start, x + start + layout_.width, Number{0});
+    });
+    fill_halo_of_unknown(worker, false);
+    apply(worker, whole_, worker.whole, {&residual_});
+    Number* const r = residual_.template origin<Number>();
+    const Number* const areas = areas_of_cells();
+    each_row(worker, [&](std::int64_t start) {
+        for (std::int64_t i = start; i < start + layout_.width; ++i) {
+            r[i] = areas == nullptr || areas[i] != 0 ? -r[i] : Number{0};
+        }
+    });
+    // If L of a constant is 0, L u has the mean 0.
+    if (is_singular) {
+        const double size = std::sqrt(dot(worker, residual_, residual_) /
+                                      static_cast<double>(outer_.counted_cells()));
+        const double all = subtract_mean(worker, residual_);
+        if (thread == 0 && size > 0) {
+            SolveReport& report = *problem_.report;
+            report.largest_mean = std::max(report.largest_mean, std::abs(all) / size);
+        }
+    }
+    iterate(worker, target);
+    if (worker.knows_factors && thread == 0) has_factors_ = true;
+    if (is_singular) subtract_mean(worker, target);
+    team.barrier();
+    if (thread == 0 && outer_.has_halo() && problem_.needs_halo) {
+        target.fill_halo(sides_at(worker));
+    }
+    team.barrier();
+}
+
+template class ConstraintSolver<float>;
+template class ConstraintSolver<double>;
+
+}  // namespace cascade

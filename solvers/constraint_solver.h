@@ -1,0 +1,76 @@
+// Finds the field u for which e = L u + b is 0, L being a linear operator that kernels apply.
+//
+// The solver is BiCGSTAB (H. van der Vorst, "Bi-CGSTAB: a fast and smoothly converging variant of
+// Bi-CG", 1992), preconditioned on grids by the inverse of an operator with the same stencil in all
+// cells, which fast Fourier transforms apply. That stencil is the mean of the responses of L to
+// single cells. So where L is the same everywhere the first iteration finds the solution up to
+// rounding, and a mask, sides or coefficients that vary take a few more.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/plane.h"
+#include "solvers/pass_runner.h"
+#include "solvers/step_problem.h"
+#include "solvers/wave_transforms.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cascade {
+
+template <typename Number>
+class ConstraintSolver {
+public:
+    /// Both must outlive the solver. Throws std::bad_alloc.
+    ConstraintSolver(const StepProblem::Solve& solve, const StepProblem& outer);
+
+    /// Writes the field into `target`, its halo included. Called by the first `threads` threads of
+    /// the team, each with its number and otherwise the same arguments. Begins and ends with a
+    /// barrier of the team. Bits do not depend on `threads`, nor on earlier solutions.
+    void solve(Team& team, int thread, int threads, Registers registers, const StepMoment& moment,
+               Field& target);
+
+private:
+    struct Worker;
+
+    void apply(Worker& worker, PassRunner& runner, PassRunner::Worker& of_runner,
+               std::vector<Field*> results);
+    void apply_linear(Worker& worker, Field& result);
+    SideRules sides_at(const Worker& worker) const;
+    void fill_halo_of_unknown(Worker& worker, bool is_linear);
+    void find_stencil(Worker& worker);
+    void precondition(Worker& worker, const Field& from);
+    double dot(Worker& worker, const Field& a, const Field& b);
+    double subtract_mean(Worker& worker, Field& from);
+    bool is_blind_to_constants(Worker& worker);
+    void iterate(Worker& worker, Field& solution);
+
+    /// Null if all cells are alike.
+    const Number* areas_of_cells() const {
+        return problem_.areas ? problem_.areas->template origin<Number>() : nullptr;
+    }
+    template <typename Act>
+    void each_row(const Worker& worker, const Act& act) const;
+
+    const StepProblem::Solve& problem_;
+    const StepProblem& outer_;
+    PlaneLayout layout_;
+    PassRunner whole_, linear_;
+    std::optional<PassRunner> parts_;
+    std::optional<WaveTransforms<Number>> transforms_;
+    Field residual_, shadow_, direction_, image_, other_image_;
+    // Shared by the threads between barriers; the sums of rows of successive products.
+    static constexpr std::size_t sums_in_use = 4;
+    std::vector<double> row_sums_[sums_in_use];
+    std::vector<double> stencil_;  ///< By offset, from −reach to reach along each axis.
+    std::array<int, 3> reach_{};
+    Field factors_;             ///< Of the preconditioner, by block of waves …
+    bool has_factors_ = false;  ///< … if they are those of the stencil.
+};
+
+extern template class ConstraintSolver<float>;
+extern template class ConstraintSolver<double>;
+
+}  // namespace cascade

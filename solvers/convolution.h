@@ -1,0 +1,65 @@
+// Weighted sums over the cells around each cell of a grid: discrete convolutions, directly or by
+// fast Fourier transforms.
+#pragma once
+
+#include "core/grid.h"
+#include "core/parallel.h"
+#include "core/plane.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cascade {
+
+/// The way from a cell to another one, in cells along each axis.
+struct Lag {
+    std::int64_t x = 0, y = 0, z = 0;
+    friend bool operator==(const Lag&, const Lag&) = default;
+};
+
+/// The number of lags that a convolution may have.
+inline constexpr std::int64_t most_lags = std::int64_t{1} << 26;
+
+/// The lags up to a distance `reach` in the unit of Grid::spacing, in order of z, y and x. Along an
+/// axis without periodic sides they end where no two cells of the grid are farther apart; along a
+/// periodic one they go round it as often as the reach says. Without a reach each cell of a
+/// periodic axis has one lag, the shortest (of two equal ones the positive). Nothing if there are
+/// more than most_lags.
+std::optional<std::vector<Lag>> lags_within(const Grid& grid, std::optional<double> reach);
+
+/// The sum of the products of `weights` and the values at `lags`.
+struct WeightedLags {
+    std::vector<Lag> lags;
+    std::vector<double> weights;  ///< One for each lag.
+    friend bool operator==(const WeightedLags&, const WeightedLags&) = default;
+};
+
+/// Sums up to this number of lags directly; transforms are faster for more.
+inline constexpr std::size_t most_direct_lags = 32;
+
+template <typename Number>
+class ConvolutionRunner {
+public:
+    /// Values beyond sides that are not periodic count as 0. The grid is not linked. Throws
+    /// std::bad_alloc.
+    ConvolutionRunner(const Grid& grid, const WeightedLags& weighted);
+    ~ConvolutionRunner();
+    ConvolutionRunner(ConvolutionRunner&&) noexcept;
+
+    /// Writes the sums for all cells of a plane into another one. Planes are given by the addresses
+    /// of their cells (0, 0, 0). Called by the first `threads` threads of the team, each with its
+    /// number. Begins and ends with a barrier of the team, after which the rows of the target, but
+    /// not its halo, are visible to all threads. Bits do not depend on `threads`.
+    void apply(Team& team, int thread, int threads, const Number* from, Number* to);
+
+private:
+    struct Implementation;
+    std::unique_ptr<Implementation> self_;
+};
+
+extern template class ConvolutionRunner<float>;
+extern template class ConvolutionRunner<double>;
+
+}  // namespace cascade

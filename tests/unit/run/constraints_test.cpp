@@ -1,0 +1,96 @@
+// Fields of constraints against known solutions: the order of the error where coefficients vary,
+// and the same bits from any number of threads.
+#include "run/simulation/simulation.h"
+
+#include "run/script/script.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace cascade {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The values of the first species after all stages of a script, row by row.
+std::vector<double> run(const std::string& text, int threads) {
+    Script script = load_script("test", text, ".");
+    EXPECT_TRUE(script.program) << script.messages(false) << text;
+    if (!script.program) return {};
+    const auto simulation =
+        Simulation::create(script, {BackendKind::interpreter, 0, threads}).value();
+    EXPECT_TRUE(simulation->start_stage(0));
+    RunControl control;
+    EXPECT_TRUE(
+        simulation->advance_stage(0, script.program->stages[0].iterations, control, nullptr));
+    std::vector<double> values;
+    const Field& field = simulation->state(0).species[0];
+    field.visit([&](const auto& plane) {
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            const auto* const cells = plane.row(row);
+            values.insert(values.end(), cells, cells + plane.layout().width);
+        }
+    });
+    return values;
+}
+
+/// −∇·(k ∇φ) + φ = ρ on the unit square, with k = 1 + x / 2 and ρ so that φ = cos(πx) cos(2πy),
+/// which has no flux through the sides.
+double largest_error(int side) {
+    const std::vector<double> found = run(
+        fmt::format(
+            "system s {{\n"
+            "  u: 0\n"
+            "  k: 1 + x / 2\n"
+            "  f: (5 * pi^2 * (1 + x / 2) + 1) * cos(pi * x) * cos(2 * pi * y)"
+            " + pi / 2 * sin(pi * x) * cos(2 * pi * y)\n"
+            "  0 = div(k * grad(phi)) - phi + f\n"
+            "  u' = phi\n"
+            "}}\n"
+            "domain {{ grid: {0}, {0}; spacing: 1 / {0}; boundary: noflux; precision: double }}\n"
+            "stage only: s {{ iterations: 1; speed: 1 }}\n",
+            side),
+        1);
+    double largest = 0;
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+            const double x = (i + 0.5) / side, y = (j + 0.5) / side;
+            const double exact = std::cos(pi * x) * std::cos(2 * pi * y);
+            const auto cell = static_cast<std::size_t>(j * side + i);
+            largest = std::max(largest, std::abs(found[cell] - exact));
+        }
+    }
+    return largest;
+}
+
+TEST(Constraints, HaveErrorsOfSecondOrderWhereCoefficientsVary) {
+    const double coarse = largest_error(16), fine = largest_error(32), finest = largest_error(64);
+    EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+    EXPECT_NEAR(std::log2(fine / finest), 2, 0.05);
+    EXPECT_LT(finest, 3e-3);
+}
+
+TEST(Constraints, HaveTheSameBitsWithAnyNumberOfThreads) {
+    const std::string masked =
+        "system s { u: random(0, 1); k: 1 + 9 * noise(0.2)^2; 0 = div(k * grad(phi)) - 0.01 * phi + u;"
+        " E = -grad(phi); u' = div(u * E) }\n"
+        "domain { grid: 40, 33; boundary: noflux; mask: disc(0.5, 0.4, 0.35) }\n"
+        "stage only: s { iterations: 3; speed: 0.01 }\n";
+    const std::string on_model =
+        "system s { u: random(0, 1); 0 = lap(phi) - 0.1 * phi + u; u' = phi - u }\n"
+        "domain { surface: sphere; cells: 500 }\n"
+        "stage only: s { iterations: 3; speed: 0.1 }\n";
+    for (const std::string& text : {masked, on_model}) {
+        const std::vector<double> alone = run(text, 1);
+        EXPECT_GT(alone.size(), 0u);
+        for (const int threads : {2, 3}) EXPECT_EQ(run(text, threads), alone);
+    }
+}
+
+}  // namespace
+}  // namespace cascade
