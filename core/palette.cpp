@@ -5,16 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -68,12 +65,15 @@ struct OwnPalette {
     std::string name;
     std::vector<Colour> stops;
     Palette palette;
+    const OwnPalette* next = nullptr;
 };
 
-/// Entries are kept, as literals of scripts are.
+/// Entries are kept, as literals of scripts are, in a list that any thread may add to.
 const Palette* find_own(std::string_view name) {
-    static std::mutex guard;
-    static std::map<std::string, std::unique_ptr<OwnPalette>, std::less<>> known;
+    static std::atomic<const OwnPalette*> newest = nullptr;
+    for (const OwnPalette* each = newest; each != nullptr; each = each->next) {
+        if (each->name == name) return &each->palette;
+    }
     auto made = std::make_unique<OwnPalette>();
     made->name = std::string(name);
     for (std::size_t at = 0; at < name.size();) {
@@ -87,8 +87,10 @@ const Palette* find_own(std::string_view name) {
     }
     if (made->stops.size() < 2) return nullptr;
     made->palette = {made->name, "colours of one's own", made->stops};
-    const std::scoped_lock lock(guard);
-    return &known.try_emplace(made->name, std::move(made)).first->second->palette;
+    made->next = newest;
+    while (!newest.compare_exchange_weak(made->next, made.get())) {
+    }
+    return &made.release()->palette;
 }
 
 }  // namespace

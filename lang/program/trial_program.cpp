@@ -31,7 +31,8 @@ bool is_of_domain_alone(const Node& node) {
 }
 
 bool differentiates_or_sums(const Node& node) {
-    return node.is<Call>() && (differentiates(node.function) || is_aggregate(node));
+    return node.is<Call>() &&
+           (differentiates(node.function) || is_nonlocal(node) || is_aggregate(node));
 }
 
 class TrialMaker {
@@ -44,7 +45,7 @@ public:
         const System& system = program_.system_of(number_);
         const Span size = stage.size->span;
         const auto has_length = [](const Node& node) {
-            return node.is<Call>() && differentiates(node.function);
+            return node.is<Call>() && (differentiates(node.function) || is_nonlocal(node));
         };
         if (!holds_in_rates(system, has_length)) {
             return obstacle(size,
