@@ -61,15 +61,22 @@ std::int64_t fast_size(std::int64_t least) {
 
 }  // namespace
 
+std::int64_t lags_in_box(const Grid& grid, std::optional<double> reach) {
+    std::int64_t count = 1;
+    for (const Extent& axis : extents_of(grid)) {
+        const auto [first, last] = lags_along(axis, grid.spacing, reach);
+        if (last - first + 1 > most_lags / count) return most_lags + 1;
+        count *= last - first + 1;
+    }
+    return count;
+}
+
 std::optional<std::vector<Lag>> lags_within(const Grid& grid, std::optional<double> reach) {
+    if (lags_in_box(grid, reach) > most_lags) return std::nullopt;
     const auto axes = extents_of(grid);
     std::array<std::pair<std::int64_t, std::int64_t>, 3> ranges;
-    std::int64_t count = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         ranges[axis] = lags_along(axes[axis], grid.spacing, reach);
-        const std::int64_t along = ranges[axis].second - ranges[axis].first + 1;
-        if (along > most_lags / count) return std::nullopt;
-        count *= along;
     }
     std::vector<Lag> lags;
     const double most = reach ? *reach / grid.spacing * (1 + 1e-9) : INFINITY;

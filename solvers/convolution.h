@@ -20,7 +20,10 @@ struct Lag {
 };
 
 /// The number of lags that a convolution may have.
-inline constexpr std::int64_t most_lags = std::int64_t{1} << 26;
+inline constexpr std::int64_t most_lags = std::int64_t{1} << 24;
+
+/// The number of lags in the box around those of lags_within(), or a number above most_lags.
+std::int64_t lags_in_box(const Grid& grid, std::optional<double> reach);
 
 /// The lags up to a distance `reach` in the unit of Grid::spacing, in order of z, y and x. Along an
 /// axis without periodic sides they end where no two cells of the grid are farther apart; along a

@@ -3,17 +3,21 @@
 
 #include "core/floating_point.h"
 #include "core/side_cells.h"
+#include "core/with_commas.h"
 #include "lang/calculus/side_values.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
 #include "run/simulation/stage_view.h"
 #include "run/stage/bind_side.h"
 #include "run/stage/plan_runner.h"
+#include "solvers/convolution.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -137,6 +141,38 @@ Result<void> check_speed(const StageView& view) {
                                view.stage().name, text));
 }
 
+/// Refuses convolutions over too many cells, before anything computes them.
+Result<void> check_reaches(const StageView& view) {
+    const Environment& here = view.environment();
+    const System& system = view.system();
+    Result<void> good;
+    const auto check = [&](const ConvolutionKernel& kernel) {
+        std::optional<double> reach;
+        if (!kernel.reach.nodes.empty()) {
+            const Grid one{1, 1, Boundary::periodic};
+            reach = run_plan(plan_view(view.program(), kernel.reach, view.number()),
+                             here.kernels->interpreted_on(one), view.context(), one, *here.team)[0]
+                        .number_at(0, 0);
+        }
+        if (!good || lags_in_box(here.grid, reach) <= most_lags) return;
+        good = failure(fmt::format("stage '{}': convolve {} takes more than {} cells together",
+                                   view.stage().name,
+                                   reach ? fmt::format("with a reach of {:.4g}", *reach)
+                                         : std::string("without a reach"),
+                                   with_commas(most_lags)),
+                       reach ? "make the reach shorter"
+                             : "convolve(k, e, r) takes those within a distance");
+    };
+    const auto check_formula = [&](const Formula& formula) {
+        for_each_kernel(formula, *view.program().literals, check);
+    };
+    for (const Formula& rate : system.rates) check_formula(rate);
+    for (const Definition& each : system.definitions) check_formula(each.formula);
+    for (const Formula& item : view.stage().items) check_formula(item);
+    check_formula(view.stage().show);
+    return good;
+}
+
 }  // namespace
 
 void start_uniform_items(const StageView& view, StageState& state) {
@@ -158,6 +194,7 @@ Result<void> start_stage(const Environment& environment, std::span<StageState> s
     StageState& state = states[stage];
     state = empty_state(view.system());
     start_uniform_items(view, state);
+    if (auto good = check_reaches(view); !good) return good;
     start_varying_items(view, state);
     if (auto sides = find_sides(view, state); !sides) return sides;
     if (auto good = check_speed(view); !good) return good;

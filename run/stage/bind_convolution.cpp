@@ -2,6 +2,7 @@
 // interpreter.
 #include "run/stage/bind_convolution.h"
 
+#include "core/enough_memory.h"
 #include "core/parallel.h"
 #include "ir/interpreter.h"
 #include "run/stage/plan_runner.h"
@@ -9,7 +10,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <new>
+#include <optional>
 
 namespace cascade {
 namespace {
@@ -67,7 +68,7 @@ WeightedLags weights_of(const Convolution& convolution, const BindingContext& co
         reach = value > 0 ? value : 0;
     }
     auto lags = lags_within(grid, reach);
-    if (!lags) throw std::bad_alloc();
+    if (!lags) lack_memory();  // The start of the stage has refused it.
     const auto parts = parts_of(*lags, grid.spacing, context.precision);
     BindingContext here = context;
     here.lags = parts;
