@@ -231,6 +231,15 @@ inline constexpr HintCase hint_cases[] = {
      "as in domain { grid: 64, 64, 64 }",
      "domain { grid: 8, 8, 8 }\nstage g: gray_scott { iterations: 1 }\n"
      "stage s: scales { duration: 1; founders: 6; body: g.v - 0.3 }"},
+    {"script", "system s { u: 0; 0 = lap(phi) + rho; u' = phi }\nstage only: s { iterations: 1 }",
+     "give the others values",
+     "system s { u: 0; rho: 1; 0 = lap(phi) + rho; u' = phi }\nstage only: s { iterations: 1 }"},
+    {"script",
+     "system s { u: 0; distance: 1; u' = convolve(distance, u) * distance }\n"
+     "stage only: s { iterations: 1 }",
+     "give the system's value another name",
+     "system s { u: 0; width: 1; u' = convolve(distance, u) * width }\n"
+     "stage only: s { iterations: 1 }"},
     {"domain", "seeed: 1", "did you mean 'seed'?"},
     {"picture", "color: palette(u, 0, 1, 'grey')", "write \"grey\""},
     {"picture", "color: palette(u, 0, 1, \"gray\")", "did you mean 'grey'?",
