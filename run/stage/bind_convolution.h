@@ -6,9 +6,9 @@
 
 namespace cascade {
 
-/// Computes the weights of a convolution from the present parameters, each times the length, area or
-/// volume of a cell. A reach of NaN or below 0 counts as 0. There are at most most_lags, as the start
-/// of the stage has made sure.
+/// Computes the weights of a convolution from the present parameters, each times the length, area
+/// or volume of a cell. A reach of NaN or below 0 counts as 0. There are at most most_lags, as the
+/// start of the stage has made sure.
 WeightedLags weights_of(const Convolution& convolution, const BindingContext& context);
 
 }  // namespace cascade

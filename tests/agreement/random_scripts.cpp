@@ -128,6 +128,11 @@ private:
             return fmt::format("({}).{}", flux(place, depth - 1),
                                stream_.pick<std::string_view>(components));
         }
+        if (row.spelling == "convolve") {
+            // Few cells are summed directly, more by transforms.
+            return fmt::format("convolve(1 - 0.2 * distance, {}, {})", expression(place, depth - 1),
+                               1 + stream_.below(4));
+        }
         if (is_stencil(row.spelling)) return stencil(row, place, depth);
         std::string arguments = expression(place, depth - 1);
         if (!is_word(row.spelling) && row.arity.most == 1) {

@@ -243,7 +243,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"a.cascade"}, "no command 'a.cascade'; did you mean 'cascade run a.cascade'?"},
         WrongUse{
             {"fly"},
-            "the commands are run, sweep, check, analyze, bench, compile, systems, new, fmt, mesh, "
+            "the commands are run, sweep, check, analyze, bench, compile, systems, new, palettes, fmt, mesh, "
             "repl, export, view"},
         WrongUse{{"run"}, "cascade run: a script is missing"},
         WrongUse{{"check"}, "cascade check: a script is missing"},
