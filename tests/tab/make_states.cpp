@@ -83,10 +83,20 @@ void write_states(const std::filesystem::path& path, bool is_exact) {
         // A page cannot make the surface of a grown body.
         const auto has_body = [](const Stage& stage) { return !stage.body.nodes.empty(); };
         if (stages.empty() || std::any_of(stages.begin(), stages.end(), has_body)) return;
-        // The transforms of pages agree with those of the program to rounding only.
-        const auto is_of_transforms = [](const Node& node) { return is_nonlocal(node); };
+        // The transforms of pages, and angles on models, agree with those of the program to
+        // rounding only (spec/page.md).
+        const auto is_rounded = [&](const Node& node) {
+            const auto* const value = node.as<SurfaceValueId>();
+            const Literals& literals = *script.program->literals;
+            return is_nonlocal(node) ||
+                   (value != nullptr && literals.surface_value(*value).function == Function::along);
+        };
         for (const Stage& stage : stages) {
-            if (holds_in_rates(script.program->systems[stage.system], is_of_transforms)) return;
+            const System& system = script.program->systems[stage.system];
+            const bool is_in_items =
+                std::any_of(stage.items.begin(), stage.items.end(),
+                            [&](const Formula& item) { return holds_in(item, is_rounded); });
+            if (is_in_items || holds_in_rates(system, is_rounded)) return;
         }
         auto state = state_of(std::move(script));
         if (state.is_null()) return;
