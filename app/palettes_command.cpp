@@ -22,7 +22,8 @@ namespace {
 
 constexpr int columns_of_bar = 32, width_of_name = 12;
 
-/// A bar in 24-bit colour, two colours to a character: the left half block in front of the other.
+/// A bar in 24-bit colour, two colours to a character: a left half block in one, the background in
+/// the other.
 std::string bar_in_terminal(const Palette& palette) {
     const auto channels = [&](int place) {
         const Colour colour = colour_at(palette, (place + 0.5) / (2 * columns_of_bar));

@@ -14,7 +14,7 @@ namespace {
 
 /// With a preconditioner, and without one on a linked grid.
 constexpr int most_iterations = 200, most_iterations_on_links = 2000;
-/// The norm of what remains of e, over that of b.
+/// The solver stops when the norm of e is this part of the norm of b.
 template <typename Number>
 constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
 /// A wave is left out of the preconditioner if L multiplies it by less than this part of what it
@@ -48,6 +48,15 @@ void ConstraintSolver<Number>::each_row(const Worker& worker, const Act& act) co
     for (std::int64_t row = worker.rows.begin; row < worker.rows.end; ++row) {
         act(layout_.row_start(row));
     }
+}
+
+/// By the cell's distance from cell (0, 0, 0).
+template <typename Number>
+template <typename Act>
+void ConstraintSolver<Number>::each_cell(const Worker& worker, const Act& act) const {
+    each_row(worker, [&](std::int64_t start) {
+        for (std::int64_t cell = start; cell < start + layout_.width; ++cell) act(cell);
+    });
 }
 
 template <typename Number>
@@ -177,10 +186,8 @@ double ConstraintSolver<Number>::subtract_mean(Worker& worker, Field& from) {
     std::vector<double> all = sums, all_areas = areas_of_rows;
     const double mean =
         reduce_rows(ReductionKind::sum, all, 1) / reduce_rows(ReductionKind::sum, all_areas, 1);
-    each_row(worker, [&](std::int64_t start) {
-        for (std::int64_t i = start; i < start + layout_.width; ++i) {
-            if (areas == nullptr || areas[i] != 0) cells[i] -= static_cast<Number>(mean);
-        }
+    each_cell(worker, [&](std::int64_t i) {
+        if (areas == nullptr || areas[i] != 0) cells[i] -= static_cast<Number>(mean);
     });
     return mean;
 }
@@ -271,6 +278,68 @@ void ConstraintSolver<Number>::find_stencil(Worker& worker) {
     worker.team.barrier();
 }
 
+/// The inverse of what the stencil multiplies each wave of a block by, by line and wave.
+template <typename Number>
+void ConstraintSolver<Number>::find_factors(const WaveBlock<Number>& block, Number* factors) const {
+    double size = 0;
+    for (const double weight : stencil_) size += std::abs(weight);
+    const double least = size * least_factor<Number>;
+    const std::size_t axis = block.axis;
+    for (std::int64_t line = 0; line < block.lines; ++line) {
+        const std::vector<double> along = weights_along(block, line);
+        for (std::int64_t wave = 0; wave < block.count; ++wave) {
+            const auto by = cosines(reach_[axis], block.differences[axis][wave]);
+            double factor = 0;
+            for (std::size_t k = 0; k < along.size(); ++k) factor += along[k] * by[k];
+            const double inverse = std::abs(factor) <= least ? 0 : 1 / (factor * block.gain);
+            factors[line * block.count + wave] = static_cast<Number>(inverse);
+        }
+    }
+}
+
+/// What the weights of the stencil are, along the axis of a block, for the waves of a line: by the
+/// distance along it, with those at the same distance together.
+template <typename Number>
+std::vector<double> ConstraintSolver<Number>::weights_along(const WaveBlock<Number>& block,
+                                                            std::int64_t line) const {
+    const std::size_t axis = block.axis;
+    std::array<Cosines, 3> across{};
+    for (std::size_t other = 0; other < 3; ++other) {
+        if (other == axis) continue;
+        across[other] = cosines(reach_[other], block.differences[other][other == 0 ? line : 0]);
+    }
+    std::vector<double> along(static_cast<std::size_t>(reach_[axis]) + 1, 0);
+    std::size_t n = 0;
+    for (int dz = -reach_[2]; dz <= reach_[2]; ++dz) {
+        for (int dy = -reach_[1]; dy <= reach_[1]; ++dy) {
+            for (int dx = -reach_[0]; dx <= reach_[0]; ++dx) {
+                const std::array<std::size_t, 3> offset{static_cast<std::size_t>(std::abs(dx)),
+                                                        static_cast<std::size_t>(std::abs(dy)),
+                                                        static_cast<std::size_t>(std::abs(dz))};
+                double weight = stencil_[n++];
+                for (std::size_t other = 0; other < 3; ++other) {
+                    if (other != axis) weight *= across[other][offset[other]];
+                }
+                along[offset[axis]] += weight;
+            }
+        }
+    }
+    return along;
+}
+
+/// The cosines of the multiples of a wave's phase from cell to cell, up to the reach of the
+/// stencil, from what the second difference multiplies the wave by.
+template <typename Number>
+auto ConstraintSolver<Number>::cosines(int reach, Number difference) const -> Cosines {
+    const double h = outer_.grid.spacing;
+    Cosines values{1, 1 + static_cast<double>(difference) * h * h / 2, 0, 0};
+    for (int n = 2; n <= reach; ++n) {
+        const auto k = static_cast<std::size_t>(n);
+        values[k] = 2 * values[1] * values[k - 1] - values[k - 2];
+    }
+    return values;
+}
+
 /// Writes the preconditioner's inverse of `from` into the plane `unknown`.
 template <typename Number>
 void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
@@ -280,56 +349,6 @@ void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
         std::copy(cells + start, cells + start + layout_.width, to + start);
     });
     if (!transforms_) return;
-    const double h = outer_.grid.spacing;
-    const auto cosines = [&](int reach, double difference) {
-        std::array<double, 4> values{1, 1 + difference * h * h / 2, 0, 0};
-        for (int n = 2; n <= reach; ++n) {
-            const auto k = static_cast<std::size_t>(n);
-            values[k] = 2 * values[1] * values[k - 1] - values[k - 2];
-        }
-        return values;
-    };
-    double size = 0;
-    for (const double weight : stencil_) size += std::abs(weight);
-    const double least = size * least_factor<Number>;
-    std::vector<double> along;  // Of one line: the weights by |offset| along its axis.
-    const auto find_factors = [&](const WaveBlock<Number>& block, Number* factors) {
-        const std::size_t axis = block.axis;
-        for (std::int64_t line = 0; line < block.lines; ++line) {
-            std::array<std::array<double, 4>, 3> across{};
-            for (std::size_t other = 0; other < 3; ++other) {
-                if (other == axis) continue;
-                across[other] =
-                    cosines(reach_[other],
-                            static_cast<double>(block.differences[other][other == 0 ? line : 0]));
-            }
-            along.assign(static_cast<std::size_t>(reach_[axis]) + 1, 0);
-            std::size_t n = 0;
-            for (int dz = -reach_[2]; dz <= reach_[2]; ++dz) {
-                for (int dy = -reach_[1]; dy <= reach_[1]; ++dy) {
-                    for (int dx = -reach_[0]; dx <= reach_[0]; ++dx) {
-                        const std::array<std::size_t, 3> offset{
-                            static_cast<std::size_t>(std::abs(dx)),
-                            static_cast<std::size_t>(std::abs(dy)),
-                            static_cast<std::size_t>(std::abs(dz))};
-                        double weight = stencil_[n++];
-                        for (std::size_t other = 0; other < 3; ++other) {
-                            if (other != axis) weight *= across[other][offset[other]];
-                        }
-                        along[offset[axis]] += weight;
-                    }
-                }
-            }
-            for (std::int64_t wave = 0; wave < block.count; ++wave) {
-                const auto by =
-                    cosines(reach_[axis], static_cast<double>(block.differences[axis][wave]));
-                double factor = 0;
-                for (std::size_t k = 0; k < along.size(); ++k) factor += along[k] * by[k];
-                const double inverse = std::abs(factor) <= least ? 0 : 1 / (factor * block.gain);
-                factors[line * block.count + wave] = static_cast<Number>(inverse);
-            }
-        }
-    };
     Number* const all_factors = factors_.template origin<Number>();
     const auto divide = [&](const WaveBlock<Number>& block) {
         Number* const factors = all_factors + block.offset;
@@ -350,10 +369,8 @@ void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
     worker.knows_factors = true;
     const Number* const areas = areas_of_cells();
     if (areas == nullptr) return;
-    each_row(worker, [&](std::int64_t start) {
-        for (std::int64_t i = start; i < start + layout_.width; ++i) {
-            if (areas[i] == 0) to[i] = 0;
-        }
+    each_cell(worker, [&](std::int64_t i) {
+        if (areas[i] == 0) to[i] = 0;
     });
 }
 
@@ -365,18 +382,13 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
                   *const v = cells(image_), *const t = cells(other_image_),
                   *const x = cells(solution);
     const Number* const y = cells(*problem_.unknown);
-    const auto each_cell = [&](const auto& act) {
-        each_row(worker, [&](std::int64_t start) {
-            for (std::int64_t i = start; i < start + layout_.width; ++i) act(i);
-        });
-    };
     const double whole = std::sqrt(dot(worker, residual_, residual_));
     if (!std::isfinite(whole)) {  // Nothing hides what is not finite.
-        each_cell([&](std::int64_t i) { x[i] = std::numeric_limits<Number>::quiet_NaN(); });
+        each_cell(worker, [&](std::int64_t i) { x[i] = std::numeric_limits<Number>::quiet_NaN(); });
         return;
     }
     const double wanted = tolerance<Number> * whole;
-    each_cell([&](std::int64_t i) {
+    each_cell(worker, [&](std::int64_t i) {
         r0[i] = r[i];
         p[i] = v[i] = 0;
     });
@@ -390,14 +402,14 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
         const auto beta = static_cast<Number>(next_rho / rho * (alpha / omega));
         const auto back = static_cast<Number>(omega);
         rho = next_rho;
-        each_cell([&](std::int64_t i) { p[i] = r[i] + beta * (p[i] - back * v[i]); });
+        each_cell(worker, [&](std::int64_t i) { p[i] = r[i] + beta * (p[i] - back * v[i]); });
         precondition(worker, direction_);
         apply_linear(worker, image_);
         const double along = dot(worker, shadow_, image_);
         if (along == 0) break;
         alpha = rho / along;
         const auto step = static_cast<Number>(alpha);
-        each_cell([&](std::int64_t i) {
+        each_cell(worker, [&](std::int64_t i) {
             x[i] += step * y[i];
             r[i] -= step * v[i];
         });
@@ -409,7 +421,7 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
         if (size == 0) break;
         omega = dot(worker, other_image_, residual_) / size;
         const auto further = static_cast<Number>(omega);
-        each_cell([&](std::int64_t i) {
+        each_cell(worker, [&](std::int64_t i) {
             x[i] += further * y[i];
             r[i] -= further * t[i];
         });
@@ -456,10 +468,8 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
     apply(worker, whole_, worker.whole, {&residual_});
     Number* const r = residual_.template origin<Number>();
     const Number* const areas = areas_of_cells();
-    each_row(worker, [&](std::int64_t start) {
-        for (std::int64_t i = start; i < start + layout_.width; ++i) {
-            r[i] = areas == nullptr || areas[i] != 0 ? -r[i] : Number{0};
-        }
+    each_cell(worker, [&](std::int64_t i) {
+        r[i] = areas == nullptr || areas[i] != 0 ? -r[i] : Number{0};
     });
     // If L of a constant is 0, L u has the mean 0.
     if (is_singular) {

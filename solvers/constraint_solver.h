@@ -13,6 +13,7 @@
 #include "solvers/step_problem.h"
 #include "solvers/wave_transforms.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,6 +42,10 @@ private:
     SideRules sides_at(const Worker& worker) const;
     void fill_halo_of_unknown(Worker& worker, bool is_linear);
     void find_stencil(Worker& worker);
+    using Cosines = std::array<double, 4>;  ///< Of 0 to 3 times an angle.
+    Cosines cosines(int reach, Number difference) const;
+    std::vector<double> weights_along(const WaveBlock<Number>& block, std::int64_t line) const;
+    void find_factors(const WaveBlock<Number>& block, Number* factors) const;
     void precondition(Worker& worker, const Field& from);
     double dot(Worker& worker, const Field& a, const Field& b);
     double subtract_mean(Worker& worker, Field& from);
@@ -51,6 +56,8 @@ private:
     const Number* areas_of_cells() const {
         return problem_.areas ? problem_.areas->template origin<Number>() : nullptr;
     }
+    template <typename Act>
+    void each_cell(const Worker& worker, const Act& act) const;
     template <typename Act>
     void each_row(const Worker& worker, const Act& act) const;
 

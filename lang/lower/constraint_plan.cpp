@@ -2,10 +2,8 @@
 // one. What remains of it without the unknown is computed once for each solution.
 #include "lang/lower/constraint_plan.h"
 
-#include "core/check.h"
 #include "lang/lower/plan_builder.h"
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -26,7 +26,7 @@ namespace {
 /// What a trial run with a number of axes is like.
 struct TrialShape {
     std::int64_t first_side;  ///< Cells along each axis while the wavelength is unknown;
-    double waves;             ///< then enough for so many waves,
+    double waves;             ///< then enough for this number of waves,
     std::int64_t least_side, most_side;
     double most_cells;  ///< of at most so many cells each.
     /// A wave of n cells is shorter than without a grid by this number / n². The discrete Laplacian
@@ -222,7 +222,7 @@ public:
     }
 
 private:
-    /// The wavelength without a grid of a wave that has so many cells on a grid.
+    /// The wavelength that a wave of `cells` cells on a grid would have without the grid.
     double without_grid(double cells) const { return cells + shape_.narrowing / cells; }
 
     std::int64_t side_for(double cells) const {

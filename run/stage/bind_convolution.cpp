@@ -15,18 +15,11 @@
 namespace cascade {
 namespace {
 
-Grid line_of(std::int64_t cells) {
-    Grid line;
-    line.width = cells;
-    line.height = 1;
-    return line;
-}
-
 /// The values of a plan of one result on a line of cells.
 std::vector<double> values_on_line(const StepPlan& plan, const BindingContext& context,
                                    std::int64_t cells) {
     const std::unique_ptr<Backend> interpreter = make_interpreter();
-    const Grid line = line_of(cells);
+    const Grid line{cells, 1};
     const Compile compile = [&](const CellKernel& kernel) {
         return *interpreter->compile(kernel, line.stencil());
     };
@@ -39,7 +32,7 @@ std::vector<double> values_on_line(const StepPlan& plan, const BindingContext& c
 
 std::array<Field, lag_part_count> parts_of(const std::vector<Lag>& lags, double spacing,
                                            Precision precision) {
-    const PlaneLayout layout(line_of(static_cast<std::int64_t>(lags.size())));
+    const PlaneLayout layout(Grid{static_cast<std::int64_t>(lags.size()), 1});
     std::array<Field, lag_part_count> parts;
     for (Field& part : parts) part = Field(layout, precision);
     with_number(precision, [&](auto zero) {

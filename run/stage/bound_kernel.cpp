@@ -162,17 +162,19 @@ private:
 
     /// What the plans of a constraint read and write, and their binders.
     struct OfConstraint {
-        std::shared_ptr<Field> unknown;
-        std::shared_ptr<StepInvariants> constant = std::make_shared<StepInvariants>();
         BindingContext context;
+        std::shared_ptr<Field> unknown;
+        std::shared_ptr<StepInvariants> constant;
         std::vector<Binder> binders;  ///< Of the plans whole, linear and, if there is one, parts.
     };
 
     void add_constraint(const Solve& solve) {
-        auto made = std::make_unique<OfConstraint>(OfConstraint{{}, {}, context_, {}});
-        made->constant = std::make_shared<StepInvariants>();
         const PlaneLayout layout(context_.grid);
-        made->unknown = std::make_shared<Field>(layout, context_.precision);
+        auto made = std::make_unique<OfConstraint>(
+            OfConstraint{context_,
+                         std::make_shared<Field>(layout, context_.precision),
+                         std::make_shared<StepInvariants>(),
+                         {}});
         made->context.unknown = made->unknown.get();
         if (solve.parts) {
             for (const PassTarget& target : solve.parts->passes.back().targets) {

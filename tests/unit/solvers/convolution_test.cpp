@@ -66,21 +66,12 @@ Values by_runner(const Grid& grid, const WeightedLags& weighted, const Values& o
     return sums;
 }
 
-Grid grid_of(std::int64_t width, std::int64_t height, std::int64_t depth, Boundaries boundary) {
-    Grid grid;
-    grid.width = width;
-    grid.height = height;
-    grid.depth = depth;
-    grid.boundary = boundary;
-    return grid;
-}
-
 std::vector<Grid> grids() {
     constexpr Boundary round = Boundary::periodic, ends = Boundary::no_flux;
-    return {grid_of(40, 1, 1, {round, round, round}),  grid_of(37, 1, 1, {ends, ends, ends}),
-            grid_of(24, 18, 1, {round, round, round}), grid_of(23, 19, 1, {ends, ends, ends}),
-            grid_of(21, 16, 1, {round, ends, round}),  grid_of(9, 8, 7, {ends, round, ends}),
-            grid_of(8, 10, 6, {round, round, round}),  grid_of(1, 30, 1, {ends, round, ends})};
+    return {Grid{40, 1, {round, round, round}, 1},  Grid{37, 1, {ends, ends, ends}, 1},
+            Grid{24, 18, {round, round, round}, 1}, Grid{23, 19, {ends, ends, ends}, 1},
+            Grid{21, 16, {round, ends, round}, 1},  Grid{9, 8, {ends, round, ends}, 7},
+            Grid{8, 10, {round, round, round}, 6},  Grid{1, 30, {ends, round, ends}, 1}};
 }
 
 WeightedLags scattered_weights(const Grid& grid, std::optional<double> reach) {
@@ -141,7 +132,7 @@ TEST(Convolution, CountsEachCellOfTheDomainOnceWithoutReach) {
 }
 
 TEST(Convolution, LagsEndAtTheReach) {
-    const Grid grid = grid_of(64, 64, 1, {});
+    const Grid grid{64, 64};
     for (const double reach : {0.0, 1.0, 2.5, 10.0}) {
         std::size_t within = 0;
         for (int y = -10; y <= 10; ++y) {
