@@ -5,6 +5,7 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/system_checker.h"
 #include "lang/check/user_functions.h"
+#include "lang/program/linear_functions.h"
 
 #include <fmt/format.h>
 
@@ -87,40 +88,6 @@ private:
     std::uint32_t number_;
 };
 
-/// May operand `k` of a linear function depend on the unknown, if no other one does?
-bool is_linear_in(const Node& node, std::size_t k) {
-    const std::size_t last = node.operand_count - 1u;
-    switch (node.function) {
-        case Function::add:
-        case Function::subtract:
-        case Function::negate:
-        case Function::multiply:
-        case Function::vector:
-        case Function::dot:
-        case Function::cross:
-        case Function::domain_mean:
-        case Function::domain_sum:
-        case Function::convolve: return true;
-        case Function::divide:
-        case Function::component:
-        case Function::diffuse: return k == 0;
-        case Function::if_: return k > 0;
-        case Function::mix: return k < 2;
-        case Function::advect: return k == last;
-        case Function::lap:
-        case Function::grad:
-        case Function::div:
-        case Function::curl: return true;
-        default: return info(node.function).kind == FunctionKind::derivative;
-    }
-}
-
-/// Is the function linear in several operands together?
-bool adds(Function function) {
-    return function == Function::add || function == Function::subtract ||
-           function == Function::vector || function == Function::if_ || function == Function::mix;
-}
-
 /// The first node that is not linear in the unknown; null if there is none.
 const Node* nonlinear_part(const Formula& formula) {
     IdVector<NodeId, bool> depends;
@@ -132,7 +99,8 @@ const Node* nonlinear_part(const Formula& formula) {
             ++count;
             is_linear = is_linear && is_linear_in(node, k);
         }
-        if (count > 0 && (!is_linear || (count > 1 && !adds(node.function)))) return &node;
+        if (count > 0 && (!is_linear || (count > 1 && !is_jointly_linear(node.function))))
+            return &node;
         depends.push_back(node.is<Unknown>() || count > 0);
     }
     return nullptr;

@@ -5,6 +5,8 @@
 #include "lang/check/check_convolution.h"
 
 #include "lang/check/expression_checker.h"
+#include "lang/program/dependencies.h"
+#include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
 
@@ -133,15 +135,7 @@ void ExpressionChecker::take_convolution(const ast::Call& call) {
 void check_kernels_of_stage(Workspace& work, std::uint32_t index) {
     const Stage& stage = work.program.stages[index];
     const System& system = work.program.system_of(index);
-    const Literals& literals = *work.program.literals;
-    // An item that an aggregate needs has no value until there are cells.
-    IdVector<ItemId, bool> is_late(stage.items.size(), false);
-    for (const ItemId item : stage.order) {
-        for (const Node& node : stage.items[item].nodes) {
-            const auto* const own = node.as<ItemId>();
-            if (is_aggregate(node) || (own != nullptr && is_late[*own])) is_late[item] = true;
-        }
-    }
+    const IdVector<ItemId, bool> is_late = items_of_aggregates(stage);
     const auto check_kernel = [&](const Formula& kernel) {
         for (const Node& node : kernel.nodes) {
             const auto* const item = node.as<ItemId>();
@@ -156,17 +150,10 @@ void check_kernels_of_stage(Workspace& work, std::uint32_t index) {
                 "stage");
         }
     };
-    const auto check = [&](const Formula& formula) {
-        for_each_kernel(formula, literals, [&](const ConvolutionKernel& kernel) {
-            check_kernel(kernel.weight);
-            check_kernel(kernel.reach);
-        });
-    };
-    for (const Formula& rate : system.rates) check(rate);
-    for (const Definition& definition : system.definitions) check(definition.formula);
-    for (const Formula& item : stage.items) check(item);
-    check(stage.show);
-    if (stage.time.until) check(*stage.time.until);
+    for_each_kernel_of_stage(work.program, index, [&](const ConvolutionKernel& kernel) {
+        check_kernel(kernel.weight);
+        check_kernel(kernel.reach);
+    });
 }
 
 }  // namespace cascade::checking

@@ -3,6 +3,7 @@
 #include "lang/lower/constraint_plan.h"
 
 #include "lang/lower/plan_builder.h"
+#include "lang/program/linear_functions.h"
 
 #include <memory>
 #include <optional>
@@ -13,16 +14,6 @@ namespace cascade::lowering {
 namespace {
 
 using Parts = IdVector<NodeId, std::optional<NodeId>>;
-
-/// Is it linear in all operands together, so that those without the unknown add nothing?
-bool adds(const Node& node) {
-    switch (node.function) {
-        case Function::add:
-        case Function::subtract:
-        case Function::vector: return true;
-        default: return false;
-    }
-}
 
 /// Adds the linear part of a node to the graph; nothing if the node does not depend on the unknown.
 std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const Parts& parts) {
@@ -40,12 +31,10 @@ std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const Parts
     const NodeId zero = graph.number(0);
     for (std::size_t k = 0; k < node.operand_count; ++k) {
         NodeId& operand = node.operands[k];
-        const bool is_choice =
-            node.calls(Function::if_) ? k > 0 : node.calls(Function::mix) && k < 2;
         if (parts[operand]) {
             operand = *parts[operand];
-        } else if (adds(node) || is_choice) {
-            operand = zero;
+        } else if (is_jointly_linear(node.function) && is_linear_in(node, k)) {
+            operand = zero;  // What does not depend on the unknown adds nothing.
         }
     }
     return graph.add(node);

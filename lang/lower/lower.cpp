@@ -5,6 +5,7 @@
 #include "lang/lower/lower_expressions.h"
 #include "lang/lower/step_graph.h"
 #include "lang/lower/step_invariants.h"
+#include "lang/program/dependencies.h"
 
 #include <fmt/format.h>
 
@@ -35,21 +36,6 @@ using namespace lowering;
 
 /// The value of views outside of the mask.
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
-
-/// The uniform items that need an aggregate over the domain, directly or through others, and can
-/// only be computed when there are cells.
-IdVector<ItemId, bool> items_of_aggregates(const Stage& stage) {
-    IdVector<ItemId, bool> late(stage.items.size(), false);
-    for (const ItemId item : stage.order) {
-        if (!stage.uniform[item]) continue;
-        for (const Node& node : stage.items[item].nodes) {
-            const auto* own = node.as<ItemId>();
-            const bool reads_one = own != nullptr && late[*own];
-            if (is_aggregate(node) || reads_one) late[item] = true;
-        }
-    }
-    return late;
-}
 
 /// Is the item a component of the place of a cell that crawls, which is known before its values?
 bool is_of_place(const System& system, ItemId item) {

@@ -42,4 +42,16 @@ Dependencies item_dependencies(const std::vector<const Formula*>& items) {
     return reads;
 }
 
+IdVector<ItemId, bool> items_of_aggregates(const Stage& stage) {
+    IdVector<ItemId, bool> late(stage.items.size(), false);
+    for (const ItemId item : stage.order) {
+        for (const Node& node : stage.items[item].nodes) {
+            const auto* own = node.as<ItemId>();
+            const bool reads_one = own != nullptr && late[*own];
+            if (is_aggregate(node) || reads_one) late[item] = true;
+        }
+    }
+    return late;
+}
+
 }  // namespace cascade

@@ -16,4 +16,8 @@ Dependencies step_dependencies(const System& system);
 /// (nullptr) reads nothing.
 Dependencies item_dependencies(const std::vector<const Formula*>& items);
 
+/// The items of a stage that need an aggregate over the domain, directly or through others, so that
+/// they can only be computed when there are cells.
+IdVector<ItemId, bool> items_of_aggregates(const Stage& stage);
+
 }  // namespace cascade

@@ -4,6 +4,7 @@
 #include "lang/program/program.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace cascade {
 
@@ -37,6 +38,22 @@ const Node* find_in_rates(const System& system, const Test& test) {
         if (const Node* found = find_in(rate)) return found;
     }
     return nullptr;
+}
+
+/// Calls visit(kernel) for the kernels of all convolutions of a stage: those of its values, rates,
+/// definitions, picture and end.
+template <typename Visit>
+void for_each_kernel_of_stage(const Program& program, std::uint32_t stage, const Visit& visit) {
+    const Stage& own = program.stages[stage];
+    const System& system = program.system_of(stage);
+    const auto look_in = [&](const Formula& formula) {
+        for_each_kernel(formula, *program.literals, visit);
+    };
+    for (const Formula& rate : system.rates) look_in(rate);
+    for (const Definition& definition : system.definitions) look_in(definition.formula);
+    for (const Formula& item : own.items) look_in(item);
+    look_in(own.show);
+    if (own.time.until) look_in(*own.time.until);
 }
 
 template <typename Test>

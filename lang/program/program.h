@@ -101,8 +101,8 @@ struct InsideMask {
     bool operator==(const InsideMask&) const = default;
 };
 
-/// A part of what the kernel of a convolution reads of the way from the cell to the one that is
-/// weighted.
+/// What the kernel of a convolution knows of a lag, the vector from the cell to another one, whose
+/// value it weights.
 enum class LagPart : std::uint8_t {
     distance,  ///< Between their centres, in the script's unit.
     direction_x,

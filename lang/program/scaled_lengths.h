@@ -7,12 +7,12 @@
 
 namespace cascade {
 
-/// The program with all lengths in the equations of a stage multiplied by `factor`: what they grow
-/// is so many times as large, in the same time. A derivative of order n in rates and definitions is
-/// multiplied by factorⁿ, so that this is exact for any operator, and so are integrals over a
-/// model, white noise, and slopes and fluxes that the system or the stage gives its sides. Starting
-/// values, places, the sides of the domain and pictures stay in lengths of the domain. Ids of items
-/// and definitions stay; the stage gets a system of its own.
+/// The program with all lengths in the equations of a stage multiplied by `factor`: its pattern is
+/// larger by this factor and grows in the same time. A derivative of order n in rates and
+/// definitions is multiplied by factorⁿ, so that this is exact for any operator, and so are
+/// integrals over a model, white noise, and slopes and fluxes that the system or the stage gives
+/// its sides. Starting values, places, the sides of the domain and pictures stay in lengths of the
+/// domain. Ids of items and definitions stay; the stage gets a system of its own.
 Program with_lengths(const Program& program, std::uint32_t stage, double factor);
 
 /// The number of axes along which the cells of the domain have neighbours.

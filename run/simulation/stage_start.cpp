@@ -5,6 +5,7 @@
 #include "core/side_cells.h"
 #include "core/with_commas.h"
 #include "lang/calculus/side_values.h"
+#include "lang/program/nodes_of_rates.h"
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
 #include "run/simulation/stage_view.h"
@@ -144,7 +145,6 @@ Result<void> check_speed(const StageView& view) {
 /// Refuses convolutions over too many cells, before anything computes them.
 Result<void> check_reaches(const StageView& view) {
     const Environment& here = view.environment();
-    const System& system = view.system();
     Result<void> good;
     const auto check = [&](const ConvolutionKernel& kernel) {
         std::optional<double> reach;
@@ -163,13 +163,7 @@ Result<void> check_reaches(const StageView& view) {
                        reach ? "make the reach shorter"
                              : "convolve(k, e, r) takes those within a distance");
     };
-    const auto check_formula = [&](const Formula& formula) {
-        for_each_kernel(formula, *view.program().literals, check);
-    };
-    for (const Formula& rate : system.rates) check_formula(rate);
-    for (const Definition& each : system.definitions) check_formula(each.formula);
-    for (const Formula& item : view.stage().items) check_formula(item);
-    check_formula(view.stage().show);
+    for_each_kernel_of_stage(view.program(), view.number(), check);
     return good;
 }
 

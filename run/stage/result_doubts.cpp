@@ -60,10 +60,10 @@ std::optional<std::string> describe(const SolveReport& report, const std::string
     constexpr double largest_rest = 1e-3, largest_mean = 1e-3;
     if (!(report.largest_rest <= largest_rest)) {
         return fmt::format(
-            "stage '{}': the constraint of {} was not solved: {:.2g} of what it should balance was "
-            "left after {} iterations; the operator of {} may have no inverse, or its coefficients "
-            "may differ too much",
-            stage, unknown, report.largest_rest, report.most_iterations, unknown);
+            "stage '{}': the constraint of {} was not solved: after {} iterations its residual was "
+            "{:.2g} of that without {}; its operator may have no inverse, or its coefficients may "
+            "differ too much",
+            stage, unknown, report.most_iterations, report.largest_rest, unknown);
     }
     if (!(report.largest_mean <= largest_mean)) {
         return fmt::format(

@@ -49,7 +49,7 @@ public:
     std::uint32_t substeps() const {
         return stage_.time.solver == Solver::euler ? state_.time.stages : 0;
     }
-    /// The stages of Runge-Kutta-Legendre that stand for so many parts; 0 if these are taken.
+    /// The number of stages of Runge-Kutta-Legendre that replace the parts of a step; 0: none do.
     static std::uint32_t stages_for_parts(std::uint32_t parts);
     /// A step of Euler that is split into parts, at least 2, or what stands for them.
     static Scheme split_scheme(std::uint32_t species, std::uint32_t parts);
