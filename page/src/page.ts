@@ -215,7 +215,10 @@ function show_script(script: Script) {
     show_sliders(script.controls, change);
     measure.species = script.species;
     if ([...brush_choice.options].map((o) => o.value).join() !== script.brushes.join()) {
+        // The first brush is the usual one; another was chosen.
+        const chosen = brush_choice.selectedIndex > 0 ? brush_choice.value : "";
         brush_choice.replaceChildren(...script.brushes.map((name) => new Option(name)));
+        if (script.brushes.includes(chosen)) brush_choice.value = chosen;
         element("names").replaceChildren(...script.species.map((name) => new Option(name)));
     }
 }

@@ -157,7 +157,8 @@ async function steer() {
     await type_script("crawling.cascade");
     await browser.until(`document.getElementById("place").textContent === "step 0 · 60 cells"`);
     const count = `Number(document.getElementById("place").textContent.match(/(\\d+) cells/)[1])`;
-    await browser.evaluate(`document.getElementById("brush").value = "remove"`);
+    // The brushes of a script may come after its first picture.
+    await browser.until(`{ const brush = document.getElementById("brush"); brush.value = "remove"; brush.value === "remove" }`);
     // What is pointed at may still be a cell of the grid before, "115, 20", or nothing.
     for (const end = Date.now() + 120000; Date.now() < end && !/^\d+$/.test((await cell_at(430, 300)).cell);) {
         await new Promise((resolve) => setTimeout(resolve, 50));
