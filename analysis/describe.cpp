@@ -54,10 +54,10 @@ private:
         switch (relation_.stability) {
             case Stability::turing:
                 return relation_.at_rest.real() < -relation_.resolution
-                           ? "Turing: stable without derivatives, and standing waves grow"
+                           ? "Turing: stable if all cells change alike, and standing waves grow"
                            : "standing waves grow; alike in all cells, nothing does";
             case Stability::wave:
-                return "wave: stable without derivatives, and moving or oscillating waves grow";
+                return "wave: stable if all cells change alike, and moving or oscillating waves grow";
             case Stability::hopf: return "Hopf: all cells together begin to oscillate";
             case Stability::both:
                 return "Hopf and Turing: an oscillation of all cells and standing waves grow";

@@ -95,14 +95,16 @@ public:
     Relation(const LinearModel& model, const Matrices& matrices)
         : model_(model), matrices_(matrices), lattice_(lattice_of(*model.program)) {
         double largest = 0;
-        for (const Matrix& matrix : matrices) {
+        for (const Matrix& matrix : matrices.terms) {
             if (matrix.size() > 0) largest = std::max(largest, matrix.cwiseAbs().maxCoeff());
         }
         resolution = 1e-10 * largest;
     }
 
     Complex largest(const Phases& phases) const {
-        if (matrices_[0].rows() == 2) return largest_of_two(phases);
+        if (matrices_.terms[0].rows() == 2 && model_.unknowns.empty()) {
+            return largest_of_two(phases);
+        }
         return eigenvalues(model_, matrices_, lattice_, phases).front();
     }
     double growth(const Direction& direction, double phase) const {
@@ -204,14 +206,16 @@ public:
 private:
     /// Without allocations, since maps of parameters ask a million times.
     Complex largest_of_two(const Phases& phases) const {
-        Complex a = matrices_[0](0, 0), b = matrices_[0](0, 1);
-        Complex c = matrices_[0](1, 0), d = matrices_[0](1, 1);
-        for (std::size_t k = 1; k < matrices_.size(); ++k) {
-            const Complex factor = symbol(model_.terms[k].operators, lattice_, phases);
-            a += factor * matrices_[k](0, 0);
-            b += factor * matrices_[k](0, 1);
-            c += factor * matrices_[k](1, 0);
-            d += factor * matrices_[k](1, 1);
+        const std::vector<Matrix>& terms = matrices_.terms;
+        Complex a = terms[0](0, 0), b = terms[0](0, 1);
+        Complex c = terms[0](1, 0), d = terms[0](1, 1);
+        for (std::size_t k = 1; k < terms.size(); ++k) {
+            const Complex factor =
+                symbol(model_.terms[k].operators, lattice_, matrices_.kernels, phases);
+            a += factor * terms[k](0, 0);
+            b += factor * terms[k](0, 1);
+            c += factor * terms[k](1, 0);
+            d += factor * terms[k](1, 1);
         }
         return (a + d) / 2.0 + std::sqrt((a - d) * (a - d) / 4.0 + b * c);
     }
@@ -244,13 +248,8 @@ double GrowingWave::cells() const {
 
 std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matrices,
                                  const Lattice& lattice, const Phases& phases) {
-    Eigen::MatrixXcd sum = matrices[0].cast<Complex>();
-    bool is_real = true;
-    for (std::size_t k = 1; k < matrices.size(); ++k) {
-        const Complex factor = symbol(model.terms[k].operators, lattice, phases);
-        is_real = is_real && factor.imag() == 0;
-        sum += factor * matrices[k];
-    }
+    const Eigen::MatrixXcd sum = jacobian_of(model, matrices, lattice, phases);
+    const bool is_real = sum.imag().cwiseAbs().maxCoeff() == 0;
     std::vector<Complex> values;
     if (sum.rows() == 1) {
         values = {sum(0, 0)};

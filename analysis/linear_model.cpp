@@ -1,6 +1,7 @@
 // Values and slopes of all parts of the rates. Vectors have slopes at the faces across each axis.
 #include "analysis/linear_model.h"
 
+#include "analysis/kernel_tapes.h"
 #include "lang/calculus/derivative_rules.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ using Kind = WaveOperator::Kind;
 
 /// The coefficients of products of operators.
 using Slope = std::map<OperatorProduct, NodeId>;
-using Slopes = std::vector<Slope>;  ///< By species.
+using Slopes = std::vector<Slope>;  ///< By variable.
 
 struct Part {
     std::array<NodeId, 3> value{};  ///< Of a number the first; the components of a vector.
@@ -41,7 +42,7 @@ public:
           algebra_(model.algebra),
           zero_(algebra_.number(0)),
           one_(algebra_.number(1)),
-          flat_(model.species_count()),
+          flat_(model.variable_count()),
           axes_(lattice_of(*model.program).has_axis) {}
 
     /// Adds a part; fails with words for the user.
@@ -55,7 +56,10 @@ public:
         }
         if (const auto* item = node.as<ItemId>()) return add_item(*item, part);
         if (const auto* builtin = node.as<Builtin>()) return add_builtin(*builtin);
-        if (node.is<Unknown>()) return failure("there is no rule for constraints in its rates");
+        if (const auto* unknown = node.as<Unknown>()) {
+            add_unknown(*unknown, part);
+            return {};
+        }
         if (!node.is<Call>()) {
             return failure("its rates read earlier stages or places, so that no state is flat");
         }
@@ -112,6 +116,13 @@ private:
             part.slopes[static_cast<std::size_t>(found - model_.species.begin())][{}] = one_;
             return {};
         }
+        const auto value = parameter(item);
+        if (!value) return tl::unexpected(value.error());
+        part.value[0] = *value;
+        return {};
+    }
+
+    Result<NodeId> parameter(ItemId item) {
         const StartValue& start = model_.starts[item];
         if (start.is_unknown) {
             return failure(fmt::format("'{}' comes from a file, so that no state is flat",
@@ -121,8 +132,14 @@ private:
         }
         auto& read = model_.parameters;
         if (std::find(read.begin(), read.end(), item) == read.end()) read.push_back(item);
-        part.value[0] = start.value;
-        return {};
+        return start.value;
+    }
+
+    void add_unknown(Unknown unknown, Part& part) {
+        const auto found = std::find(model_.unknowns.begin(), model_.unknowns.end(), unknown);
+        part.value[0] = algebra_.leaf(unknown);
+        part.slopes[model_.species_count() +
+                    static_cast<std::size_t>(found - model_.unknowns.begin())][{}] = one_;
     }
 
     Result<void> add_builtin(Builtin builtin) {
@@ -289,6 +306,8 @@ private:
                 part.slopes = first;
                 return {};
             case Function::white: model_.has_noise = true; return {};
+            case Function::convolve: return add_convolution(node, part);
+            case Function::solved: add_unknown({node.as<Call>()->detail}, part); return {};
             default: break;
         }
         if (info(node.function).is_aggregate) return add_aggregate(node, part);
@@ -307,6 +326,54 @@ private:
         }
         add(part.slopes, through(this->part(node, 0).slopes, Kind::mean), factor);
         return {};
+    }
+
+    Result<void> add_convolution(const Node& node, Part& part) {
+        const Lattice lattice = lattice_of(*model_.program);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (model_.program->domain.mask || (axes_[axis] && !lattice.is_periodic[axis])) {
+                return failure(
+                    "its convolutions end at the border of the domain, so that no state "
+                    "is flat");
+            }
+        }
+        const auto kernel = kernel_of(node);
+        if (!kernel) return tl::unexpected(kernel.error());
+        const Part& inner = this->part(node, 0);
+        part.value[0] =
+            algebra_.product(algebra_.leaf(model_.kernels[*kernel].sum), inner.value[0]);
+        part.slopes = through(inner.slopes, Kind::convolution, *kernel);
+        return {};
+    }
+
+    /// The number of the kernel in the model.
+    Result<std::size_t> kernel_of(const Node& node) {
+        const std::uint32_t literal = node.as<Call>()->detail;
+        auto& kernels = model_.kernels;
+        const auto known = std::find_if(kernels.begin(), kernels.end(), [&](const auto& kernel) {
+            return kernel.literal == literal;
+        });
+        if (known != kernels.end()) return static_cast<std::size_t>(known - kernels.begin());
+        constexpr std::size_t most = UINT8_MAX;  // WaveOperator::axis.
+        if (kernels.size() == most) return failure("it has too many convolutions");
+        const ConvolutionKernel& written = model_.program->literals->kernel(literal);
+        Flattening flattening(algebra_, FieldSpace::of(*model_.program, model_.system()));
+        for (const Formula* formula : {&written.weight, &written.reach}) {
+            for (const Node& each : formula->nodes) {
+                const auto* item = each.as<ItemId>();
+                if (item == nullptr) continue;
+                const auto value = parameter(*item);
+                if (!value) return tl::unexpected(value.error());
+                flattening.set_item(*item, *value);
+            }
+        }
+        KernelFormula kernel;
+        kernel.literal = literal;
+        kernel.weight = flattening.add(written.weight);
+        if (!written.reach.nodes.empty()) kernel.reach = flattening.add(written.reach);
+        kernel.sum = ItemId(static_cast<std::uint32_t>(model_.starts.size() + kernels.size()));
+        kernels.push_back(kernel);
+        return kernels.size() - 1;
     }
 
     /// Upwind. The carried value is flat, so that changes of the velocity do not matter.
@@ -349,11 +416,6 @@ private:
         const bool is_numeric = !varies_by_cell(node.function) && node.operand_count <= 3 &&
                                 info(node.function).kind <= FunctionKind::choice;
         if (!is_numeric) {
-            if (is_nonlocal(node)) {
-                return failure(
-                    fmt::format("there is no rule for {} in its rates",
-                                node.calls(Function::solved) ? "constraints" : "convolutions"));
-            }
             if (varies_by_cell(node.function)) {
                 return failure(fmt::format(
                     "'{}' in its rates differs from place to place, so that no state is flat",
@@ -390,15 +452,15 @@ private:
 
 std::vector<JacobianTerm> terms_of(const LinearModel& model, const std::vector<Slopes>& slopes,
                                    NodeId zero) {
-    const std::size_t count = model.species_count();
+    const std::size_t count = model.variable_count();
     std::map<OperatorProduct, std::vector<NodeId>> entries;
     entries[{}].assign(count * count, zero);
     for (std::size_t rate = 0; rate < count; ++rate) {
-        for (std::size_t species = 0; species < count; ++species) {
-            for (const auto& [operators, coefficient] : slopes[rate][species]) {
+        for (std::size_t variable = 0; variable < count; ++variable) {
+            for (const auto& [operators, coefficient] : slopes[rate][variable]) {
                 auto& matrix = entries[operators];
                 matrix.resize(count * count, zero);
-                matrix[rate * count + species] = coefficient;
+                matrix[rate * count + variable] = coefficient;
             }
         }
     }
@@ -408,6 +470,18 @@ std::vector<JacobianTerm> terms_of(const LinearModel& model, const std::vector<S
 }
 
 }  // namespace
+
+std::vector<NodeId> LinearModel::formulas() const {
+    std::vector<NodeId> all = rates;
+    for (const JacobianTerm& term : terms) {
+        all.insert(all.end(), term.entries.begin(), term.entries.end());
+    }
+    for (const KernelFormula& kernel : kernels) {
+        all.push_back(kernel.weight);
+        if (kernel.reach) all.push_back(*kernel.reach);
+    }
+    return all;
+}
 
 Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
                                  std::span<const ItemId> varied) {
@@ -421,18 +495,35 @@ Result<LinearModel> linear_model(const Program& program, std::uint32_t stage,
     if (model.species.empty()) return failure("it has no species");
     model.starts = start_values(model.algebra, program, stage, varied);
     const FlatRates rates(system, FieldSpace::of(program, system));
+    std::vector<NodeId> constraints;
+    for (const NodeId id : ids_below<NodeId>(rates.count)) {
+        const Node& node = rates.algebra[id];
+        if (!node.calls(Function::solved)) continue;
+        model.unknowns.push_back({node.as<Call>()->detail});
+        constraints.push_back(node.operands[0]);
+    }
     Lineariser parts(model);
     for (const NodeId id : ids_below<NodeId>(rates.count)) {
         if (auto done = parts.add(rates.algebra[id]); !done) return tl::unexpected(done.error());
         parts.note_type(rates.algebra[id].type);
     }
     std::vector<Slopes> slopes;
-    for (const ItemId item : model.species) {
-        const Part& part = parts[rates.rate(item)];
-        model.rates.push_back(part.value[0]);
-        slopes.push_back(part.slopes);
-    }
+    const auto take = [&](NodeId rate) {
+        model.rates.push_back(parts[rate].value[0]);
+        slopes.push_back(parts[rate].slopes);
+    };
+    for (const ItemId item : model.species) take(rates.rate(item));
+    for (const NodeId constraint : constraints) take(constraint);
     model.terms = terms_of(model, slopes, model.algebra.number(0));
+    if (varied.empty()) {
+        for (const KernelFormula& kernel : model.kernels) {
+            if (!KernelTapes(model, kernel).has_too_many_lags({})) continue;
+            return failure(fmt::format("its convolutions reach more than {} cells",
+                                       KernelTapes::most_lags),
+                           "a third argument, the distance up to which cells count, makes them "
+                           "shorter: convolve(k, e, 20)");
+        }
+    }
     std::sort(model.parameters.begin(), model.parameters.end());
     return model;
 }

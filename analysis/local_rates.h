@@ -1,6 +1,7 @@
 // A linear model as numbers: its rates and its matrices at given values of species and parameters.
 #pragma once
 
+#include "analysis/kernel_tapes.h"
 #include "analysis/linear_model.h"
 #include "analysis/tape.h"
 
@@ -13,9 +14,18 @@ namespace cascade::analysis {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-/// The matrices of a model in a state, in the order of its terms.
-using Matrices = std::vector<Matrix>;
-bool all_finite(const Matrices& matrices);
+/// The Jacobian of all waves in a state.
+struct Matrices {
+    std::vector<Matrix> terms;  ///< In the order of the model's terms.
+    WaveKernels kernels;        ///< Of the model's convolutions.
+
+    bool are_finite() const;
+};
+
+/// The Jacobian of a wave: how fast species change with species, the fields of constraints
+/// following at once.
+Eigen::MatrixXcd jacobian_of(const LinearModel& model, const Matrices& matrices,
+                             const Lattice& lattice, const Phases& phases);
 
 class LocalRates {
 public:
@@ -24,24 +34,29 @@ public:
     const LinearModel& model() const { return model_; }
     Eigen::Index species_count() const { return static_cast<Eigen::Index>(model_.species_count()); }
     /// The values of the model's varied items from here on.
-    void set_varied(std::vector<double> values) { varied_ = std::move(values); }
+    void set_varied(std::vector<double> values);
 
     /// The starting values of the species.
     Vector start() const { return species_of(start_); }
     /// The standard deviation of their random numbers.
     Vector scatter() const { return species_of(scatter_); }
     Vector rates(const Vector& species) const;
-    /// Of the reaction: without operators.
+    /// Of changes that are the same in all cells.
     Matrix jacobian(const Vector& species) const;
     Matrices matrices(const Vector& species) const;
 
 private:
     Vector species_of(const Tape& tape) const;
-    std::vector<double> run(const Tape& tape, const Vector& species) const;
+    /// Species, varied items, sums of kernels, unknowns.
+    std::vector<double> inputs(const Vector& species) const;
+    std::vector<double> solved_inputs(const Vector& species) const;
 
     const LinearModel& model_;
-    Tape start_, scatter_, rates_, jacobian_, matrices_;
+    Lattice lattice_;
+    std::vector<KernelTapes> kernel_tapes_;
+    Tape start_, scatter_, rates_, matrices_;
     std::vector<double> varied_;
+    WaveKernels kernels_;
 };
 
 }  // namespace cascade::analysis

@@ -85,15 +85,18 @@ bool is_weak(const Vector& scatter, const Vector& state, const Vector& start) {
 
 /// The species for which the least more diffusion would let a wave grow, with the factor.
 std::string remedy(const LinearModel& model, const Matrices& matrices) {
+    if (model.has_nonlocal_parts()) return "";  // What scales is not diffusion alone.
     const auto grows_with = [&](Eigen::Index species, double factor) {
         Matrices scaled = matrices;
-        for (std::size_t k = 1; k < scaled.size(); ++k) scaled[k].row(species) *= factor;
+        for (std::size_t k = 1; k < scaled.terms.size(); ++k) {
+            scaled.terms[k].row(species) *= factor;
+        }
         return quick_dispersion(model, scaled).has_growing_waves();
     };
     constexpr double most = 100;
     double least = most;
     std::string name;
-    for (Eigen::Index s = 0; s < matrices[0].rows(); ++s) {
+    for (Eigen::Index s = 0; s < matrices.terms[0].rows(); ++s) {
         if (!grows_with(s, least * 0.999)) continue;
         double low = 1, high = least;
         for (int round = 0; round < 30; ++round) {
@@ -138,7 +141,7 @@ std::optional<std::string> why_nothing_grows(const Program& program, std::uint32
     const auto state = flat_state_near(rates, start, conserved_totals(rates));
     if (!state || !is_weak(rates.scatter(), *state, start)) return std::nullopt;
     const Matrices matrices = rates.matrices(*state);
-    if (!all_finite(matrices)) return std::nullopt;
+    if (!matrices.are_finite()) return std::nullopt;
     const Dispersion relation = dispersion(*model, matrices);
     if (relation.grows_at_rest()) return std::nullopt;
     const std::string where = values_text(*model, *state);

@@ -1,6 +1,8 @@
 // A flat state is followed from value to value by Newton's method, each time from the last one.
 #include "analysis/parameters.h"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,10 +38,10 @@ public:
         if (!guess.allFinite()) return {};
         Place place;
         place.state = flat_state_near(rates_, guess, conserved_);
-        if (place.state && !has_totals && is_far(*place.state, guess)) place.state.reset();
+        if (place.state && !has_totals && has_jumped(guess, *place.state)) place.state.reset();
         if (!place.state) return place;
         const Matrices matrices = rates_.matrices(*place.state);
-        if (!all_finite(matrices)) return {};
+        if (!matrices.are_finite()) return {};
         const Dispersion relation = quick_dispersion(model_, matrices);
         place.stability = relation.stability;
         if (std::isfinite(relation.fastest.cells())) place.cells = relation.fastest.cells();
@@ -47,10 +49,18 @@ public:
     }
 
 private:
-    /// Another state that Newton's method jumped to.
-    bool is_far(const Vector& state, const Vector& guess) const {
-        const Vector scale = sizes_.cwiseMax(guess.cwiseAbs());
-        return (state - guess).cwiseQuotient(scale).cwiseAbs().maxCoeff() > 0.5;
+    /// Is it another state, which Newton's method has found by accident? A state that moves far is
+    /// the same one if it goes where its slope by the parameter says.
+    bool has_jumped(const Vector& from, const Vector& to) const {
+        const Vector scale = sizes_.cwiseMax(from.cwiseAbs());
+        const auto distance = [&](const Vector& change) {
+            return change.cwiseQuotient(scale).cwiseAbs().maxCoeff();
+        };
+        const double moved = distance(to - from);
+        if (moved <= 0.5) return false;
+        const Vector slope =
+            rates_.jacobian(from).completeOrthogonalDecomposition().solve(-rates_.rates(from));
+        return !(distance(to - from - slope) <= 0.25 * moved);
     }
 
     const LinearModel& model_;
@@ -159,10 +169,7 @@ std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32
         const auto model = linear_model(program, stage, items);
         if (!model) continue;
         // Does a formula read it?
-        std::vector<NodeId> roots = model->rates;
-        for (const JacobianTerm& term : model->terms) {
-            roots.insert(roots.end(), term.entries.begin(), term.entries.end());
-        }
+        const std::vector<NodeId> roots = model->formulas();
         const auto reads = [&](NodeId root) {
             const Formula formula = model->algebra.formula(root);
             return std::any_of(formula.nodes.begin(), formula.nodes.end(),

@@ -25,7 +25,7 @@ Result<StageAnalysis> analyze_stage(const Program& program, std::uint32_t stage)
         StateAnalysis each;
         each.matrices = rates.matrices(state.species);
         each.state = std::move(state);
-        if (!all_finite(each.matrices)) continue;
+        if (!each.matrices.are_finite()) continue;
         each.relation = dispersion(analysis.model, each.matrices);
         each.steps = stable_steps(decaying_rates(analysis.model, each.matrices));
         analysis.states.push_back(std::move(each));

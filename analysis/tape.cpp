@@ -32,15 +32,16 @@ double value_of(const Step& step, const std::vector<double>& registers) {
 
 }  // namespace
 
-Tape::Tape(const Algebra& algebra, std::span<const NodeId> results, std::span<const ItemId> inputs)
+Tape::Tape(const Algebra& algebra, std::span<const NodeId> results,
+           std::span<const NodeKind> inputs)
     : numbers_(inputs.size(), 0.0) {
     const IdVector<NodeId, bool> is_needed = needed_by(algebra, results);
     std::vector<std::uint32_t> place(algebra.size(), 0);
     for (const NodeId id : algebra.nodes().ids()) {
         if (!is_needed[id]) continue;
         const Node& node = algebra[id];
-        if (const auto* item = node.as<ItemId>()) {
-            const auto found = std::find(inputs.begin(), inputs.end(), *item);
+        if (!node.is<double>() && !node.is<Call>()) {
+            const auto found = std::find(inputs.begin(), inputs.end(), node.kind);
             CHECK(found != inputs.end(), "formulas of a tape read its inputs");
             place[id.index()] = static_cast<std::uint32_t>(found - inputs.begin());
             continue;
@@ -50,7 +51,7 @@ Tape::Tape(const Algebra& algebra, std::span<const NodeId> results, std::span<co
         const auto* number = node.as<double>();
         numbers_.push_back(number != nullptr ? *number : 0.0);
         if (number != nullptr) continue;
-        CHECK(node.is<Call>() && node.operand_count <= 3, "formulas of a tape are of numbers");
+        CHECK(node.operand_count <= 3, "formulas of a tape are of numbers");
         const auto operand = [&](std::size_t n) {
             return n < node.operand_count ? place[node.operands[n].index()] : 0;
         };

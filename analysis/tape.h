@@ -11,8 +11,8 @@ namespace cascade::analysis {
 
 class Tape {
 public:
-    /// Formulas of numbers, items of `inputs` and functions of numbers.
-    Tape(const Algebra& algebra, std::span<const NodeId> results, std::span<const ItemId> inputs);
+    /// Formulas of numbers, leaves that are among `inputs`, and functions of numbers.
+    Tape(const Algebra& algebra, std::span<const NodeId> results, std::span<const NodeKind> inputs);
 
     /// The value of each formula; `inputs` has one number for each input.
     std::vector<double> run(std::span<const double> inputs) const;

@@ -17,7 +17,9 @@ double second_difference(const Lattice& lattice, double phase) {
     return -4 * sine * sine / (h * h);
 }
 
-Complex symbol_of(WaveOperator each, const Lattice& lattice, const Phases& phases) {
+Complex symbol_of(WaveOperator each, const Lattice& lattice, const WaveKernels& kernels,
+                  const Phases& phases) {
+    if (each.kind == Kind::convolution) return kernels[each.axis]->symbol(phases);
     const double h = lattice.spacing, phase = phases[each.axis];
     const Complex i(0, 1);
     switch (each.kind) {
@@ -80,9 +82,10 @@ Lattice lattice_of(const Program& program) {
     return lattice;
 }
 
-Complex symbol(const OperatorProduct& operators, const Lattice& lattice, const Phases& phases) {
+Complex symbol(const OperatorProduct& operators, const Lattice& lattice, const WaveKernels& kernels,
+               const Phases& phases) {
     Complex product = 1;
-    for (const WaveOperator each : operators) product *= symbol_of(each, lattice, phases);
+    for (const WaveOperator each : operators) product *= symbol_of(each, lattice, kernels, phases);
     return product;
 }
 

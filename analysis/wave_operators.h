@@ -5,17 +5,15 @@
 // products of these few.
 #pragma once
 
+#include "analysis/wave_kernel.h"
 #include "core/grid.h"
 #include "lang/program/program.h"
 
 #include <array>
-#include <complex>
 #include <cstdint>
 #include <vector>
 
 namespace cascade::analysis {
-
-using Complex = std::complex<double>;
 
 /// An operator along an axis, or one of all axes.
 struct WaveOperator {
@@ -29,6 +27,7 @@ struct WaveOperator {
         backward,   ///< (c − W) / h, of a flow along the axis.
         forward,    ///< (E − c) / h, of a flow against it.
         mean,       ///< Over the domain: 1 for a change that is the same in all cells, else 0.
+        convolution,  ///< With a kernel, whose number is in place of an axis.
     };
     // clang-format on
     Kind kind = Kind::laplacian;
@@ -42,9 +41,6 @@ struct WaveOperator {
 using OperatorProduct = std::vector<WaveOperator>;
 OperatorProduct followed_by(OperatorProduct first, WaveOperator then);
 
-/// A wave by its phase from one cell to the next along each axis, in radians.
-using Phases = std::array<double, 3>;
-
 /// The cells on which waves are.
 struct Lattice {
     double spacing = 1;              ///< Between the centres of neighbours, in the script's unit.
@@ -57,6 +53,8 @@ struct Lattice {
 };
 Lattice lattice_of(const Program& program);
 
-Complex symbol(const OperatorProduct& operators, const Lattice& lattice, const Phases& phases);
+/// `kernels` are those that the operators name by their numbers.
+Complex symbol(const OperatorProduct& operators, const Lattice& lattice, const WaveKernels& kernels,
+               const Phases& phases);
 
 }  // namespace cascade::analysis

@@ -58,6 +58,31 @@ TEST(OperatorsOfWaves, HaveTheSymbolsOfTheirDifferences) {
                 sx + sy - 4 * cx * cy);
 }
 
+TEST(OperatorsOfWaves, OfConvolutionsAreTransformsOfTheirKernels) {
+    constexpr double h = 0.5, x = 0.7, y = 0.3;
+    // 2π exp(−k²/2) is the transform of exp(−r²/2). The sum over cells differs by less than 1e-9.
+    const double bell = 2 * std::numbers::pi * std::exp(-(x * x + y * y) / (2 * h * h));
+    expect_rate("convolve(exp(-distance^2 / 2), u, 8)", bell);
+    expect_rate("convolve(exp(-distance^2 / 2), lap(u) / 3, 8) - u",
+                bell * rate_of("lap(u)", x, y) / 3.0 - 1.0);
+    // The right neighbour alone.
+    expect_rate("convolve(if(direction.x > 0.9, 1, 0), u, 0.6)", h * h * std::exp(Complex(0, x)));
+}
+
+TEST(OperatorsOfWaves, FieldsOfConstraintsFollowTheWave) {
+    constexpr double h = 0.5;
+    const double s = -4 * (std::pow(std::sin(0.35), 2) + std::pow(std::sin(0.15), 2)) / (h * h);
+    expect_rate("p\n 0 = lap(p) - 4 * p + u", 1 / (4 - s));
+    // The field's value enters, which is u / 4 in the flat state.
+    expect_rate("p * u - u^2 / 4\n 0 = lap(p) - 4 * p + u", 0.125 + 0.5 / (4 - s) - 0.25);
+    // What has no mean has a potential.
+    const std::string potential = "p\n 0 = lap(p) + u - mean(u over domain)";
+    expect_rate(potential, -1 / s);
+    EXPECT_EQ(rate_of(potential, 0, 0), 0.0);
+    // One field needs the other.
+    expect_rate("q\n 0 = lap(p) - p + u\n 0 = lap(q) - 2 * q + 3 * p", 3 / ((1 - s) * (2 - s)));
+}
+
 TEST(OperatorsOfWaves, TellWhatIsTheSameInAllCells) {
     EXPECT_NEAR(rate_of("lap(u) + 3 * (mean(u over domain) - u)", 0, 0).real(), 0, 1e-12);
 }
@@ -115,13 +140,26 @@ TEST(OperatorsOfWaves, RatesThatDependOnPlacesAreRefused) {
               "different rates");
 }
 
+TEST(OperatorsOfWaves, ConvolutionsThatEndAtBordersAreRefused) {
+    const std::string system = "system s { u: 0; u' = convolve(exp(-distance), u) - u }\n";
+    const auto refusal_on = [&](const std::string& domain) {
+        return refusal_of(system + "domain { " + domain + " }\nstage a: s { iterations: 1 }");
+    };
+    const std::string border =
+        "its convolutions end at the border of the domain, so that no state is flat";
+    EXPECT_EQ(refusal_on("grid: 64, 64; boundary: noflux"), border);
+    EXPECT_EQ(refusal_on("grid: 64, 64; mask: disc(0.5, 0.5, 0.4)"), border);
+    EXPECT_EQ(refusal_on("grid: 512, 512"), "its convolutions reach more than 65536 cells");
+    EXPECT_EQ(refusal_on("grid: 64, 64"), "");
+}
+
 TEST(OperatorsOfWaves, WordsNameStateAndWaves) {
     const auto analysed = analyse("stage s: brusselator { }");
     const std::string words = describe(*analysed.analysis);
     EXPECT_NE(words.find("flat state u = 4.5, v = 1.5556 (from the starting values)"),
               std::string::npos)
         << words;
-    EXPECT_NE(words.find("Turing: stable without derivatives"), std::string::npos) << words;
+    EXPECT_NE(words.find("Turing: stable if all cells change alike"), std::string::npos) << words;
     EXPECT_NE(words.find("fastest wave        9.57"), std::string::npos) << words;
 }
 

@@ -121,6 +121,28 @@ TEST(TuringConditions, DeflationFindsAllStatesOfACubic) {
     EXPECT_NEAR(found[2], 1, 1e-9);
 }
 
+/// Its rate at rest is a − 1, where a is the sum of all weights.
+TEST(TuringConditions, KernelsFollowTheirParameters) {
+    const auto analysed = analyse(
+        "system s { u: 0; a: 0.5 in 0 .. 2; w: 1 in 0.7 .. 3\n"
+        "u' = convolve(a * exp(-distance^2 / (2 * w^2)) / (2 * pi), u, 9 * w) - u }\n"
+        "stage s: s { }");
+    const auto by_weight = critical(analysed, "a", 0, 2);
+    ASSERT_EQ(by_weight.size(), 1U);
+    EXPECT_NEAR(by_weight[0].value, 1, 1e-5);
+    EXPECT_EQ(by_weight[0].above, Stability::uniform);
+    const auto by_width = critical(analysed, "w", 0.7, 3);
+    ASSERT_EQ(by_width.size(), 1U);
+    EXPECT_NEAR(by_width[0].value, std::sqrt(2.0), 1e-5);
+}
+
+/// The state at 0 has no size that says how far it may move with the parameter.
+TEST(TuringConditions, StatesAreFollowedFromZero) {
+    const auto analysed =
+        analyse("system s { u: 0; b: 0 in -3 .. 3; u' = tanh(b) - u + lap(u) }\nstage s: s { }");
+    EXPECT_TRUE(critical(analysed, "b", -3, 3).empty());
+}
+
 TEST(TuringConditions, MapAgreesWithTheBrusselatorsThresholds) {
     const auto analysed = analyse("stage s: brusselator { }");
     const Program& program = *analysed.script->program;

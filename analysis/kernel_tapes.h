@@ -1,0 +1,36 @@
+// The kernel of a convolution as numbers, at given values of parameters.
+#pragma once
+
+#include "analysis/linear_model.h"
+#include "analysis/tape.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace cascade::analysis {
+
+class KernelTapes {
+public:
+    KernelTapes(const LinearModel& model, const KernelFormula& kernel);
+
+    /// Does it depend on the model's varied items?
+    bool varies() const { return varies_; }
+
+    /// With the values of the varied items. Null if it has more than most_lags lags.
+    std::shared_ptr<const WaveKernel> at(std::span<const double> varied) const;
+    bool has_too_many_lags(std::span<const double> varied) const;
+
+    /// With these the analysis of a stage takes some tenths of a second.
+    static constexpr std::int64_t most_lags = std::int64_t{1} << 16;
+
+private:
+    std::optional<double> reach(std::span<const double> varied) const;
+
+    const LinearModel& model_;
+    Tape weight_;
+    std::optional<Tape> reach_;
+    bool varies_ = false;
+};
+
+}  // namespace cascade::analysis
