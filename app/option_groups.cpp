@@ -185,7 +185,7 @@ void add_files(CLI::App& app, RunRequest& run) {
                }
            },
            "The picture, .png; without it SCRIPT.png in this\nfolder; a film, .gif, .webp, .apng, "
-           ".mp4, .webm; of a\nmodel also .ply, .obj, .glb, .vtp, and its cells .npz,\n.cells.vtp; "
+           ".mp4, .webm; of a\nmodel also .ply, .obj, .glb, .vtp, .stl, and its cells .npz,\n.cells.vtp; "
            "may be given again")
         ->allow_extra_args(false)
         ->trigger_on_parse()

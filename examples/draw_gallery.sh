@@ -15,7 +15,7 @@ draw() {
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
-        witkin_kass/* | surfaces/* | materials/*) draw "$1" ;;
+        witkin_kass/* | surfaces/* | materials/* | bodies/*) draw "$1" ;;
         on_models/torus) draw "$1" --view 30,40 ;;
         on_models/fingerprint | on_models/dart_frog) draw "$1" ;;
         on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
@@ -54,6 +54,9 @@ else
     done
     for script in examples/surfaces/*.cascade; do
         draw_one "surfaces/$(basename "$script" .cascade)"
+    done
+    for script in examples/bodies/*.cascade; do
+        draw_one "bodies/$(basename "$script" .cascade)"
     done
     for script in examples/materials/*.cascade; do
         draw_one "materials/$(basename "$script" .cascade)"

@@ -20,6 +20,7 @@ Result<std::string> encode(const std::string& ending, const SurfaceMesh& mesh,
     if (ending == ".ply") return encode_ply(mesh, results);
     if (ending == ".obj") return encode_obj(mesh, results);
     if (ending == ".vtp") return encode_vtp(mesh, results);
+    if (ending == ".stl") return encode_stl(mesh);
     GlbLook look;
     look.colours = results.colours;
     return encode_glb(mesh, look);
@@ -36,7 +37,8 @@ std::string lower_ending(const std::filesystem::path& path) {
 
 bool is_model_ending(const std::filesystem::path& path) {
     const std::string ending = lower_ending(path);
-    return ending == ".ply" || ending == ".obj" || ending == ".glb" || ending == ".vtp";
+    return ending == ".ply" || ending == ".obj" || ending == ".glb" || ending == ".vtp" ||
+           ending == ".stl";
 }
 
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
@@ -48,8 +50,8 @@ Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& m
     }
     if (!is_model_ending(path)) {
         return failure(
-            fmt::format("cannot write '{}': a model's name ends in .ply, .obj, .glb or "
-                        ".vtp",
+            fmt::format("cannot write '{}': a model's name ends in .ply, .obj, .glb, "
+                        ".vtp or .stl",
                         path.string()));
     }
     return write_encoded(path, [&] { return encode(lower_ending(path), mesh, results); });

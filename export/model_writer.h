@@ -1,4 +1,4 @@
-// Models with results, as files for other programs: PLY, OBJ, GLB and VTK's .vtp.
+// Models with results, as files for other programs: PLY, OBJ, GLB, VTK's .vtp and STL.
 #pragma once
 
 #include "core/result.h"
@@ -30,9 +30,13 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results);
 /// 2010, chapter 19): triangles, normals, colours as `color` and each channel as point data.
 std::string encode_vtp(const SurfaceMesh& mesh, const PointResults& results);
 
-/// Writes the format of the name's extension, .ply, .obj, .glb or .vtp in any case, atomically. NaN
-/// stays NaN in channels and is magenta in colours. Fails on other extensions, on models that the
-/// format cannot represent (see export/glb.h), and as write_file does.
+/// Binary STL: triangles with their normals in binary32, without points in common, colours and
+/// channels.
+std::string encode_stl(const SurfaceMesh& mesh);
+
+/// Writes the format of the name's extension, .ply, .obj, .glb, .vtp or .stl in any case,
+/// atomically. NaN stays NaN in channels and is magenta in colours. Fails on other extensions, on
+/// models that the format cannot represent (see export/glb.h), and as write_file does.
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const PointResults& results);
 

@@ -8,7 +8,7 @@ failed=0
 again() {
     "$CASCADE" run -q "$1" -o again.png || failed=1
     case $1 in
-        */surfaces/* | */materials/* | */on_models/* | */cells/*) same=(python3 "$SOURCE/tests/same_picture.py") ;;
+        */surfaces/* | */materials/* | */bodies/* | */on_models/* | */cells/*) same=(python3 "$SOURCE/tests/same_picture.py") ;;
         *) same=(false) ;;
     esac
     if ! cmp -s "$1" again.png && ! "${same[@]}" "$1" again.png; then
@@ -18,7 +18,7 @@ again() {
 }
 
 count=0
-for picture in "$SOURCE"/examples/*.png "$SOURCE"/examples/{witkin_kass,surfaces,materials,on_models,cells}/*.png; do
+for picture in "$SOURCE"/examples/*.png "$SOURCE"/examples/{witkin_kass,surfaces,materials,bodies,on_models,cells}/*.png; do
     if [ "$CASCADE_JIT" != 1 ] && [ "$(stat -c %s "$picture")" -gt 5300 ]; then continue; fi
     again "$picture"
     count=$((count + 1))
@@ -29,7 +29,7 @@ if [ "$CASCADE_JIT" = 1 ]; then
         cmp "$sheet" swept/sheet.png && cmp "${sheet%.png}.csv" swept/features.csv || failed=1
     done
 fi
-for script in "$SOURCE"/examples/*.cascade "$SOURCE"/examples/{witkin_kass,surfaces,materials,on_models,cells}/*.cascade; do
+for script in "$SOURCE"/examples/*.cascade "$SOURCE"/examples/{witkin_kass,surfaces,materials,bodies,on_models,cells}/*.cascade; do
     if [ ! -f "${script%.cascade}.png" ]; then
         echo "gallery: $script has no picture beside it"
         failed=1

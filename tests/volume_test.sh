@@ -54,6 +54,36 @@ start = sum(1 for k in range(8) for j in range(10) for i in range(12)
 assert abs(total - start) < 1e-3 * start, (total, start)
 END
 
+# A body, as a picture and as models, on which a pattern grows.
+cat >body.cascade <<'END'
+domain { grid: 20, 20, 20; boundary: noflux }
+system ball { u: 0.3 - sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2); u' = 0 }
+stage grown: ball { iterations: 1 }
+picture { body: u; color: palette(z, 0, 1, "coral") }
+END
+"$CASCADE" run -q body.cascade -o body.png -o body.ply -o body.obj -o body.glb -o body.vtp -o body.stl || fail "no body"
+"$CASCADE" run -q body.png -o again.png || fail "the picture of a body does not run again"
+cmp -s body.png again.png || fail "the picture of a body is not itself again"
+for model in ply obj glb stl; do
+    "$CASCADE" mesh "body.$model" >facts || fail "body.$model is not read"
+    grep -q "closed" facts || fail "body.$model: $(cat facts)"
+done
+echo 'system_name: turing_spots; iterations: 10' >coat.cascade
+"$CASCADE" run -q coat.cascade --mesh body.ply --cells 400 -o coat.png || fail "nothing grows on a body"
+"$CASCADE" run -q body.cascade --flat -o slice.png || fail "no slice of a body"
+"$CASCADE" run -q body.cascade --turntable 2 -o turn.png || fail "a body does not turn"
+[ -e turn-002.png ] || fail "no second picture of a turntable"
+for wrong in '-o cells.npz' '-o baked.glb --bake 64' '--retile -o a.ply' '--bump 0.1'; do
+    # shellcheck disable=SC2086
+    "$CASCADE" run -q body.cascade $wrong 2>err && fail "$wrong is taken for a body"
+    grep -q "error" err || fail "$wrong: $(cat err)"
+done
+sed 's/body: u/body: u - 1/' body.cascade >empty.cascade
+"$CASCADE" run empty.cascade -o empty.png >out 2>&1 || fail "an empty body fails"
+grep -q "the body of the picture is empty" out || fail "an empty body is not noticed: $(cat out)"
+"$CASCADE" run -q empty.cascade -o none.ply 2>err && fail "an empty body is written"
+[ ! -e none.ply ] || fail "an empty model is left"
+
 # Options that mean nothing for a plane.
 echo 'system_name: turing_spots' > plane.cascade
 for option in '--slice z=0.2' --flat '--view 10,20'; do

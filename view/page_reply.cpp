@@ -6,6 +6,7 @@
 #include "lang/equations/equations.h"
 #include "measure/spectrum.h"
 #include "picture/image.h"
+#include "run/pictures/body_picture.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"
 #include "run/session/kept_state.h"
@@ -195,7 +196,10 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
 }
 
 Json reply_to(const AskForPicture& question, LiveRun& run) {
-    auto png = session_picture(run, question.request);
+    PictureRequest request = question.request;
+    // The page shows volumes as slices.
+    request.flat = request.flat || draws_body(run.script(), request);
+    auto png = session_picture(run, request);
     if (png) return {{"kind", "picture"}, {"png", base64(*png)}};
     return Json::parse(print_answer(0, tl::unexpected(std::move(png.error())), ""));
 }

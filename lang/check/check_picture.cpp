@@ -50,6 +50,7 @@ public:
         if (setting == Setting::color) return check_type(statement, ValueType::colour);
         if (setting == Setting::height) return check_type(statement, ValueType::number);
         if (is_material(setting)) return check_material(statement, setting);
+        if (setting == Setting::body) return check_body(statement);
         if (!shows_cells()) return report_no_cells(statement.name);
         if (setting == Setting::shape) return check_shape(statement);
         if (setting == Setting::detail) return check_detail(statement);
@@ -68,15 +69,29 @@ private:
                setting == Setting::opacity || setting == Setting::emission;
     }
 
-    void check_material(const ast::Statement& statement, Setting setting) {
-        if (knows_stage() && shows_cells()) {
-            work_.diagnostics.error(
-                statement.name.span,
-                fmt::format("'{}' is for pictures of fields", statement.name.text),
-                fmt::format("stage '{}', which the picture shows, is one of cells that crawl",
-                            work_.program.stages[*scope_.stage].name));
+    bool are_fields(const ast::Word& name) {
+        if (!knows_stage() || !shows_cells()) return true;
+        work_.diagnostics.error(
+            name.span, fmt::format("'{}' is for pictures of fields", name.text),
+            fmt::format("stage '{}', which the picture shows, is one of cells that crawl",
+                        work_.program.stages[*scope_.stage].name));
+        return false;
+    }
+
+    /// On a model, which --mesh may have put in place of a volume, it means nothing.
+    void check_body(const ast::Statement& statement) {
+        if (!are_fields(statement.name)) return;
+        const DomainSettings& domain = work_.program.domain;
+        if (domain.grid.depth == 1 && !domain.model) {
+            work_.diagnostics.error(statement.name.span, "a body is one of a grid with slices",
+                                    "domain { grid: 64, 64, 64 }");
             return;
         }
+        check_type(statement, ValueType::number);
+    }
+
+    void check_material(const ast::Statement& statement, Setting setting) {
+        if (!are_fields(statement.name)) return;
         const bool is_colour = setting == Setting::emission;
         check_type(statement, is_colour ? ValueType::colour : ValueType::number);
     }

@@ -12,6 +12,7 @@ namespace {
 constexpr SettingInfo setting_table[] = {
 #define CASCADE_SETTING(word, block, domains, value, words, meaning) \
     {#word, SettingBlock::block, Domains::domains, SettingValue::value, words, meaning},
+#define CASCADE_SETTING_AGAIN CASCADE_SETTING
 #include "lang/vocabulary/settings.def"
 };
 
@@ -21,6 +22,8 @@ const SettingInfo& info(Setting setting) {
     return setting_table[static_cast<std::size_t>(setting)];
 }
 
+std::span<const SettingInfo> setting_rows() { return setting_table; }
+
 std::optional<Setting> setting_named(std::string_view word) {
     for (std::size_t i = 0; i < setting_count; ++i) {
         if (setting_table[i].word == word) return static_cast<Setting>(i);
@@ -29,8 +32,10 @@ std::optional<Setting> setting_named(std::string_view word) {
 }
 
 bool is_setting_of(SettingBlock block, std::string_view word) {
-    const auto setting = setting_named(word);
-    return setting && info(*setting).block == block;
+    return std::any_of(std::begin(setting_table), std::end(setting_table),
+                       [&](const SettingInfo& row) {
+                           return row.word == word && row.block == block;
+                       });
 }
 
 std::vector<std::string> settings_of(std::initializer_list<SettingBlock> blocks) {
@@ -42,8 +47,8 @@ std::vector<std::string> settings_of(std::initializer_list<SettingBlock> blocks)
     return words;
 }
 
-std::vector<std::string> words_taken_by(Setting setting) {
-    std::istringstream words{std::string(info(setting).words)};
+std::vector<std::string> words_taken_by(const SettingInfo& setting) {
+    std::istringstream words{std::string(setting.words)};
     return {std::istream_iterator<std::string>(words), {}};
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,9 @@ struct SettingInfo {
     std::string_view meaning;
 };
 const SettingInfo& info(Setting setting);
+/// All rows of the table: those of `Setting` in its order, then those of words that another block
+/// has, too.
+std::span<const SettingInfo> setting_rows();
 
 std::optional<Setting> setting_named(std::string_view word);
 /// True if the word is a setting of the block.
@@ -62,7 +66,10 @@ bool is_setting_of(SettingBlock block, std::string_view word);
 /// The settings of some blocks, in the order of the table.
 std::vector<std::string> settings_of(std::initializer_list<SettingBlock> blocks);
 /// The words that are values of a setting.
-std::vector<std::string> words_taken_by(Setting setting);
+std::vector<std::string> words_taken_by(const SettingInfo& setting);
+inline std::vector<std::string> words_taken_by(Setting setting) {
+    return words_taken_by(info(setting));
+}
 /// Where a setting of another block belongs; "" for words that are not settings.
 std::string_view home_of(std::string_view word);
 

@@ -6,7 +6,9 @@
 #include "core/temporary_file.h"
 #include "export/material_maps.h"
 #include "film/film.h"
+#include "lang/check/check.h"
 #include "picture/caption.h"
+#include "run/pictures/body_picture.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/material.h"
 #include "run/pictures/picture_size.h"
@@ -125,8 +127,8 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
 }
 
 Result<void> check_film_sizes(const Script& script, const RunRequest& request) {
-    const PictureSize size =
-        picture_size(script.program->domain, request.picture, has_cells(script));
+    const PictureSize size = picture_size(script.program->domain, request.picture,
+                                          has_cells(script) || draws_body(script, request.picture));
     for (const auto& output : request.outputs) {
         if (!is_film(output)) continue;
         if (auto good = check_film_size(output, size.width, size.height); !good) return good;
@@ -224,7 +226,7 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
     }
     options.refuse_if(files.retile && !is_tiled, "--retile",
                       "no model is written that it could tile",
-                      "-o NAME.ply, .obj, .glb or .vtp writes one");
+                      "-o NAME.ply, .obj, .glb, .vtp or .stl writes one");
     options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
                       "-o NAME.glb writes one");
     options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
@@ -238,6 +240,23 @@ constexpr std::string_view how_to_get_a_model =
 void check_maps_without_model(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(request.model_files.bake > 0, "--bake", std::string(not_a_model),
                       std::string(how_to_get_a_model));
+}
+
+/// A body has a surface and no cells on it.
+void check_of_body(OptionRefuser& options, const RunRequest& request) {
+    for (const auto& output : request.outputs) {
+        if (output_kind(output) != OutputKind::cells) continue;
+        options.refuse("-o", output.string(), "only what grows on a model is written so",
+                       "--volume FILE.vti has all species of a volume");
+    }
+    check_maps_without_model(options, request);
+    for (const auto& [option, is_given] :
+         {std::pair("--retile", request.model_files.retile),
+          std::pair("--bump", request.picture.bump != 0),
+          std::pair("--cache", !request.simulation.cell_cache.empty())}) {
+        options.refuse_if(is_given, option, std::string(not_a_model),
+                          std::string(how_to_get_a_model));
+    }
 }
 
 /// Options that apply to models only. A plane has maps, too.
@@ -263,10 +282,11 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
                       "-o NAME.glb writes a rectangle with them");
 }
 
-void check_on_plane(OptionRefuser& options, const RunRequest& request) {
+/// `has_body` says that --flat shows a slice in place of a body.
+void check_on_plane(OptionRefuser& options, const RunRequest& request, bool has_body) {
     const std::string message = "the domain is not a surface";
     const std::string hint = "surface: x, y, z in the domain makes one";
-    options.refuse_if(request.picture.flat, "--flat", message, hint);
+    if (!has_body) options.refuse_if(request.picture.flat, "--flat", message, hint);
     options.refuse_if(request.picture.is_turned(), "--view", message, hint);
     options.refuse_if(request.turntable > 0 || request.picture.view.is_turning, "--turntable",
                       message, hint);
@@ -357,9 +377,12 @@ Result<void> check_request(Script& script, const RunRequest& request) {
     } else if (domain.model) {
         check_on_model(options, request);
         check_model_files(options, request);
+    } else if (draws_body(script, request.picture)) {
+        check_of_body(options, request);
     } else {
         check_without_model(options, request, !domain.surface);
-        if (!domain.surface) check_on_plane(options, request);
+        const bool has_body = picture_expression(script.tree, "body").has_value();
+        if (!domain.surface) check_on_plane(options, request, has_body);
     }
     check_films(options, request);
     if (request.session) check_with_session(options, request);

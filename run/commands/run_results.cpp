@@ -4,6 +4,7 @@
 #include "core/counted.h"
 #include "picture/vti.h"
 #include "run/commands/run_checks.h"
+#include "run/pictures/body_picture.h"
 #include "run/pictures/cell_files.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/model_files.h"
@@ -137,11 +138,36 @@ Result<void> RunResults::write_model_files(const Canvas& canvas) {
 
 /// Of a stage of cells that crawl.
 Result<void> RunResults::write_cell_files(const Canvas& canvas) {
-    const std::vector<Colour> colours = painter.colours_of_cells(canvas);
+    const std::vector<Colour> colours = painter.colours_of_row(canvas);
     const GrownCells cells{simulation, simulation.shown_stage().value_or(0), *canvas.cells,
                            colours};
     return write_each([&](const std::filesystem::path& path) {
         return write_cells(path, cells, request.model_files, texts(request.picture));
+    });
+}
+
+/// Of a volume whose picture is a body.
+Result<void> RunResults::write_body_files(const Canvas& canvas) {
+    const SurfaceMesh& body = *canvas.body;
+    const Grid& grid = simulation.grid();
+    std::vector<Channel> channels;
+    const auto add = [&](std::string name, const Field& row) {
+        const auto& plane = row.plane();
+        channels.push_back(
+            {std::move(name), std::vector<float>(plane.row(0), plane.row(0) + body.points.size())});
+    };
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const System& system = script.program->system_of(stage);
+    for (const ItemId item : system.species()) {
+        add(std::string(system.item_name(item)),
+            at_points(simulation.state(stage).field(item), body, grid.boundary));
+    }
+    if (!request.picture.show.empty() && !canvas.is_colour()) add("shown", canvas.fields[0]);
+    const std::vector<Colour> colours = painter.colours_of_row(canvas);
+    return write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
+        auto done = write_body(path, body, grid, colours, channels);
+        if (!done) return tl::unexpected(done.error());
+        return WrittenFiles{{path}, {}};
     });
 }
 
@@ -175,6 +201,8 @@ Result<void> RunResults::write_outputs() {
         done = write_cell_files(canvas);
     } else if (simulation.model()) {
         done = write_model_files(canvas);
+    } else if (canvas.body) {
+        done = write_body_files(canvas);
     } else {
         done = write_plane_files(canvas);
     }

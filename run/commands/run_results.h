@@ -42,6 +42,7 @@ private:
         const std::function<Result<WrittenFiles>(const std::filesystem::path&)>& write_one);
     Result<void> write_model_files(const Canvas& canvas);
     Result<void> write_cell_files(const Canvas& canvas);
+    Result<void> write_body_files(const Canvas& canvas);
     Result<void> write_plane_files(const Canvas& canvas);
     std::vector<Channel> channels(const Canvas& canvas) const;
     bool has(OutputKind kind) const;

@@ -61,6 +61,7 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
             is_kept = is_kept && keep(*extras[k]);
         }
         if (canvas.cells) is_kept = is_kept && keep_cells(*canvas.cells, frames_.back());
+        if (canvas.body) is_kept = is_kept && keep_body(*canvas.body, frames_.back());
         if (!is_kept) {
             failure_ = Failure{"the frames do not fit into the folder for temporary files",
                                "ask for a larger interval"};
@@ -111,6 +112,13 @@ bool FrameRecorder::keep_cells(const DrawnCells& cells, Frame& frame) {
     return is_kept;
 }
 
+bool FrameRecorder::keep_body(const SurfaceMesh& body, Frame& frame) {
+    frame.has_body = true;
+    frame.points = body.points.size();
+    frame.triangles = body.triangles.size();
+    return keep_items(body.points) && keep_items(body.triangles) && keep_items(body.across);
+}
+
 Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     Canvas canvas;
     canvas.cells = frame.cells;
@@ -128,6 +136,13 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     const auto extras = extra_planes(canvas);
     for (std::size_t k = 0; k < extras.size(); ++k) {
         if (frame.extras[k]) *extras[k] = next();
+    }
+    if (frame.has_body) {
+        auto body = std::make_shared<SurfaceMesh>();
+        is_read = is_read && read_items(body->points, frame.points) &&
+                  read_items(body->triangles, frame.triangles) &&
+                  read_items(body->across, frame.triangles);
+        canvas.body = std::move(body);
     }
     if (!is_read) return cascade::failure("the frames cannot be read back");
     if (!frame.cells) return canvas;

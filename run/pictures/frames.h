@@ -68,6 +68,8 @@ private:
         /// file.
         std::shared_ptr<const DrawnCells> cells;
         std::size_t placements = 0, colours = 0;  ///< The lengths of these vectors.
+        bool has_body = false;                    ///< Canvas::body is in the file, …
+        std::size_t points = 0, triangles = 0;    ///< … with these.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -76,6 +78,7 @@ private:
     int threads_for(const Painter& painter, int threads) const;
     bool keep(const Field& field);
     bool keep_cells(const DrawnCells& cells, Frame& frame);
+    bool keep_body(const SurfaceMesh& body, Frame& frame);
     template <typename T>
     bool keep_items(const std::vector<T>& items);
     template <typename T>

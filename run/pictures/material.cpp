@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace cascade {
@@ -45,16 +44,21 @@ std::vector<float> clamped(const std::vector<double>& values, float usual,
 
 }  // namespace
 
+std::vector<Field> setting_values(const Script& script, std::string_view setting,
+                                  const EvaluateFormula& evaluate, std::uint32_t stage,
+                                  std::uint32_t last_stage) {
+    const auto expression = picture_expression(script.tree, setting);
+    if (!expression) return {};
+    Diagnostics unspoken;  // Errors were reported on loading; here a name may have no value yet.
+    const auto formula = check_view(script.tree, *expression, stage, last_stage, *script.program,
+                                    script.sources, unspoken);
+    return formula ? evaluate(*formula) : std::vector<Field>();
+}
+
 MaterialFields material_fields(const Script& script, const EvaluateFormula& evaluate,
                                std::uint32_t stage, std::uint32_t last_stage) {
-    const auto values_of = [&](std::string_view setting) -> std::vector<Field> {
-        const auto expression = picture_expression(script.tree, setting);
-        if (!expression) return {};
-        Diagnostics
-            unspoken;  // Errors were reported on loading; here a name may have no value yet.
-        const auto formula = check_view(script.tree, *expression, stage, last_stage,
-                                        *script.program, script.sources, unspoken);
-        return formula ? evaluate(*formula) : std::vector<Field>();
+    const auto values_of = [&](std::string_view setting) {
+        return setting_values(script, setting, evaluate, stage, last_stage);
     };
     MaterialFields fields;
     for (const NumberSetting& setting : number_settings) {

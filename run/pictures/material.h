@@ -10,6 +10,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
@@ -22,6 +23,12 @@ struct MaterialFields {
 
 /// Gives a formula's values in all cells: one field, or three of a colour.
 using EvaluateFormula = std::function<std::vector<Field>(const Formula&)>;
+
+/// The values of a setting of the picture block in a stage; empty if it is not said, or if it names
+/// a stage after `last_stage`.
+std::vector<Field> setting_values(const Script& script, std::string_view setting,
+                                  const EvaluateFormula& evaluate, std::uint32_t stage,
+                                  std::uint32_t last_stage);
 
 /// Evaluates the settings in a stage of fields. A setting that names a stage after `last_stage`
 /// counts as not said.

@@ -6,6 +6,7 @@
 #include "lang/check/check.h"
 #include "lang/syntax/parse.h"
 #include "run/domain/metric_planes.h"
+#include "run/pictures/body_picture.h"
 #include "run/pictures/model_picture.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/plane_look.h"
@@ -64,6 +65,7 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
     Painter painter;
     painter.script_ = &script;
     painter.request_ = request;
+    painter.shows_body_ = draws_body(script, request);
     painter.palette_ = find_palette(request.palette);
     if (!painter.palette_) {
         std::vector<std::string> names;
@@ -116,6 +118,7 @@ Canvas Painter::canvas(const Simulation& simulation) {
     model_ = simulation.model();
     shows_cells_ = simulation.state(simulation.shown_stage().value_or(0)).tissue != nullptr;
     if (shows_cells_) return canvas_of_cells(simulation, std::move(canvas));
+    if (shows_body_) return canvas_of_body(simulation, std::move(canvas));
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
     if (model_) canvas.material = material(simulation, evaluation_in(simulation));
     if (model_ && request_.bump != 0 && canvas.is_colour()) {
@@ -225,7 +228,27 @@ Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
 }
 
 bool Painter::is_flat() const {
-    return !shows_cells_ && !model_ && (!script_->program->domain.surface || request_.flat);
+    return !shows_cells_ && !shows_body_ && !model_ &&
+           (!script_->program->domain.surface || request_.flat);
+}
+
+/// The body, and the values at its points. If its formula names a stage that has not run, it is
+/// empty.
+Canvas Painter::canvas_of_body(const Simulation& simulation, Canvas values) {
+    const std::uint32_t stage = shown_stage_of(simulation);
+    const auto inside = setting_values(*script_, "body", evaluation_in(simulation), stage,
+                                       last_to_read(simulation, stage));
+    const Boundaries boundary = simulation.grid().boundary;
+    values.body = inside.empty() ? std::make_shared<const SurfaceMesh>()
+                                 : body_of(inside[0], simulation.mask(), boundary);
+    for (Field& field : values.fields) field = at_points(field, *values.body, boundary);
+    return values;
+}
+
+Image Painter::of_body(const Canvas& canvas, std::optional<ValueRange> range) const {
+    DrawOptions options = draw_options();
+    options.view.up = {0, 1, 0};
+    return draw_body(canvas.body, colours_of_row(canvas, range), options);
 }
 
 /// The values in the order of the cells' numbers, and the cells.
@@ -238,11 +261,12 @@ Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
     return values;
 }
 
-std::vector<Colour> Painter::colours_of_cells(const Canvas& canvas,
-                                              std::optional<ValueRange> range) const {
+std::vector<Colour> Painter::colours_of_row(const Canvas& canvas,
+                                            std::optional<ValueRange> range) const {
     const ValueRange used = range_of(canvas, range);
+    const std::size_t count = canvas.body ? canvas.body->points.size() : canvas.cells->count;
     std::vector<Colour> colours;
-    for (std::size_t cell = 0; cell < canvas.cells->count; ++cell) {
+    for (std::size_t cell = 0; cell < count; ++cell) {
         const auto value = [&](std::size_t channel) {
             return canvas.fields[channel].plane().row(0)[cell];
         };
@@ -258,12 +282,13 @@ Image Painter::with_cells(const Canvas& canvas, std::optional<ValueRange> range)
     DrawOptions options = draw_options();
     options.view.up = {0, 1, 0};
     if (canvas.cells->coat && !drawer_) drawer_ = std::make_shared<ModelDrawer>(model_);
-    return draw_cells(*canvas.cells, colours_of_cells(canvas, range), model_.get(), drawer_.get(),
+    return draw_cells(*canvas.cells, colours_of_row(canvas, range), model_.get(), drawer_.get(),
                       options);
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
     if (canvas.cells) return with_cells(canvas, range);
+    if (canvas.body) return of_body(canvas, range);
     if (model_) return on_model(canvas, range);
     Image flat = texture(canvas, range);
     if (is_flat()) return enlarge(std::move(flat), request_.scale);

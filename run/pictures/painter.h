@@ -17,6 +17,7 @@ namespace cascade {
 
 struct DrawnCells;
 struct FileShape;
+struct SurfaceMesh;
 
 /// Values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
@@ -26,6 +27,9 @@ struct Canvas {
     std::int64_t parts = 1;        ///< Of a cell along each axis: more in map_canvas().
     /// Of a stage of cells that crawl, in whose order the fields are; else null.
     std::shared_ptr<const DrawnCells> cells = nullptr;
+    /// Of a volume that is drawn as a body: its surface, in lengths of scripts, at whose points the
+    /// fields are, in one row; else null. Without points it is empty.
+    std::shared_ptr<const SurfaceMesh> body = nullptr;
     bool is_colour() const { return fields.size() == 3; }
     /// The number that heights and range refer to; null if there are only colours.
     const Field* number() const;
@@ -50,8 +54,9 @@ public:
     /// Checks `show` and the palette; errors in `show` go to `script.diagnostics`.
     static Result<Painter> create(Script& script, const PictureRequest& request);
 
-    /// The values to paint now; of a volume, a slice. If the picture block names a stage that has
-    /// not run, they are those of the default picture, and `fell_back()` is true from then on.
+    /// The values to paint now; of a volume, a slice or its body. If the picture block names a
+    /// stage that has not run, they are those of the default picture, and `fell_back()` is true
+    /// from then on.
     Canvas canvas(const Simulation& simulation);
     /// The same for all cells, also of a volume, in the run's precision.
     Canvas values(const Simulation& simulation);
@@ -79,9 +84,10 @@ public:
     void set_width(std::int64_t width) { width_ = width; }
     /// Sets the slice of later canvases.
     void set_slice(const Slice& slice) { request_.slice = slice; }
-    /// The colours of a canvas of cells that crawl, in the order of their numbers.
-    std::vector<Colour> colours_of_cells(const Canvas& canvas,
-                                         std::optional<ValueRange> range = {}) const;
+    /// The colours of a canvas of cells that crawl, in the order of their numbers, or of a body at
+    /// its points.
+    std::vector<Colour> colours_of_row(const Canvas& canvas,
+                                       std::optional<ValueRange> range = {}) const;
     /// The values of the last canvas at the cells of its model.
     ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
     /// The values of the last canvas, of a plane or a slice.
@@ -96,6 +102,8 @@ private:
     MaterialFields material(const Simulation& simulation, const EvaluateFormula& evaluate) const;
     DrawOptions draw_options() const;
     Image on_model(const Canvas& canvas, std::optional<ValueRange> range);
+    Canvas canvas_of_body(const Simulation& simulation, Canvas values);
+    Image of_body(const Canvas& canvas, std::optional<ValueRange> range) const;
     Canvas canvas_of_cells(const Simulation& simulation, Canvas values);
     Image with_cells(const Canvas& canvas, std::optional<ValueRange> range);
 
@@ -109,6 +117,7 @@ private:
     std::shared_ptr<ModelDrawer> drawer_;          ///< Made with the first picture.
     std::optional<std::int64_t> width_;            ///< Else the usual one.
     bool shows_cells_ = false;                     ///< The last canvas was of cells that crawl.
+    bool shows_body_ = false;                      ///< Volumes are drawn as bodies.
     Field outside_;  ///< Of the last canvas: NaN outside of the domain; empty without a mask.
 };
 

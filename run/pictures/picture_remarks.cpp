@@ -2,6 +2,7 @@
 #include "run/pictures/picture_remarks.h"
 
 #include "measure/resolution.h"
+#include "mesh/surface_mesh.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"
 
@@ -95,6 +96,11 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation) {
     if (state.tissue) return painter.canvas(simulation).cells->fault;
     if (state.course.empty() || state.course.ended_even()) return {};
     const Canvas canvas = painter.canvas(simulation);
+    if (canvas.body) {
+        return canvas.body->points.empty()
+                   ? "the body of the picture is empty: its formula is nowhere above 0"
+                   : "";
+    }
     if (painter.request().range && !canvas.is_colour()) {
         std::string remark = describe_range(spread_of(canvas.fields[0]), *painter.request().range);
         if (!remark.empty()) return remark;

@@ -9,7 +9,7 @@
 namespace cascade {
 
 Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary,
-                               const std::atomic<bool>& cancel) {
+                               const std::atomic<bool>& cancel, double edge) {
     const PlaneLayout& layout = values.layout();
     const double cell =
         1.0 / static_cast<double>(std::max({layout.width, layout.height, layout.depth}));
@@ -28,8 +28,8 @@ Result<SurfaceMesh> grown_body(const Field& values, Boundaries boundary,
         }
     };
     ImplicitRequest request;
-    request.edge = cell;
-    const Vector3d margin{2 * cell, 2 * cell, 2 * cell};
+    request.edge = edge * cell;
+    const Vector3d margin{2 * request.edge, 2 * request.edge, 2 * request.edge};
     request.low = Vector3d{} - margin;
     request.high = extent + margin;
     return implicit_surface(inside, request, cancel);

@@ -227,9 +227,9 @@ TEST(NamesPage, HasARowForEverySetting) {
     std::erase_if(rows, [](const auto& row) {
         return row.size() < 6 || !setting_named(row[0].substr(1, row[0].size() - 2));
     });
-    ASSERT_EQ(rows.size(), setting_count);
-    for (std::size_t k = 0; k < setting_count; ++k) {
-        const SettingInfo& setting = info(static_cast<Setting>(k));
+    ASSERT_EQ(rows.size(), setting_rows().size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const SettingInfo& setting = setting_rows()[k];
         const std::vector<std::string>& row = rows[k];
         EXPECT_EQ(row[0], "`" + std::string(setting.word) + "`");
         EXPECT_EQ(row[1], word_of(setting.block)) << row[0];
@@ -237,7 +237,7 @@ TEST(NamesPage, HasARowForEverySetting) {
         EXPECT_EQ(row[3], word_of(setting.value)) << row[0];
         EXPECT_EQ(row[4], setting.meaning) << row[0];
         std::string words;
-        for (const std::string& word : words_taken_by(static_cast<Setting>(k))) {
+        for (const std::string& word : words_taken_by(setting)) {
             words += (words.empty() ? "`" : " `") + word + "`";
         }
         EXPECT_EQ(row[5], words) << row[0];

@@ -192,12 +192,18 @@ TEST(ModelWriter, WritesByTheEnding) {
         ASSERT_TRUE(write_model(folder / name, mesh, {}).has_value());
         expect_same(read_back(read_model(folder / name)), mesh, 2e-7);
     }
+    // An STL file has no points in common and no texture.
+    ASSERT_TRUE(write_model(folder / "a.stl", mesh, {}).has_value());
+    const SurfaceMesh printed = read_back(read_model(folder / "a.stl"));
+    EXPECT_EQ(printed.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(facts_of(printed).boundary_edges, 0U);
+    EXPECT_NEAR(printed.total_area(), mesh.total_area(), 1e-6 * mesh.total_area());
     EXPECT_TRUE(is_model_ending("x.Vtp"));
-    const Result<void> refused = write_model(folder / "a.stl", mesh, {});
+    const Result<void> refused = write_model(folder / "a.xyz", mesh, {});
     ASSERT_FALSE(refused.has_value());
     EXPECT_THAT(refused.error().message,
-                HasSubstr("a model's name ends in .ply, .obj, .glb or .vtp"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.stl"));
+                HasSubstr("a model's name ends in .ply, .obj, .glb, .vtp or .stl"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.xyz"));
     std::filesystem::remove_all(folder);
 }
 

@@ -1,0 +1,101 @@
+// A body is drawn as that on which cells crawl, without any cells.
+#include "run/pictures/body_picture.h"
+
+#include "export/model_writer.h"
+#include "lang/check/check.h"
+#include "run/pictures/drawn_cells.h"
+#include "run/pictures/tissue_picture.h"
+#include "run/tissue/grown_body.h"
+#include "tissue/sense_kernel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// Calls visit(value) for every cell of a volume.
+template <typename Visit>
+void for_each_cell(Field& volume, const Visit& visit) {
+    const PlaneLayout layout = volume.layout();
+    for (std::int64_t k = 0; k < layout.depth; ++k) {
+        for (std::int64_t j = 0; j < layout.height; ++j) {
+            for (std::int64_t i = 0; i < layout.width; ++i) visit(volume.at(i, j, k));
+        }
+    }
+}
+
+}  // namespace
+
+bool draws_body(const Script& script, const PictureRequest& request) {
+    const DomainSettings& domain = script.program->domain;
+    return domain.grid.depth > 1 && !domain.model && !request.flat && request.slice == Slice() &&
+           picture_expression(script.tree, "body");
+}
+
+std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask* mask,
+                                           Boundaries boundary) {
+    Field inside = mask ? with_outside(values, *mask, nothing_outside) : values.clone();
+    if (inside.precision() != Precision::single) inside = inside.converted(Precision::single);
+    float largest = 0, magnitude = 0;
+    for_each_cell(inside, [&](float value) {
+        if (!std::isfinite(value)) return;
+        largest = std::max(largest, value);
+        magnitude = std::max(magnitude, std::abs(value));
+    });
+    if (!(largest > 0)) return std::make_shared<const SurfaceMesh>();
+    for_each_cell(inside, [&](float& value) {
+        value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
+    });
+    const std::atomic<bool> never = false;
+    constexpr double coarsest = 64;  // Cells of an edge, with which every grid is small.
+    for (double edge = 1; edge < coarsest; edge *= 2) {
+        auto body = grown_body(inside, boundary, never, edge);
+        if (body) return std::make_shared<const SurfaceMesh>(*std::move(body));
+    }
+    return std::make_shared<const SurfaceMesh>();
+}
+
+Field at_points(const Field& values, const SurfaceMesh& body, Boundaries boundary) {
+    const auto count = static_cast<std::int64_t>(body.points.size());
+    Field row(PlaneLayout(Grid{std::max<std::int64_t>(count, 1), 1}));
+    row.at(0, 0) = std::numeric_limits<float>::quiet_NaN();
+    const PlaceValue value = of_grid(values, boundary);
+    NearPlace near;
+    for (std::int64_t k = 0; k < count; ++k) {
+        near.position = body.points[static_cast<std::size_t>(k)];
+        row.at(k, 0) = static_cast<float>(value(near));
+    }
+    return row;
+}
+
+Image draw_body(std::shared_ptr<const SurfaceMesh> body, std::span<const Colour> colours,
+                const DrawOptions& options) {
+    DrawnCells drawn;
+    drawn.body = std::move(body);
+    drawn.body_colours.assign(colours.begin(), colours.end());
+    return draw_cells(drawn, {}, nullptr, nullptr, options);
+}
+
+Result<void> write_body(const std::filesystem::path& path, const SurfaceMesh& body,
+                        const Grid& grid, std::span<const Colour> colours,
+                        std::span<const Channel> channels) {
+    if (body.points.empty()) {
+        return failure(
+            fmt::format("'{}' is not written, because the body is empty: its formula is "
+                        "nowhere above 0",
+                        path.string()));
+    }
+    SurfaceMesh mesh = body;
+    const double longest = grid.spacing * static_cast<double>(grid.longest_side());
+    for (Vector3d& point : mesh.points) point = point * longest;
+    return write_model(path, mesh, {colours, channels});
+}
+
+}  // namespace cascade

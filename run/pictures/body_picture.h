@@ -1,0 +1,45 @@
+// The body of a volume: the surface around the cells in which the picture block's `body` is above
+// 0.
+#pragma once
+
+#include "core/parallel.h"
+#include "core/plane.h"
+#include "core/result.h"
+#include "export/channels.h"
+#include "mesh/surface_mesh.h"
+#include "render/draw.h"
+#include "run/domain/domain_mask.h"
+#include "run/script/picture_request.h"
+#include "run/script/script.h"
+
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace cascade {
+
+/// Do pictures of the script show a body? --slice and --flat show a slice instead.
+bool draws_body(const Script& script, const PictureRequest& request);
+
+/// The closed surface around the cells whose values are above 0, in lengths of scripts
+/// (run/tissue/grown_body.h). NaN and cells outside of `mask`, which may be null, are not inside.
+/// Its triangles are larger than cells where it would have more than implicit_surface() makes.
+/// Without points if no value is above 0. Throws std::bad_alloc.
+std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask* mask,
+                                           Boundaries boundary);
+
+/// The values of a volume's cells, interpolated linearly to the points of a body: one row of
+/// binary32, a single NaN if there are none.
+Field at_points(const Field& values, const SurfaceMesh& body, Boundaries boundary);
+
+/// Draws a body with these colours (sRGB) at its points. Throws std::bad_alloc.
+Image draw_body(std::shared_ptr<const SurfaceMesh> body, std::span<const Colour> colours,
+                const DrawOptions& options);
+
+/// Writes a body with the colours and numbers of its points, as write_model() does, with lengths in
+/// the unit of the grid's spacing.
+Result<void> write_body(const std::filesystem::path& path, const SurfaceMesh& body,
+                        const Grid& grid, std::span<const Colour> colours,
+                        std::span<const Channel> channels);
+
+}  // namespace cascade
