@@ -29,10 +29,10 @@ void add_analyze(CLI::App& app, Options& options) {
     app.add_flag("--json", analyze.as_json, "The result as JSON instead of words")->group(group);
     const auto parse_output = [](const std::string& text) -> Result<std::string> {
         if (is_analysis_output(text)) return text;
-        return failure(fmt::format("'{}' does not end in .svg, .png or .json", text));
+        return failure(fmt::format("'{}' does not end in .svg, .pdf, .png or .json", text));
     };
     add_value(app, "-o,--output", "FILE",
-              "FILE.svg or FILE.png, the dispersion relation or the\nmap as a plot; FILE.json",
+              "FILE.svg, .pdf or .png, the dispersion relation or the\nmap as a plot; FILE.json",
               parse_output, [&](auto path) { analyze.output = path; })
         ->group(group);
 }

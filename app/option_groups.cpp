@@ -198,6 +198,12 @@ void add_files(CLI::App& app, RunRequest& run) {
               [&](auto path) { run.frames = path; })
         ->group(group);
     add_film_pace(app, run.film);
+    app.add_option("--panel", run.panels,
+                   "An expression: figures have a panel for each, with its own\ncolours; may be "
+                   "given again")
+        ->allow_extra_args(false)
+        ->type_name("EXPR")
+        ->group(group);
     app.add_option("--label", run.labels,
                    "In a corner of frames and films: 'stage', step, t, or\nanother number, 'mean(u "
                    "over domain)'; may be given again")

@@ -232,8 +232,8 @@ Result<std::string> parse_output_path(std::string_view text) {
     }
     return failure(
         fmt::format("'{}' has no ending of a file that can be written", text),
-        ".png is a picture, .svg a figure with axes; .gif, .webp, .apng, .mp4 and .webm are "
-        "films; on a model, .ply, .obj, .glb and .vtp are models, .npz and .cells.vtp "
+        ".png is a picture, .svg or .pdf a figure with axes; .gif, .webp, .apng, .mp4 and .webm "
+        "are films; on a model, .ply, .obj, .glb, .vtp and .stl are models, .npz and .cells.vtp "
         "their cells");
 }
 

@@ -190,7 +190,7 @@ void Parser::add_all() {
     palettes
         ->add_option_function<std::string>(
             "-o,--output", [&](const std::string& path) { options.sheet = path; },
-            "A sheet of them, .png or .svg")
+            "A sheet of them, .png, .svg or .pdf")
         ->type_name("FILE")
         ->group("Output");
 

@@ -66,17 +66,6 @@ Drawing sheet_of(const std::vector<const Palette*>& palettes) {
     return sheet;
 }
 
-Result<void> write_sheet(const Drawing& sheet, const std::filesystem::path& path) {
-    if (path.extension() == ".svg") {
-        const auto svg = as_svg(sheet);
-        if (!svg) return tl::unexpected(svg.error());
-        return write_file(path, *svg);
-    }
-    if (path.extension() == ".png") return write_png(path, as_image(sheet, 2), PngDepth::eight, {});
-    return failure(fmt::format("a sheet of palettes cannot be written to {}", path.string()),
-                   "end the name in .png or .svg");
-}
-
 }  // namespace
 
 int palettes_command(const Options& options, Console& console) {
@@ -99,7 +88,7 @@ int palettes_command(const Options& options, Console& console) {
         for (const Palette& each : palettes()) shown.push_back(&each);
     }
     if (!options.sheet.empty()) {
-        if (auto done = write_sheet(sheet_of(shown), options.sheet); !done) {
+        if (auto done = write_drawing(options.sheet, sheet_of(shown)); !done) {
             console.fail(done.error());
             return exit_status::failed_run;
         }

@@ -5,6 +5,7 @@
 #include "picture/image.h"
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <variant>
@@ -63,7 +64,15 @@ struct Drawing {
 /// An SVG file. Fails if an image of the drawing cannot be encoded.
 Result<std::string> as_svg(const Drawing& drawing);
 
+/// A PDF file of one page. Texts are Latin-1 and Greek letters; other letters become question
+/// marks. Fails if the page is larger than the format admits.
+Result<std::string> as_pdf(const Drawing& drawing);
+
 /// `scale` pixels for each unit, from 1 to 8.
 Image as_image(const Drawing& drawing, int scale);
+
+/// Writes it as the name ends: .svg, .pdf, or .png with two pixels for each unit. Fails as these
+/// and write_file() do, and on other endings.
+Result<void> write_drawing(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace cascade

@@ -22,7 +22,8 @@ list(APPEND CASCADE_WITHOUT
   mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_file mesh/half_edges mesh/isotropic_remesh
   surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute
-  picture/deflate picture/png_reader picture/read_grey_picture picture/read_png
+  picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf
+  picture/write_drawing
   render/ray_caster
   run/domain/free_memory
   run/pictures/frame_folder run/pictures/frames run/pictures/model_files

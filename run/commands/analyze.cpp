@@ -23,8 +23,6 @@ using namespace analysis;
 
 /// Pairs of values along each side of a map.
 constexpr std::size_t map_side = 400;
-/// Pixels for each unit of a plot.
-constexpr int plot_scale = 2;
 
 /// "feed", or with the name of the stage or system before it.
 Result<ParameterSpan> find_parameter(const Program& program, std::uint32_t stage,
@@ -158,12 +156,7 @@ private:
                                        request_.output.string()));
         }
         const Drawing drawing = map_ ? drawn_map() : plot_dispersion(analysis);
-        if (ending == ".png") {
-            return write_png(request_.output, as_image(drawing, plot_scale), PngDepth::eight, {});
-        }
-        const auto svg = as_svg(drawing);
-        if (!svg) return tl::unexpected(svg.error());
-        return write_file(request_.output, *svg);
+        return write_drawing(request_.output, drawing);
     }
 
     Drawing drawn_map() const {
@@ -186,7 +179,7 @@ private:
 
 bool is_analysis_output(const std::filesystem::path& path) {
     const std::string ending = path.extension().string();
-    return ending == ".svg" || ending == ".png" || ending == ".json";
+    return ending == ".svg" || ending == ".pdf" || ending == ".png" || ending == ".json";
 }
 
 Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request) {

@@ -67,6 +67,7 @@ private:
     std::vector<std::filesystem::path> outputs_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<Painter> painter_;
+    std::vector<Painter> panels_;  ///< Of figures.
     std::optional<FrameRecorder> frames_;
     std::optional<FrameLabels> labels_;
     std::vector<std::filesystem::path> earlier_frames_;  ///< Of an earlier run, in their folder.
@@ -86,6 +87,13 @@ Result<void> Runner::prepare() {
     auto painter = Painter::create(script_, request_.picture);
     if (!painter) return tl::unexpected(painter.error());
     painter_ = std::move(*painter);
+    for (const std::string& expression : request_.panels) {
+        PictureRequest wanted = request_.picture;
+        wanted.show = expression;
+        auto panel = Painter::create(script_, wanted, "--panel");
+        if (!panel) return tl::unexpected(panel.error());
+        panels_.push_back(std::move(*panel));
+    }
     if (!request_.labels.empty()) {
         auto labels = FrameLabels::create(script_, request_.labels);
         if (!labels) return tl::unexpected(labels.error());
@@ -314,15 +322,11 @@ std::string Runner::place() const {
 }
 
 RunResults Runner::results() {
-    return {script_,
-            request_,
-            control_,
-            outputs_,
-            *simulation_,
-            *painter_,
-            frames_ ? &*frames_ : nullptr,
-            earlier_frames_,
-            log_ ? &*log_ : nullptr,
+    return {script_,         request_,
+            control_,        outputs_,
+            *simulation_,    *painter_,
+            panels_,         frames_ ? &*frames_ : nullptr,
+            earlier_frames_, log_ ? &*log_ : nullptr,
             report_};
 }
 

@@ -35,6 +35,7 @@ struct RunRequest {
     int turntable = 0;  ///< Number of pictures from all around; 0 for one.
     FilmRequest film;
     int slices = 0;                   ///< Of a volume, filmed one after the other; 0 for none.
+    std::vector<std::string> panels;  ///< Expressions of `--panel`: figures show them in turn.
     std::vector<std::string> labels;  ///< What is written into frames: `--label`.
     std::filesystem::path sheet;      ///< `--sheet FILE`; empty for none.
     std::filesystem::path frames;     ///< `--frames DIR`; empty for none.

@@ -335,6 +335,17 @@ void check_films(OptionRefuser& options, const RunRequest& request) {
     }
 }
 
+void check_panels(OptionRefuser& options, const RunRequest& request) {
+    constexpr std::size_t most = 26;  // They have letters.
+    const bool has_figure =
+        std::any_of(request.outputs.begin(), request.outputs.end(),
+                    [](const auto& output) { return output_kind(output) == OutputKind::figure; });
+    options.refuse_if(!request.panels.empty() && !has_figure, "--panel", "no figure is drawn",
+                      "-o NAME.svg or NAME.pdf draws one");
+    options.refuse_if(request.panels.size() > most, "--panel",
+                      fmt::format("a figure has at most {} panels", most), "");
+}
+
 /// What is written while a run takes its steps.
 void check_with_session(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "a session is played to its end before anything is written";
@@ -385,6 +396,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         if (!domain.surface) check_on_plane(options, request, has_body);
     }
     check_films(options, request);
+    check_panels(options, request);
     if (request.session) check_with_session(options, request);
     if (request.stop_at) check_stop_at(script, *request.stop_at);
     if (script.diagnostics.has_errors()) return failure("the request does not fit the script");

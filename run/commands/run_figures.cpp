@@ -75,29 +75,34 @@ PlaneExtent extent_of(const Grid& grid, const Image& picture, const PictureReque
 
 }  // namespace
 
-Result<void> RunResults::write_figure(const std::filesystem::path& path, const Canvas& canvas) {
-    const PictureRequest& wanted = painter.request();
-    const std::string title = title_of(script, simulation);
+Drawing RunResults::figure_of(Painter& of, const Canvas& canvas, const std::string& title) const {
+    const PictureRequest& wanted = of.request();
     const std::string name = name_of_number(script, simulation, wanted);
     const Grid& grid = simulation.grid();
-    Drawing drawing;
-    if (painter.is_flat() && grid.height == 1 && grid.depth == 1 && !canvas.is_colour()) {
+    if (of.is_flat() && grid.height == 1 && grid.depth == 1 && !canvas.is_colour()) {
         std::vector<double> values;
         for (std::int64_t k = 0; k < grid.width; ++k) values.push_back(canvas.fields[0].at(k, 0));
-        drawing =
-            draw_curve_figure(values, static_cast<double>(grid.width) * grid.spacing, title, name);
-    } else {
-        const Image picture = painter.image(canvas);
-        std::optional<PlaneExtent> plane;
-        std::optional<ColourBar> bar;
-        if (painter.is_flat()) plane = extent_of(grid, picture, wanted);
-        bar = canvas.is_colour() ? bar_of(script, simulation, painter.formula(simulation))
-                                 : ColourBar{&painter.palette(), painter.range_of(canvas), name};
-        drawing = draw_figure(picture, title, plane, bar);
+        return draw_curve_figure(values, static_cast<double>(grid.width) * grid.spacing, title,
+                                 name);
     }
-    const auto text = as_svg(drawing);
-    if (!text) return tl::unexpected(text.error());
-    auto done = write_file(path, *text);
+    const Image picture = of.image(canvas);
+    std::optional<PlaneExtent> plane;
+    if (of.is_flat()) plane = extent_of(grid, picture, wanted);
+    const auto bar = canvas.is_colour() ? bar_of(script, simulation, of.formula(simulation))
+                                        : ColourBar{&of.palette(), of.range_of(canvas), name};
+    return draw_figure(picture, title, plane, bar);
+}
+
+Result<void> RunResults::write_figure(const std::filesystem::path& path, const Canvas& canvas) {
+    const std::string title = title_of(script, simulation);
+    std::vector<Drawing> drawings;
+    for (Painter& panel : panels) {
+        const char letter = static_cast<char>('a' + drawings.size());
+        drawings.push_back(figure_of(panel, panel.canvas(simulation),
+                                     fmt::format("({}) {}", letter, panel.request().show)));
+    }
+    auto done = write_drawing(path, drawings.empty() ? figure_of(painter, canvas, title)
+                                                     : side_by_side(drawings, title));
     if (done) report.written.push_back(path);
     return done;
 }

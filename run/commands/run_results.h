@@ -2,12 +2,14 @@
 #pragma once
 
 #include "film/film_frame.h"
+#include "picture/drawing.h"
 #include "run/commands/run.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/written_files.h"
 
 #include <functional>
+#include <span>
 
 namespace cascade {
 
@@ -21,6 +23,7 @@ struct RunResults {
     const std::vector<std::filesystem::path>& outputs;  ///< Of -o.
     const Simulation& simulation;
     Painter& painter;
+    std::span<Painter> panels;                                 ///< Of figures; empty: the picture.
     FrameRecorder* frames;                                     ///< Null without frames.
     const std::vector<std::filesystem::path>& earlier_frames;  ///< In the folder of frames.
     RunLog* log;                                               ///< Null without --log.
@@ -49,6 +52,7 @@ private:
     void say(std::string what) const;
     Result<void> write_frames();
     Result<void> write_figure(const std::filesystem::path& path, const Canvas& canvas);
+    Drawing figure_of(Painter& of, const Canvas& canvas, const std::string& title) const;
     Result<void> write_films(const Canvas& canvas);
     Result<void> film_frames(FilmCrew& crew);
     Result<void> film_turntable(FilmCrew& crew, const Canvas& canvas);

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace cascade {
 
@@ -71,6 +73,23 @@ Drawing empty_figure(double width, double height) {
     return drawing;
 }
 
+void move(DrawnPoint& point, const DrawnPoint& by) { point = {point[0] + by[0], point[1] + by[1]}; }
+void move(DrawnLine& line, const DrawnPoint& by) {
+    for (DrawnPoint& point : line.points) move(point, by);
+}
+void move(DrawnArea& area, const DrawnPoint& by) { move(area.corner, by); }
+void move(DrawnDisc& disc, const DrawnPoint& by) { move(disc.centre, by); }
+void move(DrawnText& text, const DrawnPoint& by) { move(text.place, by); }
+void move(DrawnImage& image, const DrawnPoint& by) { move(image.corner, by); }
+
+/// Adds the shapes of another drawing, moved to the right and down.
+void add_moved(Drawing& drawing, const Drawing& part, const DrawnPoint& by) {
+    for (auto shape : part.shapes) {
+        std::visit([&](auto& each) { move(each, by); }, shape);
+        drawing.shapes.push_back(std::move(shape));
+    }
+}
+
 }  // namespace
 
 Drawing draw_figure(const Image& picture, const std::string& title,
@@ -90,6 +109,31 @@ Drawing draw_figure(const Image& picture, const std::string& title,
         draw_bar(drawing, *bar, {box.right + bar_gap, box.top, box.right + right, box.bottom});
     }
     add_text(drawing, {box.left, 14}, title, DrawnText::Anchor::start);
+    return drawing;
+}
+
+Drawing side_by_side(std::span<const Drawing> panels, const std::string& title) {
+    constexpr std::size_t most_columns = 3;
+    constexpr double title_above = 30;
+    const std::size_t columns = panels.size() == 4 ? 2 : std::min(panels.size(), most_columns);
+    // Columns and rows are as wide and high as their largest panels.
+    std::vector<double> widths(columns, 0), heights;
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        if (k % columns == 0) heights.push_back(0);
+        widths[k % columns] = std::max(widths[k % columns], panels[k].width);
+        heights.back() = std::max(heights.back(), panels[k].height);
+    }
+    const auto sum = [](const std::vector<double>& sizes, std::size_t count) {
+        return std::accumulate(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(count),
+                               0.0);
+    };
+    Drawing drawing =
+        empty_figure(sum(widths, columns), title_above + sum(heights, heights.size()));
+    add_text(drawing, {margin, 18}, title, DrawnText::Anchor::start);
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        add_moved(drawing, panels[k],
+                  {sum(widths, k % columns), title_above + sum(heights, k / columns)});
+    }
     return drawing;
 }
 

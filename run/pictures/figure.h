@@ -6,6 +6,7 @@
 #include "picture/image.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct PlaneExtent {
 /// right if its colours stand for numbers. A plane keeps its proportions up to 1 : 12.
 Drawing draw_figure(const Image& picture, const std::string& title,
                     const std::optional<PlaneExtent>& plane, const std::optional<ColourBar>& bar);
+
+/// Figures as the panels of one, in rows of at most three, four in a square, with a title above
+/// them.
+Drawing side_by_side(std::span<const Drawing> panels, const std::string& title);
 
 /// A number along a line of cells: a curve over the length, from the lowest to the highest value.
 /// Values that are not finite leave gaps.

@@ -41,7 +41,7 @@ std::string in_lower_case(std::string text) {
 std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
     const std::string ending = in_lower_case(path.extension().string());
     if (ending == ".png") return OutputKind::picture;
-    if (ending == ".svg") return OutputKind::figure;
+    if (ending == ".svg" || ending == ".pdf") return OutputKind::figure;
     if (film_format(path)) return OutputKind::film;
     if (ending == ".npz") return OutputKind::cells;
     if (ending == ".vtp" && in_lower_case(path.stem().extension().string()) == ".cells") {

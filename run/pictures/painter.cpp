@@ -61,7 +61,8 @@ const Field* Canvas::number() const {
     return relief.empty() ? nullptr : &relief;
 }
 
-Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
+Result<Painter> Painter::create(Script& script, const PictureRequest& request,
+                                std::string_view option) {
     Painter painter;
     painter.script_ = &script;
     painter.request_ = request;
@@ -80,13 +81,15 @@ Result<Painter> Painter::create(Script& script, const PictureRequest& request) {
     painter.file_shape_ = *std::move(file);
     if (request.show.empty()) return painter;
 
-    const SourceId source = script.sources.add("<--show>", request.show);
+    const SourceId source = script.sources.add(fmt::format("<{}>", option), request.show);
     painter.show_ = parse_expression(source, script.sources, script.tree, script.diagnostics);
     if (painter.show_) {
         check_view(script.tree, *painter.show_, script.final_stage(), script.stage_count() - 1,
                    *script.program, script.sources, script.diagnostics);
     }
-    if (script.diagnostics.has_errors()) return failure("the expression of --show is wrong");
+    if (script.diagnostics.has_errors()) {
+        return failure(fmt::format("the expression of {} is wrong", option));
+    }
     return painter;
 }
 

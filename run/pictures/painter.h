@@ -11,6 +11,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
@@ -51,8 +52,10 @@ struct PlaneLook;
 /// Computes and paints the requested picture at any stage of a simulation.
 class Painter {
 public:
-    /// Checks `show` and the palette; errors in `show` go to `script.diagnostics`.
-    static Result<Painter> create(Script& script, const PictureRequest& request);
+    /// Checks `show`, which `option` has given, and the palette; errors in `show` go to
+    /// `script.diagnostics`.
+    static Result<Painter> create(Script& script, const PictureRequest& request,
+                                  std::string_view option = "--show");
 
     /// The values to paint now; of a volume, a slice or its body. If the picture block names a
     /// stage that has not run, they are those of the default picture, and `fell_back()` is true

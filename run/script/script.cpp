@@ -123,7 +123,8 @@ void check_views(Script& script) {
         }
     }
     Diagnostics unspoken;  // The checker of the picture has found the errors of its other settings.
-    for (const char* const setting : {"height", "roughness", "metalness", "opacity", "emission", "body"}) {
+    for (const char* const setting :
+         {"height", "roughness", "metalness", "opacity", "emission", "body"}) {
         const auto expression = picture_expression(script.tree, setting);
         if (!expression) continue;
         auto formula =

@@ -90,6 +90,24 @@ TEST(Figures, OfAnEvenFieldNameItsValue) {
     EXPECT_THAT(*svg, HasSubstr(">0.25</text>"));
 }
 
+TEST(Figures, HavePanelsInRowsOfThree) {
+    const Drawing panel = draw_figure(Image(4, 4), "panel", {}, {});
+    const std::vector<Drawing> panels(5, panel);
+    const Drawing figure = side_by_side(panels, "all");
+    EXPECT_EQ(figure.width, 3 * panel.width);
+    EXPECT_GT(figure.height, 2 * panel.height);
+    std::vector<DrawnPoint> corners;
+    for (const auto& shape : figure.shapes) {
+        if (const auto* image = std::get_if<DrawnImage>(&shape)) corners.push_back(image->corner);
+    }
+    ASSERT_EQ(corners.size(), 5U);
+    EXPECT_EQ(corners[1][0], corners[0][0] + panel.width);
+    EXPECT_EQ(corners[1][1], corners[0][1]);
+    EXPECT_EQ(corners[3][0], corners[0][0]);
+    EXPECT_EQ(corners[3][1], corners[0][1] + panel.height);
+    EXPECT_EQ(side_by_side(std::span(panels).first(4), "all").width, 2 * panel.width);
+}
+
 /// The wide side of a long plane is as long as ever, and the other one can still be seen.
 TEST(Figures, OfLongPlanesCanBeSeen) {
     const Drawing drawing = draw_figure(Image(1000, 1), "long", PlaneExtent{1000, 1, "x", "y"}, {});
