@@ -216,6 +216,11 @@ void add_files(CLI::App& app, RunRequest& run) {
     add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView",
               parse_vti_path, [&](auto path) { run.volume = path; })
         ->group(group);
+    add_value(
+        app, "--series", "FILE.pvd",
+        "All species at each interval, for ParaView: the list of\nfiles in a folder beside it",
+        parse_pvd_path, [&](auto path) { run.series = path; })
+        ->group(group);
     CLI::Option* const save =
         add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
                   any_text, [&](auto path) { run.save = path; })

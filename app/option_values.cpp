@@ -251,4 +251,8 @@ Result<std::string> parse_vti_path(std::string_view text) {
     return path_with_ending(text, ".vti", "volumes are written as image data of VTK");
 }
 
+Result<std::string> parse_pvd_path(std::string_view text) {
+    return path_with_ending(text, ".pvd", "series are written as collections of ParaView");
+}
+
 }  // namespace cascade

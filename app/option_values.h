@@ -70,5 +70,6 @@ Result<std::string> parse_png_path(std::string_view text);
 Result<std::string> parse_film_path(std::string_view text);
 /// The path of a volume; it must end in .vti.
 Result<std::string> parse_vti_path(std::string_view text);
+Result<std::string> parse_pvd_path(std::string_view text);
 
 }  // namespace cascade

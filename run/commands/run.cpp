@@ -72,6 +72,7 @@ private:
     std::optional<FrameLabels> labels_;
     std::vector<std::filesystem::path> earlier_frames_;  ///< Of an earlier run, in their folder.
     std::optional<RunLog> log_;
+    std::optional<SeriesWriter> series_;
     double tenths_seen_ = 0;  ///< Of the stage's duration, at the last frame.
 };
 
@@ -121,6 +122,11 @@ Result<void> Runner::prepare() {
         auto frames = FrameRecorder::create(has_frames, request_.picture.space_time);
         if (!frames) return tl::unexpected(frames.error());
         frames_ = std::move(*frames);
+    }
+    if (!request_.series.empty()) {
+        auto series = SeriesWriter::create(request_.series);
+        if (!series) return tl::unexpected(series.error());
+        series_ = std::move(*series);
     }
     keep_while_running();
     if (request_.resume.empty()) return {};
@@ -280,7 +286,7 @@ void Runner::remark_on_resumed() {
 /// Steps between observations, such that neither a frame nor a row of the log is missed.
 std::int64_t Runner::observation_interval(const Stage& stage) const {
     if (!log_) return stage.interval;
-    return frames_ ? std::gcd(log_->every(stage), stage.interval) : log_->every(stage);
+    return frames_ || series_ ? std::gcd(log_->every(stage), stage.interval) : log_->every(stage);
 }
 
 /// Frames are drawn at the stage's interval, or else at tenths of its duration.
@@ -307,8 +313,10 @@ void Runner::observe(std::uint32_t k) {
 }
 
 void Runner::look() {
-    if (!frames_) return;
+    if (!frames_ && !series_) return;
     const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
+    if (series_) series_->add(*simulation_);
+    if (!frames_) return;
     const auto stage = simulation_->shown_stage().value_or(0);
     frames_->record(painter_->canvas(*simulation_), script_.program->stages[stage].name,
                     simulation_->state(stage).steps,
@@ -322,11 +330,17 @@ std::string Runner::place() const {
 }
 
 RunResults Runner::results() {
-    return {script_,         request_,
-            control_,        outputs_,
-            *simulation_,    *painter_,
-            panels_,         frames_ ? &*frames_ : nullptr,
-            earlier_frames_, log_ ? &*log_ : nullptr,
+    return {script_,
+            request_,
+            control_,
+            outputs_,
+            *simulation_,
+            *painter_,
+            panels_,
+            frames_ ? &*frames_ : nullptr,
+            earlier_frames_,
+            log_ ? &*log_ : nullptr,
+            series_ ? &*series_ : nullptr,
             report_};
 }
 

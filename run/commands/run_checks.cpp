@@ -96,6 +96,7 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
         files.push_back({log_path(request, outputs[0]), "the log"});
     }
     if (!request.volume.empty()) files.push_back({request.volume, "--volume"});
+    if (!request.series.empty()) files.push_back({request.series, "--series"});
     return files;
 }
 
@@ -300,8 +301,11 @@ void check_with_cells(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(request.picture.flat, "--flat", message, "");
     options.refuse_if(request.picture.bump != 0, "--bump", message, "a shape has a height");
     options.refuse_if(!request.sheet.empty(), "--sheet", message, "--show e draws another value");
-    options.refuse_if(!request.volume.empty(), "--volume", message,
-                      "-o NAME.cells.vtp has all values for ParaView");
+    for (const auto& [option, file] :
+         {std::pair("--volume", request.volume), std::pair("--series", request.series)}) {
+        options.refuse_if(!file.empty(), option, message,
+                          "-o NAME.cells.vtp has all values at the end, for ParaView");
+    }
     options.refuse_if(request.features, "--features", message, "");
     options.refuse_if(request.model_files.retile, "--retile", message, "");
 }
@@ -351,6 +355,7 @@ void check_with_session(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "a session is played to its end before anything is written";
     const std::string hint = "'cascade repl' plays it, and goes on from there";
     options.refuse_if(!request.frames.empty(), "--frames", message, hint);
+    options.refuse_if(!request.series.empty(), "--series", message, hint);
     options.refuse_if(request.picture.space_time, "--space-time", message, hint);
     options.refuse_if(!request.log.expressions.empty(), "--log", message, hint);
     options.refuse_if(request.stop_at.has_value(), "--stop-at", message, hint);

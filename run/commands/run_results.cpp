@@ -2,7 +2,6 @@
 #include "run/commands/run_results.h"
 
 #include "core/counted.h"
-#include "picture/vti.h"
 #include "run/commands/run_checks.h"
 #include "run/pictures/body_picture.h"
 #include "run/pictures/cell_files.h"
@@ -18,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 namespace cascade {
 
@@ -245,22 +243,22 @@ Result<void> RunResults::write_saved_run() {
     return {};
 }
 
-/// Writes the species of the stage that is shown.
 Result<void> RunResults::write_volume() {
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const System& system = script.program->system_of(stage);
-    const DomainMask* mask = simulation.mask();
-    std::deque<Field> copies;
-    std::vector<VolumeArray> arrays;
-    for (const ItemId item : system.species()) {
-        const Field& field = simulation.state(stage).field(item);
-        if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
-        arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});
-    }
-    auto done = write_vti(request.volume, arrays, simulation.grid().spacing,
-                          mask ? &mask->inside : nullptr);
+    auto done = cascade::write_volume(request.volume, simulation);
     if (done) report.written.push_back(request.volume);
     return done;
+}
+
+Result<void> RunResults::write_series() {
+    const auto removed = series->finish();
+    if (!removed) return tl::unexpected(removed.error());
+    report.written.push_back(request.series);
+    if (*removed > 0 && control.note) {
+        control.note(fmt::format("removed {} of an earlier run beside {}",
+                                 counted(static_cast<std::int64_t>(*removed), "file"),
+                                 request.series.string()));
+    }
+    return {};
 }
 
 Result<void> RunResults::write() {
@@ -277,6 +275,7 @@ Result<void> RunResults::write() {
         attempt(write_picture(request.sheet, draw_sheet(simulation, request.picture)));
     }
     if (!request.volume.empty()) attempt(write_volume());
+    if (series) attempt(write_series());
     if (!request.save.empty()) attempt(write_saved_run());
     if (painter.fell_back() && control.warn) {
         control.warn(

@@ -6,6 +6,7 @@
 #include "run/commands/run.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/model_files.h"
+#include "run/pictures/series.h"
 #include "run/pictures/written_files.h"
 
 #include <functional>
@@ -27,6 +28,7 @@ struct RunResults {
     FrameRecorder* frames;                                     ///< Null without frames.
     const std::vector<std::filesystem::path>& earlier_frames;  ///< In the folder of frames.
     RunLog* log;                                               ///< Null without --log.
+    SeriesWriter* series;                                      ///< Null without --series.
     RunReport& report;                                         ///< Gets the paths of files.
 
     /// Writes everything that was requested. An output that fails does not prevent the others;
@@ -63,6 +65,7 @@ private:
     int drawing_threads() const;
     Result<void> write_saved_run();
     Result<void> write_volume();
+    Result<void> write_series();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);
     PngTexts texts(const PictureRequest& picture) const;
 };

@@ -1,0 +1,175 @@
+// The list is the collection of ParaView: XML with a time and a file for each moment.
+#include "run/pictures/series.h"
+
+#include "core/enough_memory.h"
+#include "core/file.h"
+#include "export/model_writer.h"
+#include "export/point_values.h"
+#include "export/refine.h"
+#include "picture/vti.h"
+#include "picture/xml_text.h"
+#include "run/pictures/model_files.h"
+#include "surface/cell_filter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <system_error>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::uint64_t largest_list = std::uint64_t{1} << 26;
+
+std::string name_of_file(const std::filesystem::path& list, std::size_t number, bool is_model) {
+    return fmt::format("{}/{:06}.{}", list.stem().string(), number, is_model ? "vtp" : "vti");
+}
+
+/// Is it a name that a series of this list gives?
+bool is_own(const std::filesystem::path& list, const std::string& file) {
+    const std::string begin = list.stem().string() + "/";
+    if (!file.starts_with(begin) || file.size() != begin.size() + 10) return false;
+    const std::string_view name = std::string_view(file).substr(begin.size());
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    return std::all_of(name.begin(), name.begin() + 6, is_digit) &&
+           (name.ends_with(".vti") || name.ends_with(".vtp"));
+}
+
+/// The files of its own that a list names.
+std::vector<std::string> files_in(const std::filesystem::path& list) {
+    std::vector<std::string> files;
+    const auto text = read_file(list, largest_list);
+    if (!text) return files;
+    constexpr std::string_view before = " file=\"";
+    for (std::size_t at = 0; (at = text->find(before, at)) != std::string::npos;) {
+        at += before.size();
+        std::string file = text->substr(at, text->find('"', at) - at);
+        if (is_own(list, file)) files.push_back(std::move(file));
+    }
+    return files;
+}
+
+std::uint32_t shown_stage_of(const Simulation& simulation) {
+    return simulation.shown_stage().value_or(0);
+}
+
+/// The time of all stages up to the one that is shown.
+double time_since_start(const Simulation& simulation) {
+    double time = 0;
+    for (std::uint32_t k = 0; k <= shown_stage_of(simulation); ++k) time += time_of(simulation, k);
+    return time;
+}
+
+}  // namespace
+
+Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation) {
+    const std::uint32_t stage = shown_stage_of(simulation);
+    const System& system = simulation.program().system_of(stage);
+    const DomainMask* mask = simulation.mask();
+    std::deque<Field> copies;
+    std::vector<VolumeArray> arrays;
+    for (const ItemId item : system.species()) {
+        const Field& field = simulation.state(stage).field(item);
+        if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
+        arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});
+    }
+    return write_vti(path, arrays, simulation.grid().spacing, mask ? &mask->inside : nullptr);
+}
+
+/// The mesh that carries the values of cells.
+struct SeriesWriter::Surface {
+    explicit Surface(const ModelCells& model)
+        : team(hardware_threads()),
+          mesh(model.mesh_of_file()),
+          filter(mesh, model.spread().cells, team),
+          refined(refined_for_colours(mesh, model.spread().cells)) {}
+
+    Team team;
+    SurfaceMesh mesh;  ///< In the coordinates of the model's file.
+    CellFilter filter;
+    RefinedMesh refined;
+};
+
+SeriesWriter::SeriesWriter(std::filesystem::path path) : path_(std::move(path)) {}
+SeriesWriter::~SeriesWriter() = default;
+SeriesWriter::SeriesWriter(SeriesWriter&&) noexcept = default;
+SeriesWriter& SeriesWriter::operator=(SeriesWriter&&) noexcept = default;
+
+Result<SeriesWriter> SeriesWriter::create(const std::filesystem::path& path) {
+    SeriesWriter writer(path);
+    std::error_code error;
+    const std::filesystem::path folder = path.parent_path() / path.stem();
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        return failure(fmt::format("cannot make the folder '{}' for the files of '{}': {}",
+                                   folder.string(), path.string(), error.message()));
+    }
+    writer.former_ = files_in(path);
+    return writer;
+}
+
+void SeriesWriter::add(const Simulation& simulation) {
+    if (failure_) return;
+    std::string file = name_of_file(path_, moments_.size() + 1, simulation.model() != nullptr);
+    const auto written =
+        enough_memory_for([&] { return write(path_.parent_path() / file, simulation); });
+    if (!written) {
+        failure_ = written.error();
+        return;
+    }
+    moments_.push_back({std::move(file), time_since_start(simulation)});
+}
+
+Result<void> SeriesWriter::write(const std::filesystem::path& path, const Simulation& simulation) {
+    return simulation.model() ? write_surface(path, simulation) : write_volume(path, simulation);
+}
+
+Result<void> SeriesWriter::write_surface(const std::filesystem::path& path,
+                                         const Simulation& simulation) {
+    const ModelCells& model = *simulation.model();
+    if (!surface_) surface_ = std::make_unique<Surface>(model);
+    const std::uint32_t stage = shown_stage_of(simulation);
+    const System& system = simulation.program().system_of(stage);
+    std::vector<Channel> channels;
+    for (const ItemId item : system.species()) {
+        const auto values = cell_values(simulation.state(stage).field(item), model);
+        channels.push_back({std::string(system.item_name(item)),
+                            std::vector<float>(values.begin(), values.end())});
+    }
+    const auto at_points =
+        values_at(surface_->refined.places, surface_->filter, channels, surface_->team);
+    return write_model(path, surface_->refined.mesh, {{}, at_points});
+}
+
+Result<std::size_t> SeriesWriter::finish() {
+    // Moments without a time are numbered.
+    const bool has_times = std::all_of(moments_.begin(), moments_.end(), [](const Moment& moment) {
+        return std::isfinite(moment.time);
+    });
+    std::string text =
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+        "  <Collection>\n";
+    for (std::size_t k = 0; k < moments_.size(); ++k) {
+        text += fmt::format("    <DataSet timestep=\"{:.8g}\" part=\"0\" file=\"{}\"/>\n",
+                            has_times ? moments_[k].time : static_cast<double>(k),
+                            xml_escaped(moments_[k].file));
+    }
+    text += "  </Collection>\n</VTKFile>\n";
+    if (auto done = write_file(path_, text); !done) return tl::unexpected(done.error());
+    if (failure_) return tl::unexpected(*failure_);
+    std::size_t removed = 0;
+    for (const std::string& file : former_) {
+        const bool is_new = std::any_of(moments_.begin(), moments_.end(),
+                                        [&](const Moment& moment) { return moment.file == file; });
+        std::error_code error;
+        if (!is_new && std::filesystem::remove(path_.parent_path() / file, error)) ++removed;
+    }
+    return removed;
+}
+
+}  // namespace cascade

@@ -1,0 +1,54 @@
+// All species of a run at its intervals, for ParaView: a file for each moment, and a list of them.
+#pragma once
+
+#include "core/result.h"
+#include "run/simulation/simulation.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cascade {
+
+/// Writes the species of the stage that is shown, on a grid, as write_vti() does: cells outside of
+/// the mask are hidden.
+Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation);
+
+/// A collection of VTK's files, NAME.pvd, and in the folder NAME beside it a file for each moment:
+/// .vti of a grid, .vtp of a model, whose triangles are refined as for its colours.
+class SeriesWriter {
+public:
+    /// Fails if the folder cannot be made.
+    static Result<SeriesWriter> create(const std::filesystem::path& path);
+    ~SeriesWriter();
+    SeriesWriter(SeriesWriter&&) noexcept;
+    SeriesWriter& operator=(SeriesWriter&&) noexcept;
+
+    /// Writes the species of the stage that is shown. An error is remembered for finish(), and
+    /// nothing is written after it.
+    void add(const Simulation& simulation);
+
+    /// Writes the list, also of a run that was cancelled, and removes files that the former list
+    /// named and that were not written again. Returns their number, or the first error.
+    Result<std::size_t> finish();
+
+private:
+    struct Surface;
+    explicit SeriesWriter(std::filesystem::path path);
+    Result<void> write(const std::filesystem::path& path, const Simulation& simulation);
+    Result<void> write_surface(const std::filesystem::path& path, const Simulation& simulation);
+
+    struct Moment {
+        std::string file;
+        double time = 0;  ///< Since the start of the run; NaN where steps have no length.
+    };
+
+    std::filesystem::path path_;
+    std::vector<std::string> former_;  ///< The files of the list that was there before.
+    std::vector<Moment> moments_;
+    std::unique_ptr<Surface> surface_;  ///< Of a model, when first needed.
+    std::optional<Failure> failure_;
+};
+
+}  // namespace cascade
