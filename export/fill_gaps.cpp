@@ -1,5 +1,5 @@
-// Pull and push through a pyramid of halved textures, each texel the mean of those that have values
-// (S. J. Gortler et al., "The Lumigraph", SIGGRAPH 1996).
+// A rim around what is there, then pull and push through a pyramid of halved textures, each texel
+// the mean of those that have values (S. J. Gortler et al., "The Lumigraph", SIGGRAPH 1996).
 #include "export/fill_gaps.h"
 
 #include <algorithm>
@@ -8,6 +8,40 @@
 namespace cascade {
 
 namespace {
+
+constexpr int rim = 2;  ///< Texels.
+
+/// Fills the texels that have filled neighbours, those at a side counting twice those at a corner.
+void widen(PartialTexture& texture) {
+    const std::vector<std::uint8_t> was_filled = texture.is_filled;
+    const auto wrapped = [](std::int64_t place, std::int64_t size) {
+        return place < 0 ? place + size : place < size ? place : place - size;
+    };
+    for (std::int64_t y = 0; y < texture.height; ++y) {
+        for (std::int64_t x = 0; x < texture.width; ++x) {
+            const auto at = static_cast<std::size_t>(y * texture.width + x);
+            if (was_filled[at] != 0) continue;
+            std::array<double, 3> sum{};  // In binary32 it could overflow.
+            double count = 0;
+            for (std::int64_t j = -1; j <= 1; ++j) {
+                const std::int64_t line = wrapped(y + j, texture.height) * texture.width;
+                for (std::int64_t i = -1; i <= 1; ++i) {
+                    const auto near =
+                        static_cast<std::size_t>(line + wrapped(x + i, texture.width));
+                    if (was_filled[near] == 0) continue;
+                    const double weight = i == 0 || j == 0 ? 2 : 1;
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sum[c] += weight * static_cast<double>(texture.texels[near][c]);
+                    count += weight;
+                }
+            }
+            if (count == 0) continue;
+            for (std::size_t c = 0; c < 3; ++c)
+                texture.texels[at][c] = static_cast<float>(sum[c] / count);
+            texture.is_filled[at] = 1;
+        }
+    }
+}
 
 /// Half as wide and high; each texel is the mean of those below it that have values.
 PartialTexture halved(const PartialTexture& fine) {
@@ -84,6 +118,7 @@ void fill_gaps(PartialTexture& texture) {
     const auto level = [&](std::size_t k) -> PartialTexture& {
         return k == 0 ? texture : levels[k - 1];
     };
+    for (int k = 0; k < rim && has_gap(texture); ++k) widen(texture);
     std::size_t top = 0;
     for (; has_gap(level(top)) && level(top).width * level(top).height > 1; ++top) {
         levels.push_back(halved(level(top)));

@@ -22,9 +22,10 @@ struct PartialTexture {
 };
 
 /// Gives every texel without values numbers that smoothly continue those around it, so that
-/// interpolation and reduced copies of the picture have no artefacts: pull and push of S. Gortler
-/// et al., "The Lumigraph" (SIGGRAPH 1996), section 3.4. The picture repeats in all directions. If
-/// no texel has values they stay 0.
+/// interpolation and reduced copies of the picture have no artefacts. Within two texels of others,
+/// which renderers mix with them, it is the mean of those next to it; farther away pull and push of
+/// S. Gortler et al., "The Lumigraph" (SIGGRAPH 1996), section 3.4, which sees all that is around.
+/// The picture repeats in all directions. If no texel has values they stay 0.
 void fill_gaps(PartialTexture& texture);
 
 }  // namespace cascade
