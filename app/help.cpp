@@ -113,10 +113,12 @@ const std::string_view format_examples = R"(Examples:
   cascade fmt --unicode spots.cascade                ∂u/∂t = D∇²u for u' = D*lap(u)
 Comments stay, and so does what an author has lined up. A script that cannot be read is left alone.)";
 
-const std::string_view mesh = "Describes 3-D models, and what has to be repaired in them.";
+const std::string_view mesh =
+    "Describes 3-D models, and what has to be repaired in them; makes texture coordinates.";
 const std::string_view mesh_examples = R"(Examples:
   cascade mesh horse.ply
   cascade mesh *.obj --cells 4000                    with cells spread over each
+  cascade mesh horse.ply --unwrap -o horse.glb       with texture coordinates
 PLY, OBJ, OFF, STL, glTF and GLB are read.)";
 
 const std::string_view repl = "The language line by line, with pictures in the terminal.";

@@ -1,37 +1,103 @@
-// `cascade mesh`: describes 3-D models.
+// `cascade mesh`: describes 3-D models and gives them texture coordinates.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "core/enough_memory.h"
 #include "run/domain/describe_model.h"
+#include "run/pictures/model_files.h"
 
 #include <atomic>
 #include <optional>
 
 namespace cascade {
 
-int mesh_command(const Options& options, Console& console) {
-    std::optional<CellOptions> cells = options.cells;
-    if (options.cell_seed) {
-        if (!cells || cells->kind != CellKind::places) {
-            console.fail({"--seed means nothing without a number of --cells", ""});
-            return exit_status::wrong_use;
+namespace {
+
+/// Describes one model after the other.
+class MeshCommand {
+public:
+    MeshCommand(const Options& options, Console& console, std::optional<CellOptions> cells,
+                const std::atomic<bool>& cancel)
+        : options_(options), console_(console), cells_(std::move(cells)), cancel_(cancel) {}
+
+    /// Nothing is printed of a model that fails.
+    Result<void> describe(const std::string& model) {
+        auto made = read_and_repair(model, options_.overrides.reads);
+        if (!made) return tl::unexpected(made.error());
+        std::vector<std::string> lines = describe_model(*made);
+        if (options_.mesh_files.unwrap) {
+            if (auto done = unwrap(made->mesh, lines); !done) return in_model(model, done.error());
         }
-        cells->seed = *options.cell_seed;
+        if (cells_) {
+            auto about = describe_cells(made->mesh, *cells_, team_, cancel_);
+            if (!about) return in_model(model, about.error());
+            lines.insert(lines.end(), about->begin(), about->end());
+        }
+        if (cancel_) return {};
+        console_.print(model + "\n");
+        for (const std::string& line : lines) console_.print("  " + line + "\n");
+        return {};
     }
+
+private:
+    static Result<void> in_model(const std::string& model, const Failure& why) {
+        return failure("'" + model + "': " + why.message, why.hint);
+    }
+
+    Result<void> unwrap(SurfaceMesh& mesh, std::vector<std::string>& lines) {
+        auto texture = made_texture(mesh, options_.mesh_files, team_, cancel_);
+        if (!texture) return tl::unexpected(texture.error());
+        if (cancel_) return {};
+        mesh.texture = *std::move(texture);
+        lines.push_back("made " + describe_texture(mesh));
+        if (options_.mesh_output.empty()) return {};
+        auto done = write_plain_model(options_.mesh_output, mesh);
+        if (done) lines.push_back("written to " + options_.mesh_output.string());
+        return done;
+    }
+
+    const Options& options_;
+    Console& console_;
+    std::optional<CellOptions> cells_;
+    const std::atomic<bool>& cancel_;
+    Team team_{hardware_threads()};
+};
+
+/// What is wrong with the options, or nothing.
+std::optional<Failure> misuse(const Options& options) {
+    const bool spreads = options.cells && options.cells->kind == CellKind::places;
+    if (options.cell_seed && !spreads) {
+        return Failure{"--seed means nothing without a number of --cells", ""};
+    }
+    if (options.mesh_output.empty()) return std::nullopt;
+    if (!options.mesh_files.unwrap) {
+        return Failure{"-o means nothing without --unwrap", ""};
+    }
+    if (options.models.size() > 1) {
+        return Failure{"-o is the file of one model, and several are given", ""};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+int mesh_command(const Options& options, Console& console) {
+    if (auto wrong = misuse(options)) {
+        console.fail(*wrong);
+        return exit_status::wrong_use;
+    }
+    std::optional<CellOptions> cells = options.cells;
+    if (options.cell_seed) cells->seed = *options.cell_seed;
     std::atomic<bool> cancel = false;
     const InterruptGuard interrupt(cancel);
-    Team team(hardware_threads());
+    MeshCommand command(options, console, cells, cancel);
     int status = exit_status::success;
     for (const std::string& model : options.models) {
-        const auto lines = describe_model(model, options.overrides.reads, cells, team, cancel);
+        const Result<void> done = command.describe(model);
         if (cancel) return exit_status::signal_base + interrupt.signal();
-        if (!lines) {
-            console.fail(lines.error());
-            status = exit_status::failed_run;
-            continue;
-        }
-        console.print(model + "\n");
-        for (const std::string& line : *lines) console.print("  " + line + "\n");
+        if (done) continue;
+        console.fail(done.error());
+        status = exit_status::failed_run;
     }
     return status;
 }

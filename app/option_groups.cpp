@@ -237,14 +237,19 @@ void add_files(CLI::App& app, RunRequest& run) {
     app.add_flag("--retile", run.model_files.retile,
                  "Models as triangles between their cells, instead of\ntheir own triangles refined")
         ->group(group);
+    app.add_flag(
+           "--unwrap", run.model_files.unwrap,
+           "New texture coordinates in models .glb, .obj and .ply,\neven if the model has some")
+        ->group(group);
     app.add_flag("--merge", run.model_files.merge,
                  "Cells that crawl as plain triangles, for programs that\nknow no instances")
         ->group(group);
-    add_value(app, "--bake", "N",
-              "A model .glb with maps of N x N texels (colour, height,\nroughness, …), which are "
-              "written beside it too; by the\nmodel's texture coordinates. A plane's maps repeat",
-              whole_number(1, ModelFileOptions::most_texels),
-              [&](auto texels) { run.model_files.bake = texels; })
+    add_value(
+        app, "--bake", "N",
+        "A model .glb with maps of N x N texels (colour, height,\nroughness, …), which are "
+        "written beside it too; by the\nmodel's texture coordinates, or new ones if it has none.\nA plane's maps repeat",
+        whole_number(1, ModelFileOptions::most_texels),
+        [&](auto texels) { run.model_files.bake = texels; })
         ->group(group);
     add_value(app, "--cache", "FOLDER", "Keep the cells of models there, for the next run",
               any_text, [&](auto path) { run.simulation.cell_cache = path; })
@@ -313,6 +318,10 @@ void add_mesh(CLI::App& app, Options& options) {
         app, options.overrides.reads,
         "Buffers of glTF files may lie below this folder too, not\nonly below the model's; "
         "'all': everywhere; may be given\nagain");
+    app.add_flag("--unwrap", options.mesh_files.unwrap,
+                 "Make texture coordinates: charts of little distortion,\npacked into one texture");
+    add_value(app, "-o,--output", "FILE", "The model with them: .glb, .obj or .ply",
+              parse_textured_path, [&](auto path) { options.mesh_output = path; });
     add_value(app, "--cells", "N|faces|vertices",
               "Spread N cells over the surface, or make cells of the\n"
               "model's faces or points, and describe them",

@@ -241,6 +241,12 @@ Result<std::string> parse_png_path(std::string_view text) {
     return path_with_ending(text, ".png", "pictures are written as PNG files");
 }
 
+Result<std::string> parse_textured_path(std::string_view text) {
+    if (holds_texture(std::filesystem::path(text))) return std::string(text);
+    return failure(fmt::format("'{}' has no ending of a model with texture coordinates", text),
+                   "these endings are .glb, .obj and .ply");
+}
+
 Result<std::string> parse_film_path(std::string_view text) {
     if (film_format(std::filesystem::path(text))) return std::string(text);
     return failure(fmt::format("'{}' has no ending of a film that is written", text),

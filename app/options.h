@@ -83,6 +83,8 @@ struct Options {
     std::vector<std::string> models;                       ///< Arguments of `mesh`.
     std::optional<CellOptions> cells;                      ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;                ///< `mesh --seed`.
+    ModelFileOptions mesh_files;                           ///< `mesh --unwrap`.
+    std::filesystem::path mesh_output;                     ///< `mesh -o`.
     AnalyzeRequest analyze;
     BenchRequest bench;  ///< Its `simulation` keeps the defaults.
     bool csv = false;    ///< `bench --csv`

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace cascade {
 
@@ -33,7 +34,8 @@ struct Scratch {
     std::vector<float> heights = {};            ///< Likewise.
     std::vector<OfParts<float>> material = {};  ///< Likewise.
     std::vector<SurfacePlace> places = {};      ///< Of the samples of a texel with heights.
-    std::int64_t covered = 0, again = 0;        ///< Numbers of samples.
+    std::int64_t covered = 0;                   ///< A number of samples.
+    TextureLayout::Overlap overlap = {};
 };
 
 class TextureBaker {
@@ -65,16 +67,18 @@ public:
                            std::min((band + 1) * rows_of_band, options_.height), own);
             }
         });
-        std::int64_t covered = 0, again = 0;
+        std::int64_t covered = 0;
+        TextureLayout::Overlap overlap;
         for (const Scratch& own : scratch) {
             covered += own.covered;
-            again += own.again;
+            overlap.again += own.overlap.again;
+            overlap.shared += own.overlap.shared;
         }
         if (covered == 0 && !cancel) {
             return failure("the model's texture coordinates have no area in the texture",
                            "give the model texture coordinates, or a larger texture");
         }
-        return finish(covered, again);
+        return finish(covered, overlap);
     }
 
 private:
@@ -100,7 +104,9 @@ private:
     void paint_band(std::int64_t first, std::int64_t last, Scratch& own) {
         const auto count = static_cast<std::size_t>((last - first) * samples() * layout_.width());
         const std::span<std::uint32_t> owners(own.owners.data(), count);
-        own.again += layout_.find_owners(first * samples(), last * samples(), owners);
+        const auto overlap = layout_.find_owners(first * samples(), last * samples(), owners);
+        own.overlap.again += overlap.again;
+        own.overlap.shared += overlap.shared;
         const auto width = static_cast<std::size_t>(layout_.width());
         for (std::int64_t y = first; y < last; ++y) {
             own.row = owners.subspan(static_cast<std::size_t>((y - first) * samples()) * width,
@@ -209,12 +215,13 @@ private:
                 static_cast<float>(bumped.z)};
     }
 
-    Bake finish(std::int64_t covered, std::int64_t again) {
+    Bake finish(std::int64_t covered, const TextureLayout::Overlap& overlap) {
         Bake bake;
         const auto all = static_cast<double>(layout_.width() * layout_.height());
         bake.covered = static_cast<double>(covered) / all;
-        bake.overlapping = static_cast<double>(again) /
-                           static_cast<double>(std::max(covered + again, std::int64_t{1}));
+        bake.overlapping = static_cast<double>(overlap.again) /
+                           static_cast<double>(std::max(covered + overlap.again, std::int64_t{1}));
+        bake.shared = static_cast<double>(overlap.shared) / all;
         warn(bake);
         fill_gaps(colour_);
         for (Colour& texel : colour_.texels) texel = stored_of(texel);
@@ -272,10 +279,16 @@ private:
 
     void warn(Bake& bake) const {
         if (bake.overlapping >= 5e-4) {
+            const double mirrored = layout_.mirrored_part();
+            const std::string_view why =
+                layout_.repeats() ? ", over which the picture repeats"
+                : mirrored > 0.1 && mirrored < 0.9
+                    ? ", one of them mirrored, as the two halves of a body may be"
+                    : "";
             bake.warnings.push_back(fmt::format(
-                "{:.1f} % of the model lies over other parts of it in the texture and shows their "
-                "pattern",
-                100 * bake.overlapping));
+                "{:.1f} % of the texture belongs to several parts of the model{}: {:.1f} % of the "
+                "model shows the pattern of another part; --unwrap gives each a place of its own",
+                100 * bake.shared, why, 100 * bake.overlapping));
         }
         if (layout_.skipped().without_area > 0) {
             bake.warnings.push_back(counted(layout_.skipped().without_area, "triangle") +
@@ -304,15 +317,14 @@ private:
 
 Result<void> check_bakeable(const SurfaceMesh& mesh) {
     if (mesh.texture.empty()) {
-        return failure("the model has no texture coordinates to paint by",
-                       "give it some in a modeller, or write colours of its points");
+        return failure("the model has no texture coordinates to paint by", "--unwrap makes some");
     }
     const double covered = TextureLayout(mesh, 1, 1).covered_area();
     if (covered <= most_covered_area) return {};
     return failure(
         fmt::format("the model's texture coordinates cover the texture {:.0f} times over", covered),
-        "they are meant for a picture that repeats; give every part of the model a place "
-        "of its own");
+        "they are meant for a picture that repeats; --unwrap gives every part of the model a "
+        "place of its own");
 }
 
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,

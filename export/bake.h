@@ -23,6 +23,7 @@ struct BakeOptions {
 struct Bake : MaterialMaps {
     double covered = 0;      ///< Fraction of the samples that are on the surface.
     double overlapping = 0;  ///< Fraction of the surface covered by another part in the texture.
+    double shared = 0;       ///< Fraction of the samples that are on several parts of the surface.
     std::vector<std::string> warnings;  ///< A sentence each.
 };
 

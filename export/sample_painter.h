@@ -1,9 +1,9 @@
 // What baking paints: the look of a surface at the samples of a texture.
 #pragma once
 
+#include "atlas/texture_layout.h"
 #include "core/palette.h"
 #include "export/material.h"
-#include "export/texture_layout.h"
 
 #include <cstdint>
 #include <functional>

@@ -19,6 +19,7 @@ list(APPEND CASCADE_WITHOUT
   core/kept_files core/late_library core/link_target core/open_below core/own_folder core/parallel
   core/plane_memory core/read_file core/temporary_file core/transform_planner
   ir/tiered_backend
+  atlas/flatten atlas/join_charts atlas/make_charts atlas/unwrap
   mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_file mesh/half_edges mesh/isotropic_remesh
   surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute
@@ -39,7 +40,7 @@ target_compile_options(cascade_options INTERFACE -msimd128 -fno-exceptions -fno-
 
 cascade_room(core)
 target_compile_definitions(cascade_core PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
-foreach(room ir lang wasm solvers picture measure mesh surface tissue render export run view)
+foreach(room ir lang wasm solvers picture measure mesh surface atlas tissue render export run view)
   cascade_room(${room})
 endforeach()
 include(lang/systems/embed.cmake)

@@ -36,6 +36,25 @@ run 0 mesh cube.obj --cells 600 --seed 2
 cmp -s out first && fail "another seed gives the same cells"
 run 64 mesh cube.obj --seed 2
 says err "--seed means nothing without a number of --cells"
+# Texture coordinates, in files that are read again.
+run 0 mesh cube.obj --unwrap
+says out "made texture coordinates: "
+for file in new.glb new.obj new.ply; do
+    run 0 mesh cube.obj --unwrap -o $file
+    says out "written to $file"
+    run 0 mesh $file
+    says out "12 triangles, 1 connected component"
+    says out "texture coordinates: "
+    grep -q "several times\|mirrored" out && fail "the texture coordinates of $file overlap"
+done
+run 64 mesh cube.obj -o new.glb
+says err "-o means nothing without --unwrap"
+run 64 mesh cube.obj new.obj --unwrap -o newer.glb
+says err "-o is the file of one model, and several are given"
+run 64 mesh cube.obj --unwrap -o new.vtp
+says err "'new.vtp' has no ending of a model with texture coordinates"
+run 3 mesh cube.obj --unwrap -o nowhere/new.glb
+says err "nowhere"
 run 0 mesh cube.obj --cells faces
 says out "6 cells of mean area 1, deviation 0.0 %, 4.00 neighbours each"
 says out "the nearest neighbour 1 away, deviation 0.0 %"

@@ -90,9 +90,52 @@ for name in square.glb square_color.png square_height.png square_normal.png; do
 done
 run 0 mesh square.glb
 says out "4 points, 2 triangles"
-run 3 $model --bake 64 -o creature.glb
-says err "the model has no texture coordinates to paint by"
-[ ! -e creature.glb ] || fail "a model that cannot be baked was written"
+# A model without texture coordinates gets some, in all its files; others keep theirs unless --unwrap.
+run 0 $model --bake 256 -o creature.glb -o creature.obj -o creature.ply
+for file in creature.glb creature.obj creature.ply; do
+    run 0 mesh $file
+    says out "texture coordinates: "
+    says out "closed like a sphere"
+    grep -q "several times\|mirrored" out && fail "the texture coordinates of $file overlap"
+done
+run 0 $model -o plain.glb
+run 0 mesh plain.glb
+grep -q "texture coordinates" out && fail "texture coordinates that nobody asked for"
+run 0 $model --unwrap -o plain.glb -o other.vtp
+run 0 mesh plain.glb
+says out "texture coordinates: "
+run 0 $model --threads 1 --bake 256 -o one.glb
+run 0 $model --threads 3 --bake 256 -o three.glb
+cmp -s one.glb three.glb || fail "texture coordinates depend on the number of threads"
+run 0 run -q spots.cascade --mesh square.obj --cells 300 -o square.ply
+run 0 mesh square.ply
+says out "1 chart, 100.0 % of the texture covered"
+run 0 run -q spots.cascade --mesh square.obj --cells 300 --unwrap -o square.ply
+run 0 mesh square.ply
+says out "1 chart, 9"
+run 2 $model --unwrap -o none.vtp
+says err "no model is written that has texture coordinates"
+run 2 $model --unwrap --retile -o none.ply
+says err "the triangles of --retile have no texture coordinates"
+run 2 run spots.cascade --unwrap -o none.glb --bake 64
+says err "the domain is not a model"
+# Coordinates that overlap are noticed.
+cat > tiles.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 2 0
+vt 2 1
+vt 0 1
+f 1/1 2/2 3/3 4/4
+END
+run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 -o tiles.glb
+says err "100.0 % of the texture belongs to several parts of the model, over which the picture repeats"
+says err "--unwrap gives each a place of its own"
+run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 --unwrap -o tiles.glb
+grep -q "several parts" err && fail "coordinates of ours overlap"
 
 # Pictures: options travel inside them, and change them.
 run 0 $model -o plain.png --view 40,10

@@ -45,6 +45,7 @@ private:
     Result<void> prepare();
     Result<void> check_places(Folders folders);
     Result<void> make_simulation();
+    Result<void> find_texture(const SurfaceMesh& mesh);
     Result<std::unique_ptr<LiveRun>> play_session();
     bool has_cancelled(std::string what);
     Result<void> run_stages();
@@ -66,6 +67,7 @@ private:
     RunReport report_;
     std::vector<std::filesystem::path> outputs_;
     std::unique_ptr<Simulation> simulation_;
+    MeshTexture texture_;  ///< That was made for the model.
     std::optional<Painter> painter_;
     std::vector<Painter> panels_;  ///< Of figures.
     std::optional<FrameRecorder> frames_;
@@ -185,11 +187,30 @@ Result<std::unique_ptr<LiveRun>> Runner::play_session() {
     return std::move(*played);
 }
 
+/// Makes texture coordinates if files need them, or checks those of the model.
+Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
+    const ModelFileOptions& files = request_.model_files;
+    if (!needs_texture(mesh, files)) {
+        return files.bake > 0 ? check_bakeable(mesh) : Result<void>();
+    }
+    if (control_.report) {
+        Progress progress;
+        progress.doing = "making texture coordinates";
+        control_.report(progress);
+    }
+    const int threads = request_.simulation.threads;
+    Team team(threads > 0 ? threads : hardware_threads());
+    auto made = made_texture(mesh, files, team, control_.cancel);
+    if (!made) return tl::unexpected(made.error());
+    texture_ = *std::move(made);
+    return {};
+}
+
 /// There is no simulation if the user has cancelled it.
 Result<void> Runner::make_simulation() {
     SimulationOptions options = request_.simulation;
     options.control = &control_;
-    if (request_.model_files.bake > 0) options.check_model = check_bakeable;
+    options.check_model = [this](const SurfaceMesh& mesh) { return find_texture(mesh); };
     std::unique_ptr<LiveRun> played;
     if (request_.session) {
         auto run = play_session();
@@ -205,6 +226,10 @@ Result<void> Runner::make_simulation() {
     }
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
+    if (played && simulation_->model()) {
+        // It brought its model along, so that nothing has checked it yet.
+        if (auto good = find_texture(simulation_->model()->mesh); !good) return good;
+    }
     if (played) {
         const auto restored =
             go_on(*simulation_, nullptr, played->values(), Continuation::same, control_.cancel);
@@ -335,6 +360,7 @@ RunResults Runner::results() {
             control_,
             outputs_,
             *simulation_,
+            texture_,
             *painter_,
             panels_,
             frames_ ? &*frames_ : nullptr,

@@ -218,18 +218,26 @@ void check_on_model(OptionRefuser& options, const RunRequest& request) {
 /// Options for model files without a file that they apply to.
 void check_model_files(OptionRefuser& options, const RunRequest& request) {
     const ModelFileOptions& files = request.model_files;
-    bool has_picture = request.outputs.empty(), is_baked = false, is_tiled = false;
+    bool has_picture = request.outputs.empty();
+    bool is_baked = false, is_tiled = false, has_texture = false;
     for (const auto& output : request.outputs) {
         has_picture = has_picture || output_kind(output) == OutputKind::picture || is_film(output);
         is_baked = is_baked || files.is_baked(output);
         is_tiled =
             is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
+        has_texture =
+            has_texture || files.is_baked(output) || (!files.retile && holds_texture(output));
     }
     options.refuse_if(files.retile && !is_tiled, "--retile",
                       "no model is written that it could tile",
                       "-o NAME.ply, .obj, .glb, .vtp or .stl writes one");
     options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
                       "-o NAME.glb writes one");
+    options.refuse_if(files.unwrap && !has_texture, "--unwrap",
+                      files.retile && is_tiled
+                          ? "the triangles of --retile have no texture coordinates"
+                          : "no model is written that has texture coordinates",
+                      "-o NAME.glb, .obj or .ply writes one");
     options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
                       "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
 }
@@ -239,8 +247,11 @@ constexpr std::string_view how_to_get_a_model =
     "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
 
 void check_maps_without_model(OptionRefuser& options, const RunRequest& request) {
-    options.refuse_if(request.model_files.bake > 0, "--bake", std::string(not_a_model),
-                      std::string(how_to_get_a_model));
+    for (const auto& [option, is_given] : {std::pair("--bake", request.model_files.bake > 0),
+                                           std::pair("--unwrap", request.model_files.unwrap)}) {
+        options.refuse_if(is_given, option, std::string(not_a_model),
+                          std::string(how_to_get_a_model));
+    }
 }
 
 /// A body has a surface and no cells on it.
@@ -278,6 +289,7 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
     options.refuse_if(request.picture.bump != 0, "--bump", message, hint);
     options.refuse_if(!request.simulation.cell_cache.empty(), "--cache", message, hint);
     if (!is_plane) return check_maps_without_model(options, request);
+    options.refuse_if(request.model_files.unwrap, "--unwrap", message, hint);
     options.refuse_if(request.model_files.bake > 0 && !has_model, "--bake",
                       "no model is written with its maps",
                       "-o NAME.glb writes a rectangle with them");

@@ -123,8 +123,8 @@ Result<void> RunResults::write_each(
 
 Result<void> RunResults::write_model_files(const Canvas& canvas) {
     const ModelLook look = painter.look(canvas);
-    ModelFileWriter writer(*simulation.model(), look, channels(canvas), request.model_files,
-                           texts(request.picture));
+    ModelFileWriter writer(*simulation.model(), texture, look, channels(canvas),
+                           request.model_files, texts(request.picture));
     auto done = write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
         auto paths = writer.write(path);
         if (!paths) return tl::unexpected(paths.error());
@@ -140,7 +140,7 @@ Result<void> RunResults::write_cell_files(const Canvas& canvas) {
     const GrownCells cells{simulation, simulation.shown_stage().value_or(0), *canvas.cells,
                            colours};
     return write_each([&](const std::filesystem::path& path) {
-        return write_cells(path, cells, request.model_files, texts(request.picture));
+        return write_cells(path, cells, texture, request.model_files, texts(request.picture));
     });
 }
 

@@ -23,6 +23,7 @@ struct RunResults {
     RunControl& control;
     const std::vector<std::filesystem::path>& outputs;  ///< Of -o.
     const Simulation& simulation;
+    const MeshTexture& texture;  ///< That was made for the model; may be empty.
     Painter& painter;
     std::span<Painter> panels;                                 ///< Of figures; empty: the picture.
     FrameRecorder* frames;                                     ///< Null without frames.

@@ -2,6 +2,7 @@
 // and distances to the nearest neighbour.
 #include "run/domain/describe_model.h"
 
+#include "atlas/texture_facts.h"
 #include "core/counted.h"
 #include "core/quantities.h"
 #include "mesh/make_mesh.h"
@@ -29,7 +30,25 @@ std::string kind_of(const MeshFacts& facts) {
     return fmt::format("closed with {} holes", holes);
 }
 
-void describe_mesh(const MadeMesh& made, std::vector<std::string>& lines) {
+}  // namespace
+
+std::string describe_texture(const SurfaceMesh& mesh) {
+    const TextureFacts facts = texture_facts(mesh);
+    std::string line =
+        fmt::format("texture coordinates: {}, {:.1f} % of the texture covered",
+                    counted(static_cast<std::int64_t>(facts.charts), "chart"), 100 * facts.covered);
+    const auto add = [&](double part, std::string_view what) {
+        if (part >= 5e-4) line += fmt::format(", {:.1f} % {}", 100 * part, what);
+    };
+    add(facts.shared, "of it several times");
+    add(facts.mirrored, "of the surface mirrored");
+    line += fmt::format("; lengths change by a factor of {:.2f} in the mean and {:.1f} at most",
+                        facts.mean, facts.worst);
+    return line;
+}
+
+std::vector<std::string> describe_model(const MadeMesh& made) {
+    std::vector<std::string> lines;
     const MeshFacts facts = facts_of(made.mesh);
     lines.push_back(fmt::format("{}, {}, {}", counted(facts.points, "point"),
                                 counted(facts.triangles, "triangle"),
@@ -43,10 +62,13 @@ void describe_mesh(const MadeMesh& made, std::vector<std::string>& lines) {
     for (const PointAttribute& attribute : made.mesh.attributes) {
         kept += (kept.empty() ? "" : ", ") + attribute.name;
     }
-    if (!made.mesh.texture.empty()) lines.push_back("texture coordinates");
+    if (!made.mesh.texture.empty()) lines.push_back(describe_texture(made.mesh));
     if (!kept.empty()) lines.push_back("attributes " + kept);
     for (const std::string& repair : made.repairs) lines.push_back("repaired: " + repair);
+    return lines;
 }
+
+namespace {
 
 struct Spread {
     double mean = 0;
@@ -74,12 +96,17 @@ Result<void> check_memory_of_cells(const SurfaceMesh& mesh, const CellOptions& o
                    "use fewer cells");
 }
 
-Result<void> describe_cells(const SurfaceMesh& mesh, const CellOptions& options, Team& team,
-                            const std::atomic<bool>& cancel, std::vector<std::string>& lines) {
-    if (Result<void> fits = check_memory_of_cells(mesh, options); !fits) return fits;
+}  // namespace
+
+Result<std::vector<std::string>> describe_cells(const SurfaceMesh& mesh, const CellOptions& options,
+                                                Team& team, const std::atomic<bool>& cancel) {
+    if (Result<void> fits = check_memory_of_cells(mesh, options); !fits) {
+        return tl::unexpected(fits.error());
+    }
     const Result<SurfaceCells> cells = make_cells(mesh, options, team, cancel);
     if (!cells) return tl::unexpected(cells.error());
-    if (cancel) return {};
+    std::vector<std::string> lines;
+    if (cancel) return lines;
     const Spread areas = spread_of(cells->areas);
     lines.push_back(fmt::format(
         "{} of mean area {:.4g}, deviation {:.1f} %, {:.2f} neighbours each",
@@ -99,31 +126,15 @@ Result<void> describe_cells(const SurfaceMesh& mesh, const CellOptions& options,
         lines.push_back(fmt::format("the nearest neighbour {:.4g} away, deviation {:.1f} %",
                                     distances.mean, distances.deviation));
     }
-    return {};
+    return lines;
 }
 
-}  // namespace
-
-Result<std::vector<std::string>> describe_model(const std::filesystem::path& path,
-                                                const ReadAccess& access,
-                                                const std::optional<CellOptions>& cells, Team& team,
-                                                const std::atomic<bool>& cancel) {
+Result<MadeMesh> read_and_repair(const std::filesystem::path& path, const ReadAccess& access) {
     Result<PolygonSoup> soup = read_model(path, access);
     if (!soup) return tl::unexpected(soup.error());
-    const Result<MadeMesh> made = make_mesh(*std::move(soup));
-    if (!made) {
-        return failure(fmt::format("'{}': {}", path.string(), made.error().message),
-                       made.error().hint);
-    }
-    std::vector<std::string> lines;
-    describe_mesh(*made, lines);
-    if (!cells) return lines;
-    const Result<void> described = describe_cells(made->mesh, *cells, team, cancel, lines);
-    if (!described) {
-        return failure(fmt::format("'{}': {}", path.string(), described.error().message),
-                       described.error().hint);
-    }
-    return lines;
+    Result<MadeMesh> made = make_mesh(*std::move(soup));
+    if (made) return made;
+    return failure(fmt::format("'{}': {}", path.string(), made.error().message), made.error().hint);
 }
 
 }  // namespace cascade

@@ -4,25 +4,32 @@
 #include "core/granted_files.h"
 #include "core/parallel.h"
 #include "core/result.h"
+#include "mesh/make_mesh.h"
 #include "surface/make_cells.h"
 
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace cascade {
 
-/// Files that the model names must lie below its folder or those of `access`.
-/// Returns lines about the surface: its components, its topology, its size, the repairs; and about
-/// the cells if some are asked for. Fails on a file that cannot be used (mesh/model_file.h,
-/// mesh/make_mesh.h), on cells that cannot be made (surface/make_cells.h) and on more cells than
-/// fit into the free memory. Throws std::bad_alloc. Returns nothing if `cancel` became true.
-Result<std::vector<std::string>> describe_model(const std::filesystem::path& path,
-                                                const ReadAccess& access,
-                                                const std::optional<CellOptions>& cells, Team& team,
-                                                const std::atomic<bool>& cancel);
+/// Reads and repairs a model's file. Files that it names must lie below its folder or those of
+/// `access`. Fails on a file that cannot be used (mesh/model_file.h, mesh/make_mesh.h). Throws
+/// std::bad_alloc.
+Result<MadeMesh> read_and_repair(const std::filesystem::path& path, const ReadAccess& access);
+
+/// Lines about the surface: its components, its topology, its size, its texture coordinates, the
+/// repairs. Throws std::bad_alloc.
+std::vector<std::string> describe_model(const MadeMesh& made);
+
+/// A line about texture coordinates, which there are. Throws std::bad_alloc.
+std::string describe_texture(const SurfaceMesh& mesh);
+
+/// Lines about cells of a model. Fails if they cannot be made (surface/make_cells.h) and on more
+/// cells than fit into the free memory. Throws std::bad_alloc. Meaningless if `cancel` became true.
+Result<std::vector<std::string>> describe_cells(const SurfaceMesh& mesh, const CellOptions& options,
+                                                Team& team, const std::atomic<bool>& cancel);
 
 }  // namespace cascade

@@ -63,8 +63,8 @@ Instances things_in_file(const GrownCells& cells) {
 /// The model below them, in the same coordinates, and its colours.
 class Skin {
 public:
-    Skin(const ModelCells& model, const DrawnCells& drawn)
-        : mesh(model.mesh_of_file()), model_(model), team_(hardware_threads()) {
+    Skin(const ModelCells& model, const MeshTexture& texture, const DrawnCells& drawn)
+        : mesh(mesh_in_files(model, texture)), model_(model), team_(hardware_threads()) {
         colours.colour = drawn.skin;
         if (!drawn.coat) return;
         filter_.emplace(mesh, model.spread().cells, team_);
@@ -92,21 +92,22 @@ private:
 };
 
 Result<void> write_things(const std::filesystem::path& path, const GrownCells& cells,
-                          bool is_merged) {
+                          const MeshTexture& texture, bool is_merged) {
     const Instances copies = things_in_file(cells);
     const DrawnCells& drawn = cells.drawn;
     const auto model = cells.simulation.model();
     if (!model) {
         return write_instanced(path, {drawn.body.get(), drawn.body_colours, copies}, is_merged);
     }
-    Skin skin(*model, drawn);
+    Skin skin(*model, texture, drawn);
     const std::vector<Colour> colours = skin.colour_points();
     return write_instanced(path, {&skin.mesh, colours, copies}, is_merged);
 }
 
 Result<WrittenFiles> write_maps(const std::filesystem::path& path, const GrownCells& cells,
-                                std::int64_t side, const PngTexts& texts) {
-    Skin skin(*cells.simulation.model(), cells.drawn);
+                                const MeshTexture& texture, std::int64_t side,
+                                const PngTexts& texts) {
+    Skin skin(*cells.simulation.model(), texture, cells.drawn);
     const CellsFromOutside outside(skin.mesh, things_in_file(cells));
     BakeOptions options;
     options.width = options.height = side;
@@ -146,10 +147,14 @@ Result<void> write_values(const std::filesystem::path& path, const GrownCells& c
 }  // namespace
 
 Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
-                                 const ModelFileOptions& options, const PngTexts& texts) {
+                                 const MeshTexture& texture, const ModelFileOptions& options,
+                                 const PngTexts& texts) {
     const bool has_things = output_kind(path) == OutputKind::model;
-    if (has_things && options.is_baked(path)) return write_maps(path, cells, options.bake, texts);
-    auto done = has_things ? write_things(path, cells, options.merge) : write_values(path, cells);
+    if (has_things && options.is_baked(path)) {
+        return write_maps(path, cells, texture, options.bake, texts);
+    }
+    auto done =
+        has_things ? write_things(path, cells, texture, options.merge) : write_values(path, cells);
     if (!done) return tl::unexpected(done.error());
     return WrittenFiles{{path}, {}};
 }

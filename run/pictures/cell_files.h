@@ -22,8 +22,10 @@ struct GrownCells {
 /// Writes them in the coordinates of the model's file or, without a model, of scripts: .glb and
 /// .obj with the things that a picture shows, .npz and .cells.vtp with the cells and all their
 /// values; a .glb that is_baked() is the model alone, with maps that show the things, into which
-/// the texts are written. Throws std::bad_alloc. Fails as the writers of export/ do.
+/// the texts are written. `texture` are the model's texture coordinates; if it is empty they stay
+/// as they are. Throws std::bad_alloc. Fails as the writers of export/ do.
 Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
-                                 const ModelFileOptions& options, const PngTexts& texts);
+                                 const MeshTexture& texture, const ModelFileOptions& options,
+                                 const PngTexts& texts);
 
 }  // namespace cascade

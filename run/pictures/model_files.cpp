@@ -51,6 +51,11 @@ std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
+bool holds_texture(const std::filesystem::path& path) {
+    const std::string ending = in_lower_case(path.extension().string());
+    return ending == ".glb" || ending == ".obj" || ending == ".ply";
+}
+
 RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     return refined(mesh, colour_distance * cell_spacing(cells), most_triangles);
 }
@@ -59,17 +64,43 @@ bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
     return bake > 0 && in_lower_case(path.extension().string()) == ".glb";
 }
 
-ModelFileWriter::ModelFileWriter(const ModelCells& model, const ModelLook& look,
-                                 std::vector<Channel> channels, const ModelFileOptions& options,
-                                 PngTexts texts)
+Result<MeshTexture> made_texture(const SurfaceMesh& mesh, const ModelFileOptions& options,
+                                 Team& team, const std::atomic<bool>& cancel) {
+    return enough_memory_for(
+        [&] { return unwrap(mesh, options.bake > 0 ? options.bake : usual_texels, team, cancel); },
+        "there is not enough memory to make texture coordinates of the model");
+}
+
+namespace {
+
+bool is_as_in_file(const ModelCells& model, const MeshTexture& texture) {
+    return model.up == Axis::y && texture.empty();
+}
+
+}  // namespace
+
+SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture) {
+    SurfaceMesh mesh = model.mesh_of_file();
+    if (!texture.empty()) mesh.texture = texture;
+    return mesh;
+}
+
+ModelFileWriter::ModelFileWriter(const ModelCells& model, const MeshTexture& texture,
+                                 const ModelLook& look, std::vector<Channel> channels,
+                                 const ModelFileOptions& options, PngTexts texts)
     : model_(model),
-      turned_back_(model.up == Axis::y ? SurfaceMesh() : model.mesh_of_file()),
-      mesh_(model.up == Axis::y ? model.mesh : turned_back_),
+      changed_(is_as_in_file(model, texture) ? SurfaceMesh() : mesh_in_files(model, texture)),
+      mesh_(is_as_in_file(model, texture) ? model.mesh : changed_),
       look_(look),
       channels_(std::move(channels)),
       options_(options),
       texts_(std::move(texts)),
       team_(hardware_threads()) {}
+
+Result<void> write_plain_model(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+    return enough_memory_for([&] { return write_model(path, mesh, {}); },
+                             "cannot write '" + path.string() + "': there is not enough memory");
+}
 
 ModelFileWriter::~ModelFileWriter() = default;
 

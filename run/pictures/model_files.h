@@ -1,6 +1,7 @@
 // Patterns on models as the files of `-o`: models, cells and baked maps for other programs.
 #pragma once
 
+#include "atlas/unwrap.h"
 #include "core/result.h"
 #include "export/channels.h"
 #include "picture/image.h"
@@ -30,26 +31,46 @@ inline bool is_film(const std::filesystem::path& path) {
     return output_kind(path) == OutputKind::film;
 }
 
+/// Whether the file of this name is a model with texture coordinates: .ply, .obj, .glb.
+bool holds_texture(const std::filesystem::path& path);
+
 /// How to write models.
 struct ModelFileOptions {
     bool retile = false;    ///< Triangulate the cells instead of refining the model's triangles.
     std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 for none.
     bool merge = false;     ///< Of cells that crawl: plain triangles instead of instances.
+    bool unwrap = false;    ///< With texture coordinates of our own, even if the model has some.
     static constexpr std::int64_t most_texels = 8192;
     /// True if this file gets maps.
     bool is_baked(const std::filesystem::path& path) const;
 };
 
+/// Whether files of a model need texture coordinates that are still to be made.
+inline bool needs_texture(const SurfaceMesh& mesh, const ModelFileOptions& options) {
+    return options.unwrap || (options.bake > 0 && mesh.texture.empty());
+}
+/// Makes them, as unwrap() does, for the size of the maps. Fails if memory is short, too.
+Result<MeshTexture> made_texture(const SurfaceMesh& mesh, const ModelFileOptions& options,
+                                 Team& team, const std::atomic<bool>& cancel);
+
+/// The mesh in the coordinates of the model's file, with this texture unless it is empty.
+SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture);
+
 /// The mesh with triangles so small that colours of cells at its points show their pattern.
 RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells);
+
+/// Writes a mesh without colours to a .glb, .obj or .ply, as write_model() of export/ does. Fails
+/// if memory is short, too.
+Result<void> write_plain_model(const std::filesystem::path& path, const SurfaceMesh& mesh);
 
 /// Writes the state at one moment. Objects passed to it must outlive it.
 class ModelFileWriter {
 public:
-    /// `channels` are numbers of cells that are written besides colours; `texts` are written into
-    /// maps. Throws std::bad_alloc.
-    ModelFileWriter(const ModelCells& model, const ModelLook& look, std::vector<Channel> channels,
-                    const ModelFileOptions& options, PngTexts texts);
+    /// `texture` are the model's texture coordinates in files; if it is empty they stay as they
+    /// are. `channels` are numbers of cells that are written besides colours; `texts` are written
+    /// into maps. Throws std::bad_alloc.
+    ModelFileWriter(const ModelCells& model, const MeshTexture& texture, const ModelLook& look,
+                    std::vector<Channel> channels, const ModelFileOptions& options, PngTexts texts);
     ~ModelFileWriter();
 
     /// Writes a model or cells. Returns the files written, which include the maps of a baked model.
@@ -67,7 +88,7 @@ private:
     const CellFilter& filter();
 
     const ModelCells& model_;
-    SurfaceMesh turned_back_;  ///< Empty if the model was not turned.
+    SurfaceMesh changed_;      ///< Empty if files have the model as it is.
     const SurfaceMesh& mesh_;  ///< In the coordinates of the model's file, like all outputs.
     const ModelLook& look_;
     std::vector<Channel> channels_;

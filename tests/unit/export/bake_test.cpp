@@ -1,10 +1,10 @@
 // Textures baked from cells: what is in which texel.
+#include "atlas/texture_layout.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "export/bake.h"
 #include "export/fill_gaps.h"
 #include "export/glb.h"
-#include "export/texture_layout.h"
 #include "mesh/model_file.h"
 #include "picture/srgb.h"
 #include "unit/export/example_surfaces.h"
@@ -67,7 +67,7 @@ TEST(TextureLayout, EverySampleOfASquareHasOneTriangle) {
         const SurfaceMesh mesh = flat_square(n);
         const TextureLayout layout(mesh, 24, 16);
         std::vector<std::uint32_t> owners(24 * 16);
-        EXPECT_EQ(layout.find_owners(0, 16, owners), 0);
+        EXPECT_EQ(layout.find_owners(0, 16, owners).again, 0);
         EXPECT_EQ(std::count(owners.begin(), owners.end(), TextureLayout::nothing), 0);
         EXPECT_NEAR(layout.covered_area(), 1, 1e-6);
         for (std::int64_t row = 0; row < 16; ++row) {
@@ -90,7 +90,7 @@ TEST(TextureLayout, RepeatsBeyondItsSides) {
     }
     const TextureLayout layout(mesh, 16, 8);
     std::vector<std::uint32_t> owners(16 * 8);
-    EXPECT_EQ(layout.find_owners(0, 8, owners), 0);
+    EXPECT_EQ(layout.find_owners(0, 8, owners).again, 0);
     EXPECT_EQ(std::count(owners.begin(), owners.end(), TextureLayout::nothing), 0);
     const Vector3d p = position_of(mesh, layout.place_at(owners[0], 0, 0));
     EXPECT_NEAR(p.x, 0.25 + 0.5 / 16, 1e-6);
@@ -350,8 +350,10 @@ TEST(Bake, SaysHowMuchOverlaps) {
     const Bake result = baked(mesh, cells, look, size_of_texture(32, 32));
     EXPECT_NEAR(result.overlapping, 0.5, 1e-9);
     EXPECT_THAT(result.warnings,
-                ElementsAre("50.0 % of the model lies over other parts of it in the "
-                            "texture and shows their pattern"));
+                ElementsAre("50.0 % of the texture belongs to several parts of the model, one of "
+                            "them mirrored, as the two halves of a body may be: 50.0 % of the "
+                            "model shows the pattern of another part; --unwrap gives each a place "
+                            "of its own"));
 }
 
 TEST(Bake, RefusesWhatCannotBePainted) {
@@ -368,7 +370,7 @@ TEST(Bake, RefusesWhatCannotBePainted) {
     };
     const auto texture = mesh.texture;
     mesh.texture.clear();
-    EXPECT_THAT(message(), HasSubstr("no texture coordinates to paint by: give it some"));
+    EXPECT_THAT(message(), HasSubstr("no texture coordinates to paint by: --unwrap"));
     mesh.texture.assign(mesh.triangles.size(), {});
     EXPECT_THAT(message(), HasSubstr("have no area in the texture"));
     mesh.texture = texture;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -16,10 +17,10 @@ struct Refusal {
     bool made_cells = false;
 };
 
-Refusal refusal_of(const std::string& start, const std::function<void(RunRequest&)>& ask) {
-    const std::string text =
-        "domain { surface: implicit(1 - x^2 - y^2 - z^2, 2); cells: 50 }\nsystem s { u: " + start +
-        "\n u' = lap(u) }\nstage one: s { iterations: 1 }\n";
+Refusal refusal_of(const std::string& start, const std::function<void(RunRequest&)>& ask,
+                   const std::string& surface = "surface: implicit(1 - x^2 - y^2 - z^2, 2)") {
+    const std::string text = "domain { " + surface + "; cells: 50 }\nsystem s { u: " + start +
+                             "\n u' = lap(u) }\nstage one: s { iterations: 1 }\n";
     Script script = load_script("test", text, ".", {});
     Refusal refusal;
     RunControl control;
@@ -51,12 +52,20 @@ TEST(EarlyErrors, ComeBeforeCellsAreMade) {
                  "<--log>");
     expect_early(refusal_of("attr(\"weight\")", [](RunRequest&) {}),
                  "the model's points have no 'weight'");
-    expect_early(refusal_of("1",
-                            [](RunRequest& r) {
-                                r.model_files.bake = 64;
-                                r.outputs[0].replace_extension(".glb");
-                            }),
-                 "no texture coordinates to paint by");
+}
+
+TEST(EarlyErrors, OfTextureCoordinates) {
+    // A square with a picture of a tile of which there are a hundred.
+    const char* const name = "early_errors.obj";
+    std::ofstream(name) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                           "vt 0 0\nvt 10 0\nvt 10 10\nvt 0 10\nf 1/1 2/2 3/3 4/4\n";
+    const auto bake = [](RunRequest& r) {
+        r.model_files.bake = 64;
+        r.outputs[0].replace_extension(".glb");
+    };
+    expect_early(refusal_of("1", bake, std::string("mesh: \"") + name + "\""),
+                 "cover the texture 100 times over");
+    std::filesystem::remove(name);
 }
 
 TEST(EarlyErrors, LeaveNoFolders) {

@@ -225,7 +225,7 @@ TEST_F(Upright, BakedMapsAreThoseOfTheUprightModel) {
         if (!simulation || !painter) return;
         const Canvas canvas = painter->canvas(*simulation);
         const ModelLook look = painter->look(canvas);
-        ModelFileWriter writer(*simulation->model(), look, {}, {false, 64}, {});
+        ModelFileWriter writer(*simulation->model(), {}, look, {}, {false, 64}, {});
         EXPECT_TRUE(writer.write(path(fmt::format("{}.glb", name_of(file)))));
     };
     bake(Axis::y);

@@ -26,14 +26,21 @@ public:
     const Skipped& skipped() const { return skipped_; }
     /// The total area of all triangles, in areas of the texture; above 1 they must overlap.
     double covered_area() const { return covered_area_; }
+    /// The part of that area that belongs to triangles whose picture is mirrored.
+    double mirrored_part() const { return covered_area_ > 0 ? mirrored_area_ / covered_area_ : 0; }
+    /// Whether a triangle has samples beyond 0 … 1, where the texture repeats.
+    bool repeats() const { return repeats_; }
     static constexpr float largest_place = 256;
 
     /// Finds the triangles at the centres of samples in rows first … last − 1, row by row: the
     /// first triangle if there are several, `nothing` if there is none. A sample on the edge
-    /// between two triangles is in one of them. Returns the number of times that a sample is in a
-    /// further triangle. `owners` has (last − first) · width() elements.
-    std::int64_t find_owners(std::int64_t first, std::int64_t last,
-                             std::span<std::uint32_t> owners) const;
+    /// between two triangles is in one of them. `owners` has (last − first) · width() elements.
+    struct Overlap {
+        std::int64_t again = 0;   ///< How many times a sample is in a further triangle.
+        std::int64_t shared = 0;  ///< How many samples are in several triangles.
+    };
+    Overlap find_owners(std::int64_t first, std::int64_t last,
+                        std::span<std::uint32_t> owners) const;
     static constexpr std::uint32_t nothing = 0xffffffff;
 
     /// The place in a triangle at the centre of a sample for which find_owners found it.
@@ -57,7 +64,8 @@ private:
     std::int64_t width_ = 1, height_ = 1;
     std::vector<Drawn> triangles_;
     Skipped skipped_;
-    double covered_area_ = 0;
+    double covered_area_ = 0, mirrored_area_ = 0;
+    bool repeats_ = false;
 };
 
 }  // namespace cascade

@@ -1,6 +1,6 @@
 // Rasterises triangles by edge functions with a fill rule for points on edges (as GPUs have), so
 // that two triangles with a common edge never share a sample.
-#include "export/texture_layout.h"
+#include "atlas/texture_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ Vector2d middle_of(std::int64_t column, std::int64_t row) {
 
 TextureLayout::TextureLayout(const SurfaceMesh& mesh, std::int64_t width, std::int64_t height)
     : width_(width), height_(height), triangles_(mesh.texture.size()) {
-    double area = 0;
+    double area = 0, mirrored = 0;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
         Drawn& drawn = triangles_[t];
         bool has_places = true;
@@ -67,9 +67,14 @@ TextureLayout::TextureLayout(const SurfaceMesh& mesh, std::int64_t width, std::i
         drawn.bottom = divided_down(drawn.last, height_);
         drawn.left = divided_down(first_from(std::min({a.x, b.x, c.x})), width_);
         drawn.right = divided_down(last_to(std::max({a.x, b.x, c.x})), width_);
+        repeats_ =
+            repeats_ || drawn.top != 0 || drawn.bottom != 0 || drawn.left != 0 || drawn.right != 0;
         area += std::abs(twice) / 2;
+        if (twice > 0) mirrored += twice / 2;  // Rows go down.
     }
-    covered_area_ = area / (static_cast<double>(width) * static_cast<double>(height));
+    const double all = static_cast<double>(width) * static_cast<double>(height);
+    covered_area_ = area / all;
+    mirrored_area_ = mirrored / all;
 }
 
 bool TextureLayout::holds(const Drawn& triangle, Vector2d point, std::array<double, 3>& inside) {
@@ -104,10 +109,16 @@ void TextureLayout::visit_columns(const Drawn& triangle, std::int64_t row, const
     }
 }
 
-std::int64_t TextureLayout::find_owners(std::int64_t first, std::int64_t last,
-                                        std::span<std::uint32_t> owners) const {
+TextureLayout::Overlap TextureLayout::find_owners(std::int64_t first, std::int64_t last,
+                                                  std::span<std::uint32_t> owners) const {
     std::fill(owners.begin(), owners.end(), nothing);
-    std::int64_t again = 0;
+    Overlap overlap;
+    constexpr std::uint32_t shared_mark = 0x80000000;  // No number of a triangle is that large.
+    const auto share = [&](std::uint32_t& owner) {
+        ++overlap.again;
+        overlap.shared += (owner & shared_mark) == 0;
+        owner |= shared_mark;
+    };
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
         const Drawn& triangle = triangles_[t];
         if (triangle.sign == 0) continue;
@@ -120,12 +131,17 @@ std::int64_t TextureLayout::find_owners(std::int64_t first, std::int64_t last,
                     std::uint32_t& owner =
                         owners[static_cast<std::size_t>(line + wrapped(column, width_))];
                     if (owner == nothing) owner = t;
-                    else ++again;
+                    else share(owner);
                 });
             }
         }
     }
-    return again;
+    if (overlap.shared > 0) {
+        for (std::uint32_t& owner : owners) {
+            if (owner != nothing) owner &= ~shared_mark;
+        }
+    }
+    return overlap;
 }
 
 SurfacePlace TextureLayout::place_at(std::uint32_t triangle, std::int64_t column,

@@ -1,0 +1,30 @@
+// The rectangle that a flat chart takes.
+#pragma once
+
+#include "atlas/chart.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cascade {
+
+/// A rectangle along the axes.
+struct FlatBox {
+    Vector2d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Vector2d high{low.x * -1, low.y * -1};
+
+    void add(Vector2d p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    Vector2d size() const { return high - low; }
+};
+
+/// The smallest rectangle around a chart in any direction.
+struct TurnedBox {
+    Vector2d turn{1, 0};  ///< Brings its sides to the axes; of length 1.
+    Vector2d size;        ///< Then.
+};
+TurnedBox smallest_box(const Chart& chart);
+
+}  // namespace cascade

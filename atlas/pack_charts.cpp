@@ -1,0 +1,215 @@
+// The factor is found by bisection among powers of a number slightly below 1.
+#include "atlas/pack_charts.h"
+
+#include "atlas/cell_rows.h"
+#include "atlas/chart_box.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+constexpr double step_of_scale = 0.98;
+constexpr int most_steps = 700;  ///< 0.98⁷⁰⁰ is 10⁻⁶.
+constexpr int small_shape = 12;  ///< Cells; of smaller shapes one orientation is tried.
+
+Vector2d quarter_turned(Vector2d v, int quarters) {
+    const std::array<Vector2d, 4> turned = {v, Vector2d{-v.y, v.x}, Vector2d{-v.x, -v.y},
+                                            Vector2d{v.y, -v.x}};
+    return turned[static_cast<std::size_t>(quarters)];
+}
+
+/// The cells that a scaled chart touches, with its bounds' lower corner at a cell's.
+CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
+    FlatBox bounds;
+    for (const Vector2d p : chart.places) bounds.add(quarter_turned(p, quarters) * scale);
+    CellShape shape;
+    const auto cell = [](double x) { return static_cast<int>(std::floor(x)); };
+    shape.width = cell(bounds.size().x) + 1;
+    shape.height = cell(bounds.size().y) + 1;
+    std::vector<CellSpan> spans;
+    for (std::size_t n = 0; n < chart.triangles.size(); ++n) {
+        FlatTriangle flat = chart.flat(n);
+        for (Vector2d& p : flat) p = quarter_turned(p, quarters) * scale - bounds.low;
+        const auto [low, high] = std::minmax({flat[0].y, flat[1].y, flat[2].y});
+        for (int row = cell(low); row <= cell(high); ++row) {
+            // The part of the triangle in this row.
+            double left = std::numeric_limits<double>::infinity(), right = -left;
+            for (std::size_t k = 0; k < 3; ++k) {
+                Vector2d a = flat[k], b = flat[corner_after(k)];
+                if (a.y > b.y) std::swap(a, b);
+                if (b.y < row || a.y > row + 1) continue;
+                const auto x_at = [&](double y) {
+                    return b.y > a.y ? a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)) : a.x;
+                };
+                const double from = a.y < row ? x_at(row) : a.x;
+                const double to = b.y > row + 1 ? x_at(row + 1) : b.x;
+                left = std::min({left, from, to});
+                right = std::max({right, from, to});
+            }
+            if (!(left <= right)) continue;
+            spans.push_back({row, std::clamp(cell(left), 0, shape.width - 1),
+                             std::clamp(cell(right), 0, shape.width - 1) + 1});
+        }
+    }
+    std::sort(spans.begin(), spans.end(), [](const CellSpan& a, const CellSpan& b) {
+        return std::pair(a.row, a.first) < std::pair(b.row, b.first);
+    });
+    for (const CellSpan& span : spans) {
+        if (span.row >= shape.height) continue;
+        if (!shape.spans.empty() && shape.spans.back().row == span.row &&
+            span.first <= shape.spans.back().end) {
+            shape.spans.back().end = std::max(shape.spans.back().end, span.end);
+        } else {
+            shape.spans.push_back(span);
+        }
+    }
+    // The longest first: they rule most places out.
+    std::stable_sort(shape.spans.begin(), shape.spans.end(),
+                     [](const CellSpan& a, const CellSpan& b) {
+                         return a.end - a.first > b.end - b.first;
+                     });
+    return shape;
+}
+
+struct Placed {
+    int quarters = 0;
+    CellPlace place;
+};
+
+class Packer {
+public:
+    Packer(std::span<Chart> charts, int cells) : charts_(charts), cells_(cells) {
+        std::array<std::vector<double>, 3> sizes;
+        for (Chart& chart : charts) {
+            chart.turn(smallest_box(chart).turn);
+            FlatBox bounds;
+            for (const Vector2d p : chart.places) bounds.add(p);
+            const Vector2d size = bounds.size();
+            const double shorter = std::min(size.x, size.y), longer = std::max(size.x, size.y);
+            sizes[0].push_back(longer);
+            sizes[1].push_back(longer + shorter);
+            sizes[2].push_back(shorter);
+            for (std::size_t n = 0; n < chart.triangles.size(); ++n) {
+                area_ += double_area(chart.flat(n)) / 2;
+            }
+        }
+        for (std::size_t k = 0; k < orders_.size(); ++k) {
+            orders_[k].resize(charts.size());
+            std::iota(orders_[k].begin(), orders_[k].end(), std::size_t{0});
+            std::stable_sort(orders_[k].begin(), orders_[k].end(),
+                             [&](std::size_t a, std::size_t b) {
+                                 return sizes[k][a] > sizes[k][b];
+                             });
+        }
+    }
+
+    double run(const std::atomic<bool>& cancel) {
+        for (const auto& order : orders_) {
+            // Another order is worth a search only if it is better by a step.
+            if (fitting_ <= most_steps && !fits(fitting_ - 1, order, cancel)) continue;
+            search(order, cancel);
+            if (fitting_ > most_steps) break;  // Nor do other orders help then.
+        }
+        if (fitting_ > most_steps || cancel) return 0;
+        return move_charts(best_, scale_of(fitting_));
+    }
+
+private:
+    using Order = std::vector<std::size_t>;
+
+    /// Cells per length: at the first step the charts' area is the square's.
+    double scale_of(int step) const {
+        double scale = cells_ / std::sqrt(area_);
+        for (int k = 0; k < step; ++k) scale *= step_of_scale;
+        return scale;
+    }
+
+    /// Finds the first step at which charts fit in an order, below that known before.
+    void search(const Order& order, const std::atomic<bool>& cancel) {
+        // Most fit at three quarters of the square's area or less.
+        int too_large = -1;
+        for (int next = std::min(7, fitting_ / 2); fitting_ - too_large > 1 && !cancel;) {
+            if (!fits(next, order, cancel)) too_large = next;
+            next = fitting_ <= most_steps ? (fitting_ + too_large) / 2
+                                          : std::min(2 * too_large + 1, most_steps);
+        }
+    }
+
+    /// Keeps the places if they fit.
+    bool fits(int step, const Order& order, const std::atomic<bool>& cancel) {
+        auto placed = place_all(scale_of(step), order, cancel);
+        if (!placed) return false;
+        fitting_ = step;
+        best_ = *std::move(placed);
+        return true;
+    }
+
+    std::optional<std::vector<Placed>> place_all(double scale, const Order& order,
+                                                 const std::atomic<bool>& cancel) {
+        // A cell at the upper sides stays free, half of which is moved to the lower ones.
+        CellRows rows(cells_ - 1);
+        std::vector<Placed> placed(charts_.size());
+        std::map<std::pair<int, int>, int> full_below;
+        for (const std::size_t c : order) {
+            if (cancel) return std::nullopt;
+            std::optional<Placed> best;
+            int limit = cells_;
+            CellShape best_shape;
+            for (int quarters = 0; quarters < 4; ++quarters) {
+                CellShape shape = shape_of_chart(charts_[c], scale, quarters);
+                const bool is_small = std::max(shape.width, shape.height) <= small_shape;
+                int& lowest = full_below[{shape.width, shape.height}];
+                if (auto place = rows.find_room(shape, is_small ? lowest : 0, limit)) {
+                    limit = place->y + shape.height;
+                    best = Placed{quarters, *place};
+                    if (is_small) lowest = place->y;
+                    best_shape = std::move(shape);
+                }
+                if (is_small && best) break;
+            }
+            if (!best) return std::nullopt;
+            rows.take(best_shape, best->place);
+            placed[c] = *best;
+        }
+        return placed;
+    }
+
+    /// Returns the factor.
+    double move_charts(const std::vector<Placed>& placed, double scale) {
+        for (std::size_t c = 0; c < charts_.size(); ++c) {
+            FlatBox bounds;
+            for (Vector2d& p : charts_[c].places) {
+                p = quarter_turned(p, placed[c].quarters) * scale;
+                bounds.add(p);
+            }
+            const Vector2d corner = {placed[c].place.x + 0.5, placed[c].place.y + 0.5};
+            for (Vector2d& p : charts_[c].places) {
+                p = (p - bounds.low + corner) * (1.0 / cells_);
+            }
+        }
+        return scale / cells_;
+    }
+
+    std::span<Chart> charts_;
+    int cells_;
+    double area_ = 0;
+    std::array<Order, 3> orders_;   ///< The largest first, by several measures.
+    int fitting_ = most_steps + 1;  ///< The best step so far,
+    std::vector<Placed> best_;      ///< and the places then.
+};
+
+}  // namespace
+
+double pack_charts(std::span<Chart> charts, int cells, const std::atomic<bool>& cancel) {
+    return Packer(charts, cells).run(cancel);
+}
+
+}  // namespace cascade

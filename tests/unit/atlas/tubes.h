@@ -1,0 +1,34 @@
+// Parts of cylinders, which can be rolled out.
+#pragma once
+
+#include "mesh/edge_pairs.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace cascade::test {
+
+/// A part of the unit cylinder around the z axis, `turn` of it (1 for all, which is closed), with
+/// `columns` and `rows` of rectangles.
+inline SurfaceMesh tube(double turn, double height, std::uint32_t columns, std::uint32_t rows) {
+    const std::uint32_t around = turn < 1 ? columns + 1 : columns;
+    std::vector<Vector3d> points;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t j = 0; j <= rows; ++j) {
+        for (std::uint32_t i = 0; i < around; ++i) {
+            const double angle = 2 * std::numbers::pi * turn * i / columns;
+            points.push_back({std::cos(angle), std::sin(angle), height * j / rows});
+        }
+    }
+    for (std::uint32_t j = 0; j < rows; ++j) {
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            const std::uint32_t a = j * around + i, b = j * around + (i + 1) % around;
+            triangles.push_back({a, b, a + around});
+            triangles.push_back({b, b + around, a + around});
+        }
+    }
+    return mesh_of(points, triangles);
+}
+
+}  // namespace cascade::test
