@@ -153,6 +153,20 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
               "On a surface: the direction of view, in degrees around\nit and above the horizon",
               parse_view, [&](auto view) { picture.view = view; })
         ->group(group);
+    add_value(app, "--size", "WxH", "On a surface: pixels across and down, instead of 800x600",
+              parse_picture_size, [&](auto size) { picture.size = size; })
+        ->group(group);
+    add_value(app, "--quality", "Q", "On a surface: draft, normal or fine, for less or more time",
+              one_of({quality_names.begin(), quality_names.end()}),
+              [&](const auto& quality) { picture.quality = quality_named(quality); })
+        ->group(group);
+    add_value(app, "--fov", "DEGREES",
+              "On a surface: the field of view, from 1 (far away) to\n120 (near); without it 25",
+              parse_fov, [&](float fov) { picture.fov = fov; })
+        ->group(group);
+    add_value(app, "--ground", "YES", "On a surface: yes or no, a ground that receives shadows",
+              one_of({"yes", "no"}), [&](const auto& word) { picture.ground = word == "yes"; })
+        ->group(group);
     add_value(app, "--bump", "S",
               "On a model: raise the surface by the number shown, by up\n"
               "to S times the model's longest side, such as 0.02",

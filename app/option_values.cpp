@@ -99,6 +99,26 @@ Result<View> parse_view(std::string_view text) {
                    "write degrees around (-360 to 360) and above (-89 to 89), as in --view 30,25");
 }
 
+Result<PictureSize> parse_picture_size(std::string_view text) {
+    // Pictures that are too large are refused later, when the scale is known.
+    constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
+    const std::size_t cross = text.find('x');
+    if (cross != std::string_view::npos) {
+        const auto width = parse_whole(text.substr(0, cross), 1, largest);
+        const auto height = parse_whole(text.substr(cross + 1), 1, largest);
+        if (width && height) return PictureSize{*width, *height};
+    }
+    return failure(fmt::format("'{}' is not the size of a picture", text),
+                   "write pixels across x down, as in --size 1920x1080");
+}
+
+Result<float> parse_fov(std::string_view text) {
+    float degrees = 0;
+    if (read_all(text, degrees) && degrees >= 1 && degrees <= 120) return degrees;
+    return failure(fmt::format("'{}' is not a field of view", text),
+                   "write degrees from 1 to 120, as in --fov 40");
+}
+
 Result<Tiling> parse_tiling(std::string_view text) {
     constexpr std::int64_t most = 1000;
     const std::size_t comma = std::min(text.find(','), text.size());

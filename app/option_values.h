@@ -33,6 +33,10 @@ Result<ValueRange> parse_range(std::string_view text);
 
 /// "30,25": degrees around, −360 … 360, and above the horizon, −89 … 89.
 Result<View> parse_view(std::string_view text);
+/// "1920x1080"; each at least 1.
+Result<PictureSize> parse_picture_size(std::string_view text);
+/// Degrees, 1 … 120.
+Result<float> parse_fov(std::string_view text);
 
 /// "large:12000": a stage and a number of steps.
 Result<StopAt> parse_stop_at(std::string_view text);

@@ -338,6 +338,10 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.slice) request.slice = *changes.slice;
     if (changes.flat) request.flat = true;
     if (changes.view) request.view = *changes.view;
+    if (changes.size) request.size = *changes.size;
+    if (changes.quality) request.quality = *changes.quality;
+    if (changes.fov) request.fov = changes.fov;
+    if (changes.ground) request.ground = *changes.ground;
     if (changes.bump) request.bump = *changes.bump;
     return request;
 }

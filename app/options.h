@@ -50,6 +50,10 @@ struct PictureChanges {
     std::optional<Slice> slice;
     bool flat = false;
     std::optional<View> view;
+    std::optional<PictureSize> size;
+    std::optional<Quality> quality;
+    std::optional<float> fov;
+    std::optional<bool> ground;
     std::optional<float> bump;
 };
 

@@ -83,13 +83,13 @@ void make_scene(benchmark::State& state, Subject& subject) {
     }
 }
 
-/// Side of the picture and rays through a pixel along one side.
+/// Side of the picture and its quality.
 void draw_picture(benchmark::State& state, Subject& subject) {
     const CellScene scene(subject.mesh, subject.cells, subject.team);
     const PaintedCells look = subject.look();
     DrawOptions options;
     options.width = options.height = state.range(0);
-    options.samples = static_cast<int>(state.range(1));
+    options.quality = static_cast<Quality>(state.range(1));
     options.view.up = {0, 1, 0};
     for (auto _ : state) benchmark::DoNotOptimize(scene.draw(look, options, subject.team));
 }
@@ -148,11 +148,12 @@ int main(int argc, char** argv) {
                                             [function, &subject](benchmark::State& state) {
                                                 function(state, subject);
                                             })
+            ->MeasureProcessCPUTime()
             ->UseRealTime()
             ->Unit(benchmark::kMillisecond);
     };
     add("scene", bench::make_scene);
-    add("draw", bench::draw_picture)->Args({512, 2})->Args({512, 4})->Args({64, 2});
+    add("draw", bench::draw_picture)->Args({512, 0})->Args({512, 1})->Args({512, 2})->Args({64, 1});
     add("filter", bench::ask_filter);
     add("blur", bench::blur)->Arg(1)->Arg(8);
     benchmark::RunSpecifiedBenchmarks();

@@ -9,8 +9,7 @@ namespace cascade {
 
 namespace {
 
-constexpr float margin = 1.12F;      ///< Free space around the scene.
-constexpr float half_field = 0.22F;  ///< Tangent of half the field of view: 12.4 degrees.
+constexpr float margin = 1.12F;  ///< Free space around the scene.
 
 /// Cosine and sine of an angle in degrees, computed in binary64 for equal bits on every processor.
 struct Turn {
@@ -63,6 +62,7 @@ Camera::Camera(const Scene& scene, const View& view, std::int64_t width, std::in
     const auto pixels_wide = static_cast<float>(width);
     const auto pixels_high = static_cast<float>(height);
     const float smaller = std::min(pixels_wide, pixels_high);
+    const float half_field = view.half_field;
     const float half_x = half_field * pixels_wide / smaller / margin;
     const float half_y = half_field * pixels_high / smaller / margin;
     Extent x, y;

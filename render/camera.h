@@ -15,6 +15,8 @@ struct View {
     /// Frames the scene for all azimuths at once, rotating around the centre of its box, so that
     /// its position and size are constant in a series of pictures from all around.
     bool is_turning = false;
+    /// The tangent of half the field of view, along the shorter side of the picture.
+    float half_field = 0.22F;
 };
 
 struct Ray {

@@ -5,6 +5,7 @@
 #include "picture/image.h"
 #include "render/camera.h"
 #include "render/gloss.h"
+#include "render/quality.h"
 #include "render/ray_caster.h"
 
 #include <cstdint>
@@ -33,10 +34,12 @@ using SurfaceLook = std::function<Look(const Sight&)>;
 
 struct DrawOptions {
     std::int64_t width = 800, height = 600;  ///< Pixels, at least 1.
-    int samples = 4;  ///< A pixel has at most samples × samples rays, and 4 where they agree.
+    Quality quality = Quality::normal;
     View view;
     bool ground = true;
     bool round_shadows = false;  ///< Smooths shadows on large facets.
+    /// Told now and then, in the calling thread, what part is done, 0 … 1; may be empty.
+    std::function<void(double)> report = {};
 };
 
 /// Renders by ray tracing. The picture is the same on any number of threads and on every processor.

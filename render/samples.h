@@ -15,7 +15,7 @@
 
 namespace cascade {
 
-inline constexpr int first_rays = 4;  ///< Of every pixel.
+inline constexpr std::uint32_t first_rays = 4;  ///< Of a pixel that has several.
 
 inline float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
@@ -32,12 +32,12 @@ inline Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
     return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u)};
 }
 
-/// Where a pixel's first rays go: a turned grid. Their mean place is the middle of the pixel, so
-/// that a constant slope comes out exactly.
-inline Point first_point(std::uint32_t k, std::uint32_t count) {
+/// Where the first rays of a pixel that has several go: a turned grid. Their mean place is the
+/// middle of the pixel, so that a constant slope comes out exactly.
+inline Point first_point(std::uint32_t k) {
     constexpr std::array<Point, first_rays> turned = {
         {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
-    return count == first_rays ? turned[k] : Point{0.5F, 0.5F};
+    return turned[k];
 }
 
 /// Maps the unit square to the unit disc, preserving ratios of areas: P. Shirley and K. Chiu, "A
@@ -58,7 +58,7 @@ inline DiscPoint on_disc(Point square) {
 
 /// The hashed words that shift the sample positions of a pixel.
 struct Shifts {
-    std::array<std::uint32_t, 4> of_rays_and_sun{}, of_sky{};
+    std::array<std::uint32_t, 4> of_rays{}, of_lights{};
 };
 
 inline Shifts shifts_of(std::int64_t x, std::int64_t y) {

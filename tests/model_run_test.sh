@@ -145,6 +145,15 @@ run 0 run -q turned.png -o again.png
 cmp -s turned.png again.png || fail "a picture of a model is not drawn again byte for byte"
 run 0 $model -o flat.png --view 40,10 --up z --palette viridis
 cmp -s flat.png turned.png && fail "--bump changes nothing"
+# Its size, camera and quality, too.
+run 0 $model -o wide.png --size 210x90 --quality draft --fov 60 --ground no
+[ "$(od -An -t x1 -j 16 -N 8 wide.png | tr -d ' ')" = 000000d20000005a ] || fail "--size 210x90 draws another size"
+run 0 run -q wide.png -o again.png
+cmp -s wide.png again.png || fail "a picture with a size of its own is not drawn again byte for byte"
+for other in '--quality fine' '--fov 20' '--ground yes'; do
+    run 0 run -q wide.png -o other.png $other
+    cmp -s wide.png other.png && fail "$other changes nothing"
+done
 # What points upwards changes what scripts and pictures see, and no coordinate that leaves.
 run 0 $model --up z -o up.ply -o up.npz
 run 0 mesh m.ply
@@ -221,8 +230,11 @@ run 3 $model -o no/such/folder.ply
 says err "no/such"
 run 3 $model -o big.png --scale 64
 says err "at scale 64 has more than"
-run 64 $model -o m.stl
-says err "'m.stl' has no ending of a file that can be written"
+run 3 $model -o big.png --size 100000x100000
+says err "a picture of 100000 × 100000 pixels has more than 268435456 pixels"
+says err "use a smaller --size"
+run 64 $model -o m.fbx
+says err "'m.fbx' has no ending of a file that can be written"
 run 64 $model --bump 2
 says err "'2' is not a number from -1 to 1"
 run 64 $model --bump nan

@@ -301,6 +301,11 @@ void check_on_plane(OptionRefuser& options, const RunRequest& request, bool has_
     const std::string hint = "surface: x, y, z in the domain makes one";
     if (!has_body) options.refuse_if(request.picture.flat, "--flat", message, hint);
     options.refuse_if(request.picture.is_turned(), "--view", message, hint);
+    options.refuse_if(request.picture.size != usual_size, "--size", message,
+                      "--scale N draws each cell as N x N pixels");
+    options.refuse_if(request.picture.fov.has_value(), "--fov", message, hint);
+    options.refuse_if(!request.picture.ground, "--ground", message, hint);
+    options.refuse_if(request.picture.quality != Quality::normal, "--quality", message, hint);
     options.refuse_if(request.turntable > 0 || request.picture.view.is_turning, "--turntable",
                       message, hint);
 }

@@ -50,11 +50,23 @@ void RunResults::say(std::string what) const {
     control.report(progress);
 }
 
+Image RunResults::drawn(const Canvas& canvas, const std::string& what) {
+    say(what);
+    int last = 0;
+    painter.set_report([&](double part) {
+        const int percent = static_cast<int>(100 * part);
+        if (percent != std::exchange(last, percent)) say(fmt::format("{}, {} %", what, percent));
+    });
+    Image image = painter.image(canvas);
+    painter.set_report({});
+    return image;
+}
+
 Result<void> RunResults::write_final_picture(const std::filesystem::path& path,
                                              const Canvas& canvas) {
     if (request.turntable > 0) return write_turntable(path, canvas);
     return write_picture(path, request.picture.space_time ? frames->space_time(painter)
-                                                          : painter.image(canvas));
+                                                          : drawn(canvas, "drawing the picture"));
 }
 
 /// The view of a picture of a turntable.
@@ -71,9 +83,9 @@ Result<void> RunResults::write_turntable(const std::filesystem::path& path, cons
     Result<void> done;
     const auto paths = turntable_paths(path, request.turntable);
     for (std::size_t k = 0; k < paths.size() && done; ++k) {
-        say(fmt::format("drawing {} of {}", k + 1, paths.size()));
         painter.set_view(turned_view(k, paths.size()));
-        done = write_picture(paths[k], painter.image(canvas));
+        done = write_picture(paths[k],
+                             drawn(canvas, fmt::format("drawing {} of {}", k + 1, paths.size())));
     }
     painter.set_view(request.picture.view);
     return done;

@@ -41,6 +41,8 @@ struct RunResults {
 private:
     Result<void> write_outputs();
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
+    /// The picture of a canvas; `what` is said with the part that is drawn.
+    Image drawn(const Canvas& canvas, const std::string& what);
     Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
     View turned_view(std::size_t number, std::size_t count) const;
     void warn_of(const std::vector<std::string>& warnings) const;

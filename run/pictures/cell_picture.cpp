@@ -229,7 +229,7 @@ float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
     const Camera camera(mesh, options.view, options.width, options.height);
     float farthest = 0;
     for (const Vector3& p : mesh.positions) farthest = std::max(farthest, length(p - camera.eye()));
-    return camera.pixel() * farthest / static_cast<float>(options.samples) /
+    return camera.pixel() * farthest * effort_of(options.quality).widest_ray() /
            std::sqrt(least_cosine);
 }
 

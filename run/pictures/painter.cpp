@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cascade {
 
@@ -213,6 +214,11 @@ ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) c
 
 DrawOptions Painter::draw_options() const {
     DrawOptions options;
+    options.width = request_.size.width;
+    options.height = request_.size.height;
+    options.quality = request_.quality;
+    options.ground = request_.ground;
+    options.report = report_;
     if (width_) {
         options.height = std::max<std::int64_t>(1, *width_ * options.height / options.width);
         options.width = *width_;
@@ -220,6 +226,10 @@ DrawOptions Painter::draw_options() const {
     options.width *= request_.scale;
     options.height *= request_.scale;
     options.view = request_.view;
+    if (request_.fov) {
+        const double half = static_cast<double>(*request_.fov) / 2 * std::numbers::pi / 180;
+        options.view.half_field = static_cast<float>(std::tan(half));
+    }
     return options;
 }
 

@@ -9,10 +9,6 @@
 
 namespace cascade {
 
-struct PictureSize {
-    std::int64_t width = 0, height = 0;  ///< In pixels.
-};
-
 /// The size of pictures of a domain. Those of models, surfaces and `has_cells`, of cells that
 /// crawl, are drawn from a place in space, and have a size of their own.
 PictureSize picture_size(const DomainSettings& domain, const PictureRequest& picture,

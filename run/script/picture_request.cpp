@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace cascade {
 
@@ -26,6 +27,11 @@ bool makes_sense(const PictureRequest& request) {
         return false;
     }
     if (!(std::abs(request.bump) <= 1)) return false;
+    if (request.fov && !(*request.fov >= 1 && *request.fov <= 120)) return false;
+    const auto is_side = [](std::int64_t side) {
+        return side >= 1 && side <= std::numeric_limits<std::int32_t>::max();
+    };
+    if (!is_side(request.size.width) || !is_side(request.size.height)) return false;
     if (!(request.slice.place >= 0 && request.slice.place <= 1)) return false;
     return find_palette(request.palette) != nullptr;
 }
@@ -44,6 +50,10 @@ std::string to_json(const PictureRequest& request) {
                            {"space_time", request.space_time}};
     if (request.flat) json["flat"] = true;
     if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
+    if (request.size != usual_size) json["size"] = {request.size.width, request.size.height};
+    if (request.quality != Quality::normal) json["quality"] = name_of(request.quality);
+    if (request.fov) json["fov"] = *request.fov;
+    if (!request.ground) json["ground"] = false;
     if (request.view.is_turning) json["turning"] = true;
     if (request.bump != 0) json["bump"] = request.bump;
     if (!request.show.empty()) json["show"] = request.show;
@@ -62,6 +72,8 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     JsonFields fields(json);
     PictureRequest request;
     std::vector<float> view, range;
+    std::vector<std::int64_t> size;
+    std::string quality(name_of(Quality::normal));
     fields.read("palette", request.palette);
     fields.read("scale", request.scale);
     fields.read("depth", request.depth);
@@ -69,11 +81,16 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     fields.read("show", request.show);
     fields.read("flat", request.flat);
     fields.read("view", view);
+    fields.read("size", size);
+    fields.read("quality", quality);
+    if (json.contains("fov")) fields.read("fov", request.fov.emplace());
+    fields.read("ground", request.ground);
     fields.read("turning", request.view.is_turning);
     fields.read("bump", request.bump);
     fields.read("range", range);
     const auto is_none_or_two = [](std::size_t count) { return count == 0 || count == 2; };
-    if (!fields.is_sound() || !is_none_or_two(view.size()) || !is_none_or_two(range.size())) {
+    if (!fields.is_sound() || !is_none_or_two(view.size()) || !is_none_or_two(range.size()) ||
+        !is_none_or_two(size.size())) {
         return tl::unexpected(unreadable);
     }
     if (json.contains("slice")) {
@@ -91,6 +108,10 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
         request.view.azimuth = view[0];
         request.view.elevation = view[1];
     }
+    if (!size.empty()) request.size = {size[0], size[1]};
+    const auto named = quality_named(quality);
+    if (!named) return tl::unexpected(senseless);
+    request.quality = *named;
     if (!range.empty()) request.range = ValueRange{range[0], range[1]};
     if (!makes_sense(request)) return tl::unexpected(senseless);
     return request;

@@ -5,11 +5,21 @@
 #include "picture/image.h"
 #include "picture/slice.h"
 #include "render/camera.h"
+#include "render/quality.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace cascade {
+
+struct PictureSize {
+    std::int64_t width = 0, height = 0;  ///< In pixels.
+    bool operator==(const PictureSize&) const = default;
+};
+
+/// Of pictures that are drawn from a place in space, if nothing else is asked for.
+inline constexpr PictureSize usual_size{800, 600};
 
 /// The options of `cascade run` that determine a picture's look. They are stored in the picture.
 struct PictureRequest {
@@ -22,6 +32,12 @@ struct PictureRequest {
     Slice slice;                      ///< 3-D grids: the slice to show.
     bool flat = false;                ///< Of a surface: only the texture.
     View view;                        ///< Of a surface: the direction it is seen from.
+    /// Of a surface, in pixels that `scale` multiplies.
+    PictureSize size = usual_size;
+    Quality quality = Quality::normal;  ///< Of a surface.
+    /// Of a surface: the field of view along the shorter side of the picture, in degrees.
+    std::optional<float> fov;
+    bool ground = true;  ///< Of a surface: a plane below it that receives shadows.
     /// Of a model: height of the largest number above the smallest one, in sides of the model, −1 …
     /// 1.
     float bump = 0;

@@ -1,11 +1,16 @@
 // Pictures of surfaces whose looks are known.
 #include "render/draw.h"
 
+#include "picture/srgb.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace cascade {
 namespace {
@@ -55,7 +60,6 @@ DrawOptions small_picture() {
     DrawOptions options;
     options.width = 160;
     options.height = 120;
-    options.samples = 2;
     options.ground = false;
     return options;
 }
@@ -143,7 +147,6 @@ TEST(Draw, ShadowsAreNotGrainy) {
     // In the open a pixel's place changes little; so does its light from one pixel to the next.
     DrawOptions options = small_picture();
     options.ground = true;
-    options.samples = 4;
     options.width = 640;
     options.height = 480;
     const Image image = picture_of(sphere(1), options, red);
@@ -164,6 +167,71 @@ TEST(Draw, ShadowsAreNotGrainy) {
     ASSERT_GT(count, 200);
     RecordProperty("grain", std::to_string(std::sqrt(squares / count)));
     EXPECT_LT(std::sqrt(squares / count), 0.0075);
+}
+
+/// The mean of squares of side × side pixels, in linear light.
+Image averaged(const Image& image, std::int64_t side) {
+    Image small(image.width / side, image.height / side);
+    std::fill(small.pixels.begin(), small.pixels.end(), Colour{0, 0, 0});
+    for (std::int64_t y = 0; y < small.height * side; ++y) {
+        for (std::int64_t x = 0; x < small.width * side; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                small.at(x / side, y / side)[c] +=
+                    light_of(image.at(x, y)[c]) / static_cast<float>(side * side);
+            }
+        }
+    }
+    for (Colour& pixel : small.pixels) pixel = stored_of(pixel);
+    return small;
+}
+
+TEST(Draw, BetterQualityIsNearerToTheTruth) {
+    // A ball in stripes. Nothing hides a light, so that only rays through pixels matter.
+    const TriangleMesh mesh = sphere(1);
+    const auto striped = [&](const Hit& hit) -> Colour {
+        const auto& [a, b, c] = mesh.triangles[hit.triangle];
+        const float z = mesh.positions[a].z * (1 - hit.u - hit.v) + mesh.positions[b].z * hit.u +
+                        mesh.positions[c].z * hit.v;
+        return std::sin(40 * z) > 0 ? Colour{0.9F, 0.8F, 0.6F} : Colour{0.1F, 0.1F, 0.2F};
+    };
+    DrawOptions options = small_picture();
+    const auto drawn = [&](Quality quality, std::int64_t scale) {
+        DrawOptions larger = options;
+        larger.quality = quality;
+        larger.width *= scale;
+        larger.height *= scale;
+        return picture_of(mesh, larger, striped, 2);
+    };
+    const Image truth = averaged(drawn(Quality::fine, 6), 6);
+    const auto error_of = [&](Quality quality) {
+        const Image image = drawn(quality, 1);
+        double squares = 0;
+        for (std::size_t k = 0; k < image.pixels.size(); ++k) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double off = static_cast<double>(image.pixels[k][c] - truth.pixels[k][c]);
+                squares += off * off;
+            }
+        }
+        return std::sqrt(squares / static_cast<double>(3 * image.pixels.size()));
+    };
+    const double draft = error_of(Quality::draft), normal = error_of(Quality::normal),
+                 fine = error_of(Quality::fine);
+    RecordProperty("errors", std::to_string(draft) + " " + std::to_string(normal) + " " +
+                                 std::to_string(fine));
+    EXPECT_LT(fine, 0.8 * normal);
+    EXPECT_LT(normal, 0.9 * draft);
+    EXPECT_LT(normal, 0.02);
+}
+
+TEST(Draw, ReportsHowFarItIs) {
+    DrawOptions options = small_picture();
+    options.width = 500;
+    std::vector<double> parts;
+    options.report = [&](double part) { parts.push_back(part); };
+    picture_of(sphere(1), options, red);
+    EXPECT_GT(parts.size(), 4u);
+    EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+    EXPECT_EQ(parts.back(), 1.0);
 }
 
 TEST(Draw, ThreadsDoNotMatter) {
@@ -210,9 +278,10 @@ TEST(Draw, ASightKnowsHowWideASampleIs) {
     });
     DrawOptions options = small_picture();
     options.view = {0, 0, {0, 0, 1}};
-    // Four rays where the picture is even, all of them at the wall's edges.
-    for (const auto& [samples, first] : {std::pair{1, 1}, {2, 2}, {3, 2}}) {
-        options.samples = samples;
+    // One ray where the picture is even, but of the best quality; more at the wall's edges.
+    for (const auto& [quality, first, last] :
+         {std::tuple{Quality::draft, 1, 2}, {Quality::normal, 1, 4}, {Quality::fine, 2, 8}}) {
+        options.quality = quality;
         float least = 1, most = 0;
         Team team(1);
         draw(
@@ -225,7 +294,7 @@ TEST(Draw, ASightKnowsHowWideASampleIs) {
             options, team);
         // The wall is 160 / 1.12 pixels wide.
         const float pixel = 1.12F / 160;
-        EXPECT_NEAR(least, pixel / static_cast<float>(samples), 1e-4F);
+        EXPECT_NEAR(least, pixel / static_cast<float>(last), 1e-4F);
         EXPECT_NEAR(most, pixel / static_cast<float>(first), pixel / 10);
     }
 }
@@ -258,6 +327,29 @@ TEST(Camera, EveryAxisCanPointUp) {
         EXPECT_LT(length(closest), 0.05F);
         EXPECT_NEAR(dot(camera.up(), up), std::cos(25 * std::numbers::pi / 180), 1e-5);
         EXPECT_NEAR(dot(camera.right(), up), 0, 1e-6);
+    }
+}
+
+TEST(Camera, EveryFieldOfViewShowsTheWhole) {
+    const TriangleMesh mesh = sphere(2);
+    for (const auto& [width, height] : {std::pair{100, 100}, {320, 90}, {60, 200}}) {
+        for (const float half_field : {0.02F, 0.22F, 1.7F}) {
+            View view;
+            view.half_field = half_field;
+            const Camera camera(mesh, view, width, height);
+            float most = 0;
+            for (const Vector3& p : mesh.positions) {
+                const Vector3 way = p - camera.eye();
+                const float depth = -dot(way, camera.backward());
+                ASSERT_GT(depth, 0);
+                for (const Vector3& axis : {camera.right(), camera.up()}) {
+                    most = std::max(most, std::abs(dot(way, axis)) / depth / camera.pixel());
+                }
+            }
+            // The shorter side decides, as a ball is round.
+            const auto smaller = static_cast<float>(std::min(width, height));
+            EXPECT_NEAR(most, smaller / 2 / 1.12F, 0.03F * smaller) << width << ' ' << half_field;
+        }
     }
 }
 

@@ -17,7 +17,6 @@ using namespace test;
 DrawOptions small_picture(std::int64_t side) {
     DrawOptions options;
     options.width = options.height = side;
-    options.samples = 2;
     options.view = {0, 0, {0, 0, 1}};
     options.ground = false;
     return options;

@@ -48,12 +48,24 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     EXPECT_EQ(to_json(request).find("bump"), std::string::npos);
     request.bump = -0.25F;
     request.view = {200, -10, {0, 0, 1}, true};
+    request.size = {1920, 1080};
+    request.quality = Quality::fine;
+    request.fov = 62.5F;
+    request.ground = false;
     const auto back = picture_request_from_json(to_json(request));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->bump, -0.25F);
     EXPECT_TRUE(back->view.is_turning);
     EXPECT_EQ(back->view.azimuth, 200.0F);
-    for (const char* wrong : {R"({"bump": 2})", R"({"bump": "a"})", R"({"turning": 3})"}) {
+    EXPECT_EQ(back->size, request.size);
+    EXPECT_EQ(back->quality, Quality::fine);
+    EXPECT_EQ(back->fov, 62.5F);
+    EXPECT_FALSE(back->ground);
+    EXPECT_EQ(to_json({}).find("fov"), std::string::npos);
+    for (const char* wrong :
+         {R"({"bump": 2})", R"({"bump": "a"})", R"({"turning": 3})", R"({"size": [0, 9]})",
+          R"({"size": [9]})", R"({"size": 9})", R"({"quality": "best"})", R"({"quality": 1})",
+          R"({"fov": 0})", R"({"fov": "a"})", R"({"ground": 2})"}) {
         EXPECT_FALSE(picture_request_from_json(wrong)) << wrong;
     }
 }

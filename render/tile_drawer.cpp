@@ -1,0 +1,349 @@
+// Few rays where the picture is even, more where it is not.
+//
+// Every pixel begins with one ray through its middle, which tests the sun and the sky once. The
+// tests of 5 × 5 pixels together are evenly spread over a light, so a window of them says how much
+// of it is hidden.
+// - Where pixels side by side see different things there is an edge: the pixel sends four rays or
+//   more, each of which tests both lights, until their mean is known well.
+// - Where only the colours differ, it sends rays in the same way, but they share its lights.
+// - Where a light is partly hidden around a pixel, it is tested more often.
+// - The visible part of a light varies slowly along a surface. Pixels use the mean over their
+//   neighbours on the same piece: of the sun, which throws outlines, only over the nearest.
+// - Where there are copies and edges all around, as in fur, no outline stands out: a pixel keeps to
+//   four rays, and takes the visible parts of the lights from the pixels around, too.
+#include "render/tile_drawer.h"
+
+#include "picture/srgb.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace cascade {
+
+namespace {
+
+constexpr int turn_side = 5;  ///< Pixels of a square that take turns in testing a light.
+constexpr int sun_reach = 1, sky_reach = 2;  ///< Pixels on each side whose tests count.
+constexpr std::uint32_t enough_tests = 16;   ///< Of a light that is partly hidden.
+/// Two hits whose normals have a smaller cosine are not on one piece of a surface.
+constexpr float least_cosine = 0.9F;
+constexpr float sharp_outline = 0.2F;     ///< Between a pixel's share of the sun and those around.
+constexpr float contrast_beside = 0.06F;  ///< Of tones side by side: above it, one ray is too few.
+
+void add(const Colour& light, float part, Colour& sum) {
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;
+}
+
+/// What eyes take for evenly spaced.
+Colour tone_of(const Colour& light) {
+    Colour tone{};
+    for (std::size_t c = 0; c < 3; ++c) tone[c] = std::sqrt(std::max(light[c], 0.0F));
+    return tone;
+}
+
+Colour light_of(const Seen& seen, float sun, float sky) {
+    Colour sum = seen.always;
+    add(seen.of_sun, sun, sum);
+    add(seen.of_sky, sky, sum);
+    return sum;
+}
+
+float contrast(const Colour& a, const Colour& b) {
+    float most = 0;
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(a[c] - b[c]));
+    return most;
+}
+
+/// The mean of lights, and how far it may be off.
+class Mean {
+public:
+    void add(const Colour& light) {
+        cascade::add(light, 1, sum_);
+        const Colour tone = tone_of(light);
+        for (std::size_t c = 0; c < 3; ++c) {
+            tones_[c] += tone[c];
+            squares_[c] += tone[c] * tone[c];
+        }
+        ++count_;
+    }
+    Colour light() const {
+        Colour mean{};
+        cascade::add(sum_, 1 / static_cast<float>(count_), mean);
+        return mean;
+    }
+    /// The standard error of the tone, as if rays were random.
+    float error() const {
+        const auto n = static_cast<float>(count_);
+        float most = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            most = std::max(most, squares_[c] / n - tones_[c] / n * (tones_[c] / n));
+        }
+        return std::sqrt(most / n);
+    }
+
+private:
+    Colour sum_{}, tones_{}, squares_{};
+    int count_ = 0;
+};
+
+}  // namespace
+
+TileDrawer::TileDrawer(const Tracer& tracer, const DrawOptions& options)
+    : tracer_(tracer), options_(options), effort_(effort_of(options.quality)) {}
+
+void TileDrawer::draw(std::int64_t left, std::int64_t top, Image& image) {
+    left_ = left - margin;
+    top_ = top - margin;
+    room_.assign(static_cast<std::size_t>(room_side * room_side), Pixel());
+    visit(margin, [&](Pixel& pixel) { look(pixel); });
+    visit(margin - 1, [&](Pixel& pixel) {
+        look_beside(pixel);
+        ask_more(Light::sky, pixel);
+    });
+    visit(sun_reach, [&](Pixel& pixel) { ask_more(Light::sun, pixel); });
+    visit(0, [&](Pixel& pixel) {
+        image.at(left_ + pixel.x, top_ + pixel.y) = stored_of(light_of_pixel(pixel));
+    });
+}
+
+/// The pixels of the tile, and those of the picture at most `around` beside it.
+template <typename Use>
+void TileDrawer::visit(std::int64_t around, const Use& use) {
+    const std::int64_t first = margin - around, last = margin + side + around;
+    for (std::int64_t y = std::max(first, -top_); y < std::min(last, options_.height - top_); ++y) {
+        for (std::int64_t x = std::max(first, -left_); x < std::min(last, options_.width - left_);
+             ++x) {
+            Pixel& pixel = room_[static_cast<std::size_t>(y * room_side + x)];
+            pixel.x = static_cast<std::int16_t>(x);
+            pixel.y = static_cast<std::int16_t>(y);
+            use(pixel);
+        }
+    }
+}
+
+/// The pixels of the picture in the square around a pixel, itself among them, within the room.
+template <typename Use>
+void TileDrawer::visit_around(const Pixel& pixel, int reach, const Use& use) {
+    const auto low = [](std::int64_t at, std::int64_t start) {
+        return std::max({at, -start, std::int64_t{0}});
+    };
+    const auto high = [](std::int64_t at, std::int64_t start, std::int64_t length) {
+        return std::min({at, length - start - 1, room_side - 1});
+    };
+    const std::int64_t right = high(pixel.x + reach, left_, options_.width);
+    const std::int64_t bottom = high(pixel.y + reach, top_, options_.height);
+    for (std::int64_t y = low(pixel.y - reach, top_); y <= bottom; ++y) {
+        for (std::int64_t x = low(pixel.x - reach, left_); x <= right; ++x) {
+            use(room_[static_cast<std::size_t>(y * room_side + x)]);
+        }
+    }
+}
+
+template <typename Use>
+void TileDrawer::visit_sides(const Pixel& pixel, const Use& use) const {
+    const std::size_t at = static_cast<std::size_t>(pixel.y * room_side + pixel.x);
+    if (left_ + pixel.x > 0) use(room_[at - 1]);
+    if (left_ + pixel.x + 1 < options_.width) use(room_[at + 1]);
+    if (top_ + pixel.y > 0) use(room_[at - room_side]);
+    if (top_ + pixel.y + 1 < options_.height) use(room_[at + room_side]);
+}
+
+/// `width` is that of what the ray stands for, in pixels.
+Seen TileDrawer::trace(const Pixel& pixel, Point place, float width) const {
+    return tracer_.trace(static_cast<float>(left_ + pixel.x) + place.x,
+                         static_cast<float>(top_ + pixel.y) + place.y, width);
+}
+
+TileDrawer::Tally TileDrawer::ask(Light light, const Seen& from, Point place) const {
+    const DiscPoint disc = on_disc(place);
+    const bool sees =
+        light == Light::sun ? tracer_.sees_sun(from, disc) : tracer_.sees_sky(from, disc);
+    return {1, sees ? std::uint16_t{1} : std::uint16_t{0}};
+}
+
+/// Neighbouring pixels ask for different parts of a light, and for others in each round.
+TileDrawer::Tally TileDrawer::ask_in_turn(Light light, const Pixel& pixel,
+                                          std::uint32_t round) const {
+    constexpr std::int64_t above_margin = turn_side;
+    const auto column = static_cast<std::uint32_t>((left_ + pixel.x + above_margin) % turn_side);
+    const auto row = static_cast<std::uint32_t>((top_ + pixel.y + above_margin) % turn_side);
+    const std::uint32_t number = (round * turn_side + row) * turn_side + column;
+    return ask(light, pixel.seen, even_point(number, 0, 0));
+}
+
+/// Whether two hits, in a pixel or in neighbouring ones, are on one piece of a surface.
+bool TileDrawer::is_one_piece(const Seen& a, const Seen& b) const {
+    if (a.kind != b.kind) return false;
+    if (a.kind != Seen::Kind::surface) return true;
+    const float near = 3 * tracer_.pixel_at(a.place);
+    return dot(a.normal, b.normal) >= least_cosine &&
+           std::abs(dot(a.normal, b.place - a.place)) <= near;
+}
+
+void TileDrawer::look(Pixel& pixel) {
+    pixel.seen = trace(pixel, {0.5F, 0.5F}, effort_.widest_ray());
+    pixel.tone = tone_of(light_of(pixel.seen, 1, 1));
+    if (pixel.seen.kind == Seen::Kind::background) return;
+    for (const Light light : {Light::sun, Light::sky}) {
+        pixel.first[light] = ask_in_turn(light, pixel, 0);
+    }
+}
+
+/// An edge that crosses a pixel lies between its middle and that of a pixel at one of its sides.
+void TileDrawer::look_beside(Pixel& pixel) {
+    const auto is_lit_alike = [&](const Pixel& other) {
+        return other.first.sun.seen == pixel.first.sun.seen &&
+               other.first.sky.seen == pixel.first.sky.seen;
+    };
+    visit_sides(pixel, [&](const Pixel& other) {
+        if (pixel.seen.kind != other.seen.kind) {
+            pixel.is_edge = true;
+            return;
+        }
+        const bool differs = contrast(other.tone, pixel.tone) > contrast_beside;
+        if (!differs && is_lit_alike(other)) return;
+        if (!is_one_piece(pixel.seen, other.seen)) pixel.is_edge = true;
+        else if (differs) pixel.is_varied = true;
+    });
+}
+
+void TileDrawer::ask_more(Light light, Pixel& pixel) {
+    pixel.all[light] = pixel.first[light];
+    if (pixel.seen.kind == Seen::Kind::background) return;
+    Tally around;
+    visit_around(pixel, turn_side / 2, [&](const Pixel& other) { around += other.first[light]; });
+    pixel.is_partly_hidden[light] = around.is_partial();
+    // Copies throw outlines on each other, but what they see of the sky is small and varied anyway.
+    if (!around.is_partial() || (pixel.seen.is_copy && light == Light::sky)) return;
+    const std::uint32_t tests = light == Light::sun ? effort_.sun_tests : effort_.sky_tests;
+    for (std::uint32_t round = 1; round < tests; ++round) {
+        pixel.all[light] += ask_in_turn(light, pixel, round);
+    }
+}
+
+Colour TileDrawer::light_of_pixel(Pixel& pixel) {
+    const bool is_even = !pixel.is_edge && !pixel.is_varied;
+    const bool one_is_enough = is_even && effort_.one_is_enough;
+    if (one_is_enough && pixel.seen.kind == Seen::Kind::background) return pixel.seen.always;
+    const auto shares_around = [&] {
+        return OfLights<float>{share_around(Light::sun, pixel, sun_reach),
+                               share_around(Light::sky, pixel, sky_reach)};
+    };
+    OfLights<float> shares;
+    if (!pixel.is_edge) {
+        shares = shares_around();
+        if (one_is_enough && !is_at_outline_of_shadow(pixel, shares.sun)) {
+            return light_of(pixel.seen, shares.sun, shares.sky);
+        }
+    }
+    const Rays rays = first_rays_of(pixel);
+    if (effort_.one_is_enough && is_in_thicket(pixel, rays)) return light_in_thicket(pixel, rays);
+    const bool is_torn =
+        pixel.is_edge && !std::all_of(rays.begin(), rays.end(), [&](const Seen& each) {
+            return is_one_piece(pixel.seen, each);
+        });
+    if (pixel.is_edge && !is_torn) shares = shares_around();
+    const bool is_at_outline = !is_torn && is_at_outline_of_shadow(pixel, shares.sun);
+    const Shifts shift = shifts(pixel);
+    const auto& [u, v, w, t] = shift.of_lights;
+    const auto shares_of = [&](const Seen& from, std::uint32_t k) -> OfLights<float> {
+        if (from.kind == Seen::Kind::background) return {};
+        OfLights<float> own = shares;
+        if (is_torn || is_at_outline) own.sun = ask(Light::sun, from, even_point(k, u, v)).share();
+        if (is_torn) own.sky = ask(Light::sky, from, even_point(k, w, t)).share();
+        return own;
+    };
+    // Four rays that agree may have missed an edge.
+    const std::uint32_t least = is_torn   ? 4 * first_rays
+                                : is_even ? first_rays
+                                          : std::max(first_rays, effort_.most_rays / 4);
+    return light_of_rays(pixel, rays, least, shares_of);
+}
+
+/// Whether its own tests agree, unlike those around. Where the sun sets slowly they do not.
+bool TileDrawer::is_at_outline_of_shadow(const Pixel& pixel, float share) const {
+    if (pixel.seen.kind == Seen::Kind::background || pixel.all.sun.is_partial()) return false;
+    return std::abs(pixel.all.sun.share() - share) > sharp_outline;
+}
+
+TileDrawer::Rays TileDrawer::first_rays_of(const Pixel& pixel) const {
+    Rays rays;
+    for (std::uint32_t k = 0; k < first_rays; ++k) rays[k] = trace(pixel, first_point(k), 0.5F);
+    return rays;
+}
+
+/// The visible part of a light.
+float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
+    if (pixel.seen.kind == Seen::Kind::background) return 1;
+    Tally sum;
+    visit_around(pixel, reach, [&](const Pixel& other) {
+        if (&other != &pixel && !is_one_piece(pixel.seen, other.seen)) return;
+        sum += other.all[light];
+    });
+    if (!pixel.is_partly_hidden[light]) return sum.share();
+    // On a narrow piece, its own tests go on where they ended.
+    Tally& own = pixel.all[light];
+    while (sum.asked < enough_tests) {
+        const Tally answer = ask_in_turn(light, pixel, own.asked);
+        own += answer;
+        sum += answer;
+    }
+    return sum.share();
+}
+
+/// Whether this pixel shows nothing but copies, and half of those around have edges.
+bool TileDrawer::is_in_thicket(const Pixel& pixel, const Rays& rays) {
+    if (!std::all_of(rays.begin(), rays.end(), [](const Seen& seen) { return seen.is_copy; })) {
+        return false;
+    }
+    int count = 0, edges = 0;
+    visit_around(pixel, 2, [&](const Pixel& other) {
+        ++count;
+        if (other.is_edge) ++edges;
+    });
+    return 2 * edges >= count;
+}
+
+/// Of four rays, with the shares of the lights that are seen from here and around.
+Colour TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
+    OfLights<Tally> tally;
+    for (const Light light : {Light::sun, Light::sky}) {
+        visit_around(pixel, light == Light::sun ? sun_reach : sky_reach, [&](const Pixel& other) {
+            if (other.seen.is_copy) tally[light] += other.first[light];
+        });
+    }
+    const Shifts shift = shifts(pixel);
+    const auto& [u, v, w, t] = shift.of_lights;
+    for (std::uint32_t k = 0; k < first_rays; ++k) {
+        if (k % 2 == 0) tally.sun += ask(Light::sun, rays[k], even_point(k, u, v));
+        else tally.sky += ask(Light::sky, rays[k], even_point(k, w, t));
+    }
+    Mean mean;
+    for (const Seen& seen : rays) {
+        mean.add(light_of(seen, tally.sun.share(), tally.sky.share()));
+    }
+    return mean.light();
+}
+
+/// The mean of rays through a pixel. `shares(seen, number)` says how much of the lights reaches
+/// what they see.
+template <typename Shares>
+Colour TileDrawer::light_of_rays(const Pixel& pixel, const Rays& first, std::uint32_t least,
+                                 const Shares& shares) {
+    const Shifts shift = shifts(pixel);
+    const float width = 1 / std::sqrt(static_cast<float>(effort_.most_rays));
+    Mean mean;
+    for (std::uint32_t k = 0; k < effort_.most_rays; ++k) {
+        const bool is_doubled = k >= least && std::has_single_bit(k);
+        if (is_doubled && mean.error() <= effort_.error) break;
+        const Seen seen =
+            k < first_rays ? first[k]
+                           : trace(pixel, even_point(k, shift.of_rays[0], shift.of_rays[1]), width);
+        const OfLights<float> parts = shares(seen, k);
+        mean.add(light_of(seen, parts.sun, parts.sky));
+    }
+    return mean.light();
+}
+
+}  // namespace cascade
