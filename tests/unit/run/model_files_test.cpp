@@ -25,7 +25,7 @@ TEST(ModelFiles, the_ending_says_what_a_file_holds) {
     for (const char* name : {"a.npz", "a.cells.vtp", "b/a.Cells.VTP"}) {
         EXPECT_EQ(output_kind(name), OutputKind::cells) << name;
     }
-    for (const char* name : {"a", "", "png", "a.stl", "a.png.bak", ".ply", "a."}) {
+    for (const char* name : {"a", "", "png", "a.fbx", "a.png.bak", ".ply", "a."}) {
         EXPECT_FALSE(output_kind(name)) << name;
     }
 }
