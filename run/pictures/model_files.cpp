@@ -14,9 +14,13 @@
 #include "surface/blur_cells.h"
 #include "surface/retile.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 namespace cascade {
@@ -34,6 +38,18 @@ std::string in_lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
+}
+
+/// A sentence about maps of this side that are far finer than what cells show; "" if they are not.
+std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
+    constexpr double most = 16, enough = 4;  // Along a side of a cell.
+    const double along = std::sqrt(texels_of_cell);
+    if (!(along > most)) return {};
+    const auto needed = static_cast<std::uint64_t>(static_cast<double>(side) * enough / along);
+    return fmt::format(
+        "a cell is {:.0f} texels wide in maps of {} texels: '--bake {}' shows as much, and more "
+        "cells show more",
+        along, side, std::bit_ceil(needed));
 }
 
 }  // namespace
@@ -191,6 +207,12 @@ Result<std::vector<std::filesystem::path>> ModelFileWriter::write_maps(
     if (!baked) return tl::unexpected(baked.error());
     for (const std::string& warning : baked->warnings) warnings_.push_back(warning);
     for (const std::string& doubt : look_.material.doubts) warnings_.push_back(doubt);
+    if (std::string doubt = describe_spare_texels(
+            options_.bake, baked->covered * static_cast<double>(options_.bake * options_.bake) /
+                               static_cast<double>(model_.count()));
+        !doubt.empty()) {
+        warnings_.push_back(std::move(doubt));
+    }
     if (auto done = cascade::write_maps(path, mesh_, *baked, texts_); !done) {
         return tl::unexpected(done.error());
     }
