@@ -30,6 +30,7 @@ constexpr std::uint32_t enough_tests = 16;   ///< Of a light that is partly hidd
 constexpr float least_cosine = 0.9F;
 constexpr float sharp_outline = 0.2F;     ///< Between a pixel's share of the sun and those around.
 constexpr float contrast_beside = 0.06F;  ///< Of tones side by side: above it, one ray is too few.
+constexpr float dark_share = 0.2F;        ///< Of the sky: below it, a pixel is in a crevice.
 
 void add(const Colour& light, float part, Colour& sum) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;
@@ -215,8 +216,12 @@ void TileDrawer::ask_more(Light light, Pixel& pixel) {
     visit_around(pixel, turn_side / 2, [&](const Pixel& other) { around += other.first[light]; });
     pixel.is_partly_hidden[light] = around.is_partial();
     // Copies throw outlines on each other, but what they see of the sky is small and varied anyway.
-    if (!around.is_partial() || (pixel.seen.is_copy && light == Light::sky)) return;
-    const std::uint32_t tests = light == Light::sun ? effort_.sun_tests : effort_.sky_tests;
+    if (pixel.seen.is_copy && light == Light::sky) return;
+    // In a crevice hardly anything of the sky is seen, and noise stands out most where it is dark.
+    const bool is_dark = light == Light::sky && around.share() < dark_share;
+    if (!around.is_partial() && !is_dark) return;
+    const std::uint32_t tests =
+        light == Light::sun ? effort_.sun_tests : (is_dark ? 4 : 1) * effort_.sky_tests;
     for (std::uint32_t round = 1; round < tests; ++round) {
         pixel.all[light] += ask_in_turn(light, pixel, round);
     }

@@ -27,7 +27,7 @@ list(APPEND CASCADE_WITHOUT
   picture/write_drawing
   render/ray_caster
   run/domain/free_memory
-  run/pictures/frame_folder run/pictures/frames run/pictures/model_files
+  run/pictures/frame_folder run/pictures/frames run/pictures/model_files run/pictures/series
   run/session/session
   run/commands/.* run/emit_c/.*
   view/admission view/carried view/local_server view/outbox view/page_requests view/page_server
