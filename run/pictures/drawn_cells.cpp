@@ -29,9 +29,10 @@ namespace {
 constexpr double longest_facet = 2 * largest_of_shape;
 
 /// The settings of the picture block that are numbers of every shape.
-enum Measure : std::size_t { width, length, height, tilt, measure_count };
-constexpr std::array<std::string_view, measure_count> measure_names{"width", "length", "height",
-                                                                    "tilt"};
+struct Measure {
+    enum Kind : std::size_t { width, length, height, tilt };
+};
+constexpr std::array<std::string_view, 4> measure_names{"width", "length", "height", "tilt"};
 
 /// The values of settings of the picture block that are numbers, in the order of the cells'
 /// numbers; empty where the script does not say one.
@@ -224,12 +225,12 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
         names.push_back(placed.form.quantities[item].name);
     }
     std::vector<std::vector<double>> numbers = numbers_of(script, simulation, stage, names);
-    const auto measure = [&](Measure which, std::size_t k, double otherwise) {
+    const auto measure = [&](Measure::Kind which, std::size_t k, double otherwise) {
         return numbers[which].empty() ? otherwise : numbers[which][k];
     };
     std::vector<QuantityValues> values;
     for (std::size_t k = 0; k < quantities.size(); ++k) {
-        std::vector<double>& of_cells = numbers[measure_count + k];
+        std::vector<double>& of_cells = numbers[measure_names.size() + k];
         if (!of_cells.empty()) values.push_back({quantities[k], std::move(of_cells)});
     }
     CellShapes shapes = shapes_of(placed.form, values, tissue.count());
@@ -247,11 +248,12 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
     }
     for (std::size_t k = 0; k < tissue.count(); ++k) {
         Placement placement;
-        const double wide = measure(width, k, 2 * frames.radii[k]);
+        const double wide = measure(Measure::width, k, 2 * frames.radii[k]);
         const FileShape* const model = placed.file.get();
-        const double high = measure(height, k, model ? wide * model->height : frames.radii[k]);
+        const double high =
+            measure(Measure::height, k, model ? wide * model->height : frames.radii[k]);
         placement.scale = {wide / 2, high,
-                           measure(length, k, model ? wide * model->length : wide) / 2};
+                           measure(Measure::length, k, model ? wide * model->length : wide) / 2};
         placement.place = frames.places[k];
         const auto is_size = [](double size) { return size > 0 && std::isfinite(size); };
         if (!is_size(placement.scale.x) || !is_size(placement.scale.y) ||
@@ -259,7 +261,7 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
             continue;
         }
         placement.turn = frames.turns[k];
-        const double angle = measure(tilt, k, 0);
+        const double angle = measure(Measure::tilt, k, 0);
         if (std::isfinite(angle)) placement.turn = placement.turn * leaning(angle);
         const std::uint32_t of_cell = shapes.shared.of_cells[k];
         if (of_cell == SharedShapes::none || !shapes.faults[of_cell].empty()) {

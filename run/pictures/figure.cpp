@@ -16,8 +16,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double side = 480;  // Of the longer side of a picture.
-constexpr double least = 40;  // Of the shorter one.
+constexpr double figure_side = 480, least_figure_side = 40;  // Of pictures.
 constexpr double title_height = 44, margin = 24;
 constexpr double numbers_left = 76, numbers_below = 52;
 constexpr double bar_gap = 22, bar_width = 15, bar_numbers = 76;
@@ -28,8 +27,9 @@ struct Size {
 };
 
 Size shown_size(double width, double height) {
-    const double scale = side / std::max(width, height);
-    return {std::max(least, width * scale), std::max(least, height * scale)};
+    const double scale = figure_side / std::max(width, height);
+    return {std::max(least_figure_side, width * scale),
+            std::max(least_figure_side, height * scale)};
 }
 
 void add_text(Drawing& drawing, DrawnPoint place, std::string text, DrawnText::Anchor anchor) {

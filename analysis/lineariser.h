@@ -1,0 +1,84 @@
+// Walks the formulas of rates once: the flat value of each part, and how it changes with waves
+// (internal to the linear model).
+#pragma once
+
+#include "analysis/linear_model.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+namespace cascade::analysis {
+
+/// The coefficients of products of operators.
+using Slope = std::map<OperatorProduct, NodeId>;
+using Slopes = std::vector<Slope>;  ///< By variable.
+
+/// A part of the rates about a flat state.
+struct LinearPart {
+    std::array<NodeId, 3> value{};  ///< Of a number the first; the components of a vector.
+    TensorMatrix matrix{};          ///< Of a tensor.
+    Slopes slopes;                  ///< Of a number.
+    /// Of a vector, by the axis across which faces lie, and by component.
+    std::array<std::array<Slopes, 3>, 3> at_faces;
+};
+
+/// Writes formulas, kernels and what it notices into a model, whose species, unknowns and starting
+/// values are known.
+class Lineariser {
+public:
+    explicit Lineariser(LinearModel& model);
+
+    /// Adds a node after its operands; fails with words for the user.
+    Result<void> add(const Node& node);
+    const LinearPart& operator[](NodeId id) const { return parts_[id]; }
+
+private:
+    using Part = LinearPart;
+    using Kind = WaveOperator::Kind;
+
+    Part nothing() const;
+    const Part& part(const Node& node, std::size_t n) const { return parts_[node.operands[n]]; }
+    Node of_values(const Node& node) const;
+    void add(Slopes& sum, const Slopes& slopes, NodeId factor);
+    Slopes through(const Slopes& slopes, Kind kind, std::size_t axis = 0) const;
+
+    Result<void> add_item(ItemId item, Part& part);
+    Result<NodeId> parameter(ItemId item);
+    void add_unknown(Unknown unknown, Part& part);
+    Result<void> add_builtin(Builtin builtin);
+    Result<void> add_call(const Node& node, Part& part);
+    Result<void> add_aggregate(const Node& node, Part& part);
+    Result<void> add_convolution(const Node& node, Part& part);
+    Result<std::size_t> kernel_of(const Node& node);
+    void add_advection(const Node& node, Part& part);
+    void add_transport(const Node& node, Part& part);
+    void add_diffusion(const Node& node, Part& part);
+    Result<void> add_function(const Node& node, Part& part);
+    Result<void> without_rule(const Node& node) const;
+
+    // Vectors and tensors (linear_vectors.cpp).
+    template <typename Act>
+    void at_each_face(const Act& act) const;
+    Result<void> add_tensor(const Node& node, Part& part);
+    Result<void> add_vector(const Node& node, Part& part);
+    void combine(Part& sum, const Part& vector, NodeId factor);
+    void scale(Part& product, const Part& vector, NodeId factor, const Slopes& slopes, NodeId by);
+    void turn(Part& product, const Part& tensor, const Part& vector);
+
+    LinearModel& model_;
+    Algebra& algebra_;
+    NodeId zero_, one_;
+    Slopes flat_;  ///< Of what does not change.
+    std::array<bool, 3> axes_;
+    IdVector<NodeId, Part> parts_;
+    IdVector<NodeId, ValueType> types_;
+};
+
+inline bool is_flat(const Slopes& slopes) {
+    return std::all_of(slopes.begin(), slopes.end(),
+                       [](const Slope& slope) { return slope.empty(); });
+}
+
+}  // namespace cascade::analysis
