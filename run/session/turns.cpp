@@ -13,6 +13,13 @@
 namespace cascade {
 namespace {
 
+/// What is shown of the cells themselves: of a volume a slice, also where its picture is a body.
+PictureRequest cells_of(std::string expression) {
+    PictureRequest request = picture_of(std::move(expression));
+    request.flat = true;
+    return request;
+}
+
 using Seconds = std::chrono::duration<double>;
 
 /// Steps are taken for about this long before the queue is looked at.
@@ -63,7 +70,7 @@ Accepted<void> Turns::carry_out(const SessionCommand& command) {
         return run_->redo(control_);
     }
     if (const auto* show = std::get_if<Show>(&command)) {
-        auto made = make_painter(*run_, picture_of(show->expression));
+        auto made = make_painter(*run_, cells_of(show->expression));
         if (!made) return tl::unexpected(std::move(made.error()));
         shown_ = show->expression;
         painter_ = std::move(*made);
@@ -123,9 +130,9 @@ bool Turns::is_snapshot_due() const {
 
 Canvas Turns::canvas() {
     if (painted_script_ != &run_->script()) {
-        auto made = make_painter(*run_, picture_of(shown_));
+        auto made = make_painter(*run_, cells_of(shown_));
         // The expression may have lost its meaning with the old script.
-        painter_ = made ? std::move(*made) : std::move(*make_painter(*run_, {}));
+        painter_ = made ? std::move(*made) : std::move(*make_painter(*run_, cells_of("")));
         painted_script_ = &run_->script();
     }
     painter_->set_slice(slice_);

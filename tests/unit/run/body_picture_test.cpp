@@ -6,7 +6,7 @@
 #include "mesh/model_file.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/painter.h"
-#include "run/pictures/picture_remarks.h"
+#include "run/session/turns.h"
 #include "unit/run/ran_text.h"
 
 #include <gtest/gtest.h>
@@ -123,6 +123,22 @@ TEST(BodyPicture, IsTheSameInFrames) {
                      });
     EXPECT_TRUE(drawn_again);
     EXPECT_EQ(seen, 1U);
+}
+
+/// The page of `cascade view` shows slices.
+TEST(BodyPicture, LeavesSnapshotsOfSessionsTheirCells) {
+    Script script = load_script("test", ball("body: u; color: rgb(1, x, 0)"), ".");
+    RunControl control;
+    auto run = LiveRun::begin(std::move(script), {BackendKind::interpreter, 0, 1}, control);
+    ASSERT_TRUE(run);
+    Turns turns(std::move(*run));
+    for (const char* const shown : {"", "u"}) {
+        ASSERT_TRUE(turns.obey(Show{shown}));
+        const auto snapshot = turns.snapshot();
+        ASSERT_TRUE(snapshot);
+        EXPECT_EQ(snapshot->fields[0].layout().width, 24);
+        EXPECT_EQ(snapshot->fields[0].layout().height, 24);
+    }
 }
 
 TEST(BodyPicture, IsWrittenInUnitsOfTheGrid) {
