@@ -53,21 +53,18 @@ std::vector<std::string> files_in(const std::filesystem::path& list) {
     return files;
 }
 
-std::uint32_t shown_stage_of(const Simulation& simulation) {
-    return simulation.shown_stage().value_or(0);
-}
-
 /// The time of all stages up to the one that is shown.
 double time_since_start(const Simulation& simulation) {
     double time = 0;
-    for (std::uint32_t k = 0; k <= shown_stage_of(simulation); ++k) time += time_of(simulation, k);
+    const std::uint32_t last = simulation.shown_stage().value_or(0);
+    for (std::uint32_t k = 0; k <= last; ++k) time += time_of(simulation, k);
     return time;
 }
 
 }  // namespace
 
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation) {
-    const std::uint32_t stage = shown_stage_of(simulation);
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const System& system = simulation.program().system_of(stage);
     const DomainMask* mask = simulation.mask();
     std::deque<Field> copies;
@@ -132,7 +129,7 @@ Result<void> SeriesWriter::write_surface(const std::filesystem::path& path,
                                          const Simulation& simulation) {
     const ModelCells& model = *simulation.model();
     if (!surface_) surface_ = std::make_unique<Surface>(model);
-    const std::uint32_t stage = shown_stage_of(simulation);
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const System& system = simulation.program().system_of(stage);
     std::vector<Channel> channels;
     for (const ItemId item : system.species()) {
