@@ -107,8 +107,7 @@ std::vector<double> LocalRates::inputs(const Vector& species) const {
     std::vector<double> inputs(species.begin(), species.end());
     inputs.insert(inputs.end(), varied_.begin(), varied_.end());
     for (const auto& kernel : kernels_) {
-        inputs.push_back(kernel ? kernel->symbol({}).real()
-                                : std::numeric_limits<double>::quiet_NaN());
+        inputs.push_back(kernel ? kernel->sum() : std::numeric_limits<double>::quiet_NaN());
     }
     inputs.resize(inputs.size() + model_.unknowns.size(), 0.0);
     return inputs;

@@ -28,6 +28,7 @@ WaveKernel::WaveKernel(const WeightedLags& weighted) {
         weights_[static_cast<std::size_t>(row * size_[0] + x - low_[0])] += weighted.weights[n];
         magnitude_ += std::abs(weighted.weights[n]);
     }
+    sum_ = symbol({}).real();
 }
 
 Complex WaveKernel::symbol(const Phases& phases) const {

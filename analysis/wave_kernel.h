@@ -23,11 +23,14 @@ public:
 
     /// Σ weight · exp(i θ·lag), by which a convolution multiplies the wave exp(i θ·n).
     Complex symbol(const Phases& phases) const;
+    /// The sum of all weights.
+    double sum() const { return sum_; }
 
 private:
     std::array<std::int64_t, 3> low_{}, size_{};  ///< Of the box, along each axis.
     std::vector<double> weights_;                 ///< Of all lags in the box: x first, z last.
     double magnitude_ = 0;                        ///< Of all weights together.
+    double sum_ = 0;
 };
 
 /// Those of a model, by their numbers.

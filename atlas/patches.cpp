@@ -21,7 +21,7 @@ constexpr double most_bent = 0.64;      ///< The cosine of 50°.
 constexpr double bent_share = 0.05;     ///< Of a patch's area may be beyond it.
 constexpr double least_divided = 5e-4;  ///< Smaller patches are left as they are.
 constexpr int most_rounds = 40, settling_rounds = 3, most_passes = 8;
-constexpr std::ptrdiff_t enough = 10;  ///< One patch in so many may bend too much.
+constexpr std::ptrdiff_t enough = 10;  ///< At most one patch in ten may stay bent.
 
 struct Seed {
     std::uint32_t node = 0;

@@ -24,7 +24,7 @@ constexpr std::optional<Quality> quality_named(std::string_view name) {
     return std::nullopt;
 }
 
-/// The numbers behind a quality. A test is a ray towards a light.
+/// The limits and counts of rays of each quality. A test is a ray towards a light.
 struct Effort {
     /// One ray is enough for a pixel where the picture is even. Others have four, and then twice as
     /// many until they agree or are `most_rays`, a power of 2.
@@ -35,7 +35,7 @@ struct Effort {
     /// Tests of a pixel where a light is partly hidden; its neighbours' count, too.
     std::uint32_t sun_tests = 8, sky_tests = 3;
 
-    /// The width of what a pixel's first ray stands for, in pixels.
+    /// The width of the area that the first ray of a pixel samples, in pixels.
     float widest_ray() const { return one_is_enough ? 1.0F : 0.5F; }
 };
 

@@ -150,7 +150,7 @@ void TileDrawer::visit_sides(const Pixel& pixel, const Use& use) const {
     if (top_ + pixel.y + 1 < options_.height) use(room_[at + room_side]);
 }
 
-/// `width` is that of what the ray stands for, in pixels.
+/// `width` is the width of the area that the ray samples, in pixels.
 Seen TileDrawer::trace(const Pixel& pixel, Point place, float width) const {
     return tracer_.trace(static_cast<float>(left_ + pixel.x) + place.x,
                          static_cast<float>(top_ + pixel.y) + place.y, width);

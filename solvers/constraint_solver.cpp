@@ -278,7 +278,7 @@ void ConstraintSolver<Number>::find_stencil(Worker& worker) {
     worker.team.barrier();
 }
 
-/// The inverse of what the stencil multiplies each wave of a block by, by line and wave.
+/// The reciprocal of the symbol of the stencil for each wave of a block, by line and wave.
 template <typename Number>
 void ConstraintSolver<Number>::find_factors(const WaveBlock<Number>& block, Number* factors) const {
     double size = 0;

@@ -254,6 +254,17 @@ void check_maps_without_model(OptionRefuser& options, const RunRequest& request)
     }
 }
 
+/// What is done with the cells of a model alone.
+void check_cells_of_model(OptionRefuser& options, const RunRequest& request) {
+    for (const auto& [option, is_given] :
+         {std::pair("--retile", request.model_files.retile),
+          std::pair("--bump", request.picture.bump != 0),
+          std::pair("--cache", !request.simulation.cell_cache.empty())}) {
+        options.refuse_if(is_given, option, std::string(not_a_model),
+                          std::string(how_to_get_a_model));
+    }
+}
+
 /// A body has a surface and no cells on it.
 void check_of_body(OptionRefuser& options, const RunRequest& request) {
     for (const auto& output : request.outputs) {
@@ -262,13 +273,7 @@ void check_of_body(OptionRefuser& options, const RunRequest& request) {
                        "--volume FILE.vti has all species of a volume");
     }
     check_maps_without_model(options, request);
-    for (const auto& [option, is_given] :
-         {std::pair("--retile", request.model_files.retile),
-          std::pair("--bump", request.picture.bump != 0),
-          std::pair("--cache", !request.simulation.cell_cache.empty())}) {
-        options.refuse_if(is_given, option, std::string(not_a_model),
-                          std::string(how_to_get_a_model));
-    }
+    check_cells_of_model(options, request);
 }
 
 /// Options that apply to models only. A plane has maps, too.
@@ -285,9 +290,7 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
                        "only what grows on a model is written so, and " + message,
                        has_maps ? "--bake N writes a rectangle with maps of N texels" : hint);
     }
-    options.refuse_if(request.model_files.retile, "--retile", message, hint);
-    options.refuse_if(request.picture.bump != 0, "--bump", message, hint);
-    options.refuse_if(!request.simulation.cell_cache.empty(), "--cache", message, hint);
+    check_cells_of_model(options, request);
     if (!is_plane) return check_maps_without_model(options, request);
     options.refuse_if(request.model_files.unwrap, "--unwrap", message, hint);
     options.refuse_if(request.model_files.bake > 0 && !has_model, "--bake",

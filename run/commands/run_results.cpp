@@ -91,20 +91,17 @@ Result<void> RunResults::write_turntable(const std::filesystem::path& path, cons
     return done;
 }
 
+/// Has --show asked for a number?
+bool RunResults::shows_number(const Canvas& canvas) const {
+    return !request.picture.show.empty() && !canvas.is_colour();
+}
+
 /// The channels of model files: the species of the stage that is shown, and the number of --show.
 std::vector<Channel> RunResults::channels(const Canvas& canvas) const {
     const ModelCells& model = *simulation.model();
-    std::vector<Channel> channels;
-    const auto add = [&](std::string name, const Field& field) {
-        const std::vector<double> values = cell_values(field, model);
-        channels.push_back({std::move(name), std::vector<float>(values.begin(), values.end())});
-    };
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const System& system = script.program->system_of(stage);
-    for (const ItemId item : system.species()) {
-        add(std::string(system.item_name(item)), simulation.state(stage).field(item));
-    }
-    if (!request.picture.show.empty() && !canvas.is_colour()) add("shown", canvas.fields[0]);
+    const auto numbers = [&](const Field& field) { return numbers_of_cells(field, model); };
+    std::vector<Channel> channels = species_channels(simulation, numbers);
+    if (shows_number(canvas)) channels.push_back({"shown", numbers(canvas.fields[0])});
     return channels;
 }
 
@@ -160,19 +157,13 @@ Result<void> RunResults::write_cell_files(const Canvas& canvas) {
 Result<void> RunResults::write_body_files(const Canvas& canvas) {
     const SurfaceMesh& body = *canvas.body;
     const Grid& grid = simulation.grid();
-    std::vector<Channel> channels;
-    const auto add = [&](std::string name, const Field& row) {
-        const auto& plane = row.plane();
-        channels.push_back(
-            {std::move(name), std::vector<float>(plane.row(0), plane.row(0) + body.points.size())});
+    const auto numbers = [&](const Field& row) {
+        return std::vector<float>(row.row(0), row.row(0) + body.points.size());
     };
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const System& system = script.program->system_of(stage);
-    for (const ItemId item : system.species()) {
-        add(std::string(system.item_name(item)),
-            at_points(simulation.state(stage).field(item), body, grid.boundary));
-    }
-    if (!request.picture.show.empty() && !canvas.is_colour()) add("shown", canvas.fields[0]);
+    std::vector<Channel> channels = species_channels(simulation, [&](const Field& field) {
+        return numbers(at_points(field, body, grid.boundary));
+    });
+    if (shows_number(canvas)) channels.push_back({"shown", numbers(canvas.fields[0])});
     const std::vector<Colour> colours = painter.colours_of_row(canvas);
     return write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
         auto done = write_body(path, body, grid, colours, channels);

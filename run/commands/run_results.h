@@ -53,6 +53,7 @@ private:
     Result<void> write_body_files(const Canvas& canvas);
     Result<void> write_plane_files(const Canvas& canvas);
     std::vector<Channel> channels(const Canvas& canvas) const;
+    bool shows_number(const Canvas& canvas) const;
     bool has(OutputKind kind) const;
     void say(std::string what) const;
     Result<void> write_frames();

@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -33,12 +32,6 @@ constexpr double colour_distance = 0.75;
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
 
 static_assert(ModelFileOptions::most_texels == BakeOptions::largest_texture);
-
-std::string in_lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// A sentence about maps of this side that are far finer than what cells show; "" if they are not.
 std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
@@ -55,12 +48,12 @@ std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
 }  // namespace
 
 std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
-    const std::string ending = in_lower_case(path.extension().string());
+    const std::string ending = lower_ending(path);
     if (ending == ".png") return OutputKind::picture;
     if (ending == ".svg" || ending == ".pdf") return OutputKind::figure;
     if (film_format(path)) return OutputKind::film;
     if (ending == ".npz") return OutputKind::cells;
-    if (ending == ".vtp" && in_lower_case(path.stem().extension().string()) == ".cells") {
+    if (ending == ".vtp" && lower_ending(path.stem()) == ".cells") {
         return OutputKind::cells;
     }
     if (is_model_ending(path)) return OutputKind::model;
@@ -68,7 +61,7 @@ std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
 }
 
 bool holds_texture(const std::filesystem::path& path) {
-    const std::string ending = in_lower_case(path.extension().string());
+    const std::string ending = lower_ending(path);
     return ending == ".glb" || ending == ".obj" || ending == ".ply";
 }
 
@@ -77,7 +70,7 @@ RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cel
 }
 
 bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
-    return bake > 0 && in_lower_case(path.extension().string()) == ".glb";
+    return bake > 0 && lower_ending(path) == ".glb";
 }
 
 Result<MeshTexture> made_texture(const SurfaceMesh& mesh, const ModelFileOptions& options,
@@ -207,12 +200,10 @@ Result<std::vector<std::filesystem::path>> ModelFileWriter::write_maps(
     if (!baked) return tl::unexpected(baked.error());
     for (const std::string& warning : baked->warnings) warnings_.push_back(warning);
     for (const std::string& doubt : look_.material.doubts) warnings_.push_back(doubt);
-    if (std::string doubt = describe_spare_texels(
-            options_.bake, baked->covered * static_cast<double>(options_.bake * options_.bake) /
-                               static_cast<double>(model_.count()));
-        !doubt.empty()) {
-        warnings_.push_back(std::move(doubt));
-    }
+    const double texels = baked->covered * static_cast<double>(options_.bake * options_.bake);
+    std::string doubt =
+        describe_spare_texels(options_.bake, texels / static_cast<double>(model_.count()));
+    if (!doubt.empty()) warnings_.push_back(std::move(doubt));
     if (auto done = cascade::write_maps(path, mesh_, *baked, texts_); !done) {
         return tl::unexpected(done.error());
     }

@@ -63,6 +63,22 @@ double time_since_start(const Simulation& simulation) {
 
 }  // namespace
 
+std::vector<Channel> species_channels(const Simulation& simulation, const FieldNumbers& numbers) {
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const System& system = simulation.program().system_of(stage);
+    std::vector<Channel> channels;
+    for (const ItemId item : system.species()) {
+        channels.push_back(
+            {std::string(system.item_name(item)), numbers(simulation.state(stage).field(item))});
+    }
+    return channels;
+}
+
+std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model) {
+    const std::vector<double> values = cell_values(field, model);
+    return {values.begin(), values.end()};
+}
+
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation) {
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const System& system = simulation.program().system_of(stage);
@@ -129,14 +145,9 @@ Result<void> SeriesWriter::write_surface(const std::filesystem::path& path,
                                          const Simulation& simulation) {
     const ModelCells& model = *simulation.model();
     if (!surface_) surface_ = std::make_unique<Surface>(model);
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const System& system = simulation.program().system_of(stage);
-    std::vector<Channel> channels;
-    for (const ItemId item : system.species()) {
-        const auto values = cell_values(simulation.state(stage).field(item), model);
-        channels.push_back({std::string(system.item_name(item)),
-                            std::vector<float>(values.begin(), values.end())});
-    }
+    const auto channels = species_channels(simulation, [&](const Field& field) {
+        return numbers_of_cells(field, model);
+    });
     const auto at_points =
         values_at(surface_->refined.places, surface_->filter, channels, surface_->team);
     return write_model(path, surface_->refined.mesh, {{}, at_points});

@@ -2,14 +2,23 @@
 #pragma once
 
 #include "core/result.h"
+#include "export/channels.h"
 #include "run/simulation/simulation.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace cascade {
+
+/// The numbers of a field in a file.
+using FieldNumbers = std::function<std::vector<float>(const Field& field)>;
+/// A channel for each species of the stage that is shown, with these numbers of its field.
+std::vector<Channel> species_channels(const Simulation& simulation, const FieldNumbers& numbers);
+/// The numbers of a field at the cells of a model, in the order of files.
+std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model);
 
 /// Writes the species of the stage that is shown, on a grid, as write_vti() does: cells outside of
 /// the mask are hidden.
