@@ -114,11 +114,13 @@ const std::string_view format_examples = R"(Examples:
 Comments stay, and so does what an author has lined up. A script that cannot be read is left alone.)";
 
 const std::string_view mesh =
-    "Describes 3-D models, and what has to be repaired in them; makes texture coordinates.";
+    "Describes 3-D models, and what has to be repaired in them; writes them refined, simplified or "
+    "with texture coordinates.";
 const std::string_view mesh_examples = R"(Examples:
   cascade mesh horse.ply
   cascade mesh *.obj --cells 4000                    with cells spread over each
   cascade mesh horse.ply --unwrap -o horse.glb       with texture coordinates
+  cascade mesh horse.ply --simplify 5000 -o low.obj  with fewer triangles
 PLY, OBJ, OFF, STL, glTF and GLB are read.)";
 
 const std::string_view repl = "The language line by line, with pictures in the terminal.";

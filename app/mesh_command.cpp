@@ -1,4 +1,4 @@
-// `cascade mesh`: describes 3-D models and gives them texture coordinates.
+// `cascade mesh`: describes 3-D models and writes them, repaired, refined, simplified or unwrapped.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
@@ -25,9 +25,7 @@ public:
         auto made = read_and_repair(model, options_.overrides.reads);
         if (!made) return tl::unexpected(made.error());
         std::vector<std::string> lines = describe_model(*made);
-        if (options_.mesh_files.unwrap) {
-            if (auto done = unwrap(made->mesh, lines); !done) return in_model(model, done.error());
-        }
+        if (auto done = change(made->mesh, lines); !done) return in_model(model, done.error());
         if (cells_) {
             auto about = describe_cells(made->mesh, *cells_, team_, cancel_);
             if (!about) return in_model(model, about.error());
@@ -44,13 +42,20 @@ private:
         return failure("'" + model + "': " + why.message, why.hint);
     }
 
-    Result<void> unwrap(SurfaceMesh& mesh, std::vector<std::string>& lines) {
-        auto texture = made_texture(mesh, options_.mesh_files, team_, cancel_);
-        if (!texture) return tl::unexpected(texture.error());
-        if (cancel_) return {};
-        mesh.texture = *std::move(texture);
-        lines.push_back("made " + describe_texture(mesh));
-        if (options_.mesh_output.empty()) return {};
+    /// As the options say, and writes the result.
+    Result<void> change(SurfaceMesh& mesh, std::vector<std::string>& lines) {
+        auto reshaped =
+            enough_memory_for([&] { return reshape(mesh, options_.reshaping, cancel_); },
+                              "there is not enough memory to change its triangles");
+        if (!reshaped) return tl::unexpected(reshaped.error());
+        lines.insert(lines.end(), reshaped->begin(), reshaped->end());
+        if (options_.mesh_files.unwrap && !cancel_) {
+            auto texture = made_texture(mesh, options_.mesh_files, team_, cancel_);
+            if (!texture) return tl::unexpected(texture.error());
+            mesh.texture = *std::move(texture);
+            if (!cancel_) lines.push_back("made " + describe_texture(mesh));
+        }
+        if (options_.mesh_output.empty() || cancel_) return {};
         auto done = write_plain_model(options_.mesh_output, mesh);
         if (done) lines.push_back("written to " + options_.mesh_output.string());
         return done;
@@ -70,11 +75,12 @@ std::optional<Failure> misuse(const Options& options) {
         return Failure{"--seed means nothing without a number of --cells", ""};
     }
     if (options.mesh_output.empty()) return std::nullopt;
-    if (!options.mesh_files.unwrap) {
-        return Failure{"-o means nothing without --unwrap", ""};
-    }
     if (options.models.size() > 1) {
         return Failure{"-o is the file of one model, and several are given", ""};
+    }
+    if (options.mesh_files.unwrap && !holds_texture(options.mesh_output)) {
+        return Failure{"'" + options.mesh_output.string() + "' cannot hold texture coordinates",
+                       ".glb, .obj and .ply files can"};
     }
     return std::nullopt;
 }

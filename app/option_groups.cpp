@@ -332,10 +332,17 @@ void add_mesh(CLI::App& app, Options& options) {
         app, options.overrides.reads,
         "Buffers of glTF files may lie below this folder too, not\nonly below the model's; "
         "'all': everywhere; may be given\nagain");
+    add_value(app, "--subdivide", "N",
+              "Make four smaller triangles of each one, N times over, on a\nsmooth surface",
+              whole_number(1, 8),
+              [&](auto times) { options.reshaping.subdivide = static_cast<int>(times); });
+    add_value(app, "--simplify", "N", "Leave about N triangles, where the shape needs them most",
+              whole_number(1, std::numeric_limits<std::int32_t>::max()),
+              [&](auto count) { options.reshaping.simplify = static_cast<std::size_t>(count); });
     app.add_flag("--unwrap", options.mesh_files.unwrap,
                  "Make texture coordinates: charts of little distortion,\npacked into one texture");
-    add_value(app, "-o,--output", "FILE", "The model with them: .glb, .obj or .ply",
-              parse_textured_path, [&](auto path) { options.mesh_output = path; });
+    add_value(app, "-o,--output", "FILE", "The repaired model: .glb, .obj, .ply, .vtp or .stl",
+              parse_model_path, [&](auto path) { options.mesh_output = path; });
     add_value(app, "--cells", "N|faces|vertices",
               "Spread N cells over the surface, or make cells of the\n"
               "model's faces or points, and describe them",

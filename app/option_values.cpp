@@ -261,10 +261,10 @@ Result<std::string> parse_png_path(std::string_view text) {
     return path_with_ending(text, ".png", "pictures are written as PNG files");
 }
 
-Result<std::string> parse_textured_path(std::string_view text) {
-    if (holds_texture(std::filesystem::path(text))) return std::string(text);
-    return failure(fmt::format("'{}' has no ending of a model with texture coordinates", text),
-                   "these endings are .glb, .obj and .ply");
+Result<std::string> parse_model_path(std::string_view text) {
+    if (output_kind(std::filesystem::path(text)) == OutputKind::model) return std::string(text);
+    return failure(fmt::format("'{}' has no ending of a model that is written", text),
+                   "these endings are .glb, .obj, .ply, .vtp and .stl");
 }
 
 Result<std::string> parse_film_path(std::string_view text) {

@@ -70,8 +70,8 @@ Result<float> parse_bump(std::string_view text);
 Result<std::string> parse_output_path(std::string_view text);
 /// The path of a picture; it must end in .png.
 Result<std::string> parse_png_path(std::string_view text);
-/// A model with texture coordinates.
-Result<std::string> parse_textured_path(std::string_view text);
+/// The path of a model without a pattern; see is_model_ending().
+Result<std::string> parse_model_path(std::string_view text);
 /// The path of a film; see film_format() for the endings.
 Result<std::string> parse_film_path(std::string_view text);
 /// The path of a volume; it must end in .vti.

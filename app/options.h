@@ -8,6 +8,7 @@
 #include "run/commands/run.h"
 #include "run/commands/sweep.h"
 #include "run/domain/describe_model.h"
+#include "run/domain/reshape_model.h"
 #include "run/emit_c/compile.h"
 #include "run/script/picture_request.h"
 #include "run/script/script.h"
@@ -87,6 +88,7 @@ struct Options {
     std::vector<std::string> models;                       ///< Arguments of `mesh`.
     std::optional<CellOptions> cells;                      ///< `mesh --cells`.
     std::optional<std::uint32_t> cell_seed;                ///< `mesh --seed`.
+    Reshaping reshaping;                                   ///< `mesh --subdivide`, `--simplify`.
     ModelFileOptions mesh_files;                           ///< `mesh --unwrap`.
     std::filesystem::path mesh_output;                     ///< `mesh -o`.
     AnalyzeRequest analyze;

@@ -10,10 +10,28 @@ namespace {
 constexpr double least_cosine = 0.26;  ///< Of the rotation of a triangle: 75°.
 constexpr unsigned most_neighbours = 10;
 
-/// Whether the triangles around a vertex keep their shape if it moves to `to`, merged with `other`,
-/// to which it must have one edge only.
-bool stays_smooth(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vector3d to,
-                  double longest) {
+void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest,
+              MergedVertices* merged) {
+    const HalfedgeHandle other = mesh.opposite_halfedge_handle(h);
+    const VertexHandle a = mesh.from_vertex_handle(h), b = mesh.to_vertex_handle(h);
+    const Vector3d from = position(mesh, a), apart = position(mesh, b) - from;
+    if (dot(apart, apart) >= shortest * shortest) return;
+    if (mesh.is_boundary(a) || mesh.is_boundary(b)) return;
+    // A vertex with three triangles would keep two, which would coincide.
+    if (mesh.valence(mesh.opposite_vh(h)) < 4 || mesh.valence(mesh.opposite_vh(other)) < 4) return;
+    if (mesh.valence(a) + mesh.valence(b) > most_neighbours + 4) return;
+    const Vector3d to = merged ? merged->place(mesh, a, b) : from + apart * 0.5;
+    if (!keep_shape(mesh, a, b, to, longest) || !keep_shape(mesh, b, a, to, longest)) return;
+    if (!mesh.is_collapse_ok(other)) return;
+    mesh.set_point(a, {to.x, to.y, to.z});
+    mesh.collapse(other);  // b is replaced by a.
+    if (merged) merged->merge(a, b);
+}
+
+}  // namespace
+
+bool keep_shape(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vector3d to,
+                double longest) {
     const Vector3d from = position(mesh, v);
     int vanishing = 0;
     for (const HalfedgeHandle h : mesh.voh_range(v)) {
@@ -35,26 +53,6 @@ bool stays_smooth(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vec
     }
     return vanishing == 2;
 }
-
-void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest,
-              MergedVertices* merged) {
-    const HalfedgeHandle other = mesh.opposite_halfedge_handle(h);
-    const VertexHandle a = mesh.from_vertex_handle(h), b = mesh.to_vertex_handle(h);
-    const Vector3d from = position(mesh, a), apart = position(mesh, b) - from;
-    if (dot(apart, apart) >= shortest * shortest) return;
-    if (mesh.is_boundary(a) || mesh.is_boundary(b)) return;
-    // A vertex with three triangles would keep two, which would coincide.
-    if (mesh.valence(mesh.opposite_vh(h)) < 4 || mesh.valence(mesh.opposite_vh(other)) < 4) return;
-    if (mesh.valence(a) + mesh.valence(b) > most_neighbours + 4) return;
-    const Vector3d to = merged ? merged->place(mesh, a, b) : from + apart * 0.5;
-    if (!stays_smooth(mesh, a, b, to, longest) || !stays_smooth(mesh, b, a, to, longest)) return;
-    if (!mesh.is_collapse_ok(other)) return;
-    mesh.set_point(a, {to.x, to.y, to.z});
-    mesh.collapse(other);  // b is replaced by a.
-    if (merged) merged->merge(a, b);
-}
-
-}  // namespace
 
 MergedVertices::MergedVertices(const HalfEdges& mesh)
     : planes_(mesh.n_vertices()), into_(mesh.n_vertices()) {

@@ -25,6 +25,12 @@ private:
     std::vector<std::uint32_t> into_;
 };
 
+/// Whether the triangles around a vertex keep their shape if it moves to `to`, merged with `other`,
+/// to which it must have one edge only: no triangle rotates by more than 75° or becomes a sliver,
+/// and no edge becomes longer than `longest`.
+bool keep_shape(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vector3d to,
+                double longest);
+
 /// Collapses edges shorter than `shortest`, in order of their faces, to their midpoints or to the
 /// places that `merged` says, if that preserves the shape of the surface: the link condition holds
 /// (T. Dey et al., "Topology Preserving Edge Contraction", Publ. Inst. Math. Beograd 66, 1999), no

@@ -1,4 +1,5 @@
-// The editable mesh: OpenMesh's half-edges. No other file of the rooms includes OpenMesh.
+// The editable mesh: OpenMesh's half-edges. Besides this file only simplify.cpp and subdivide.cpp,
+// which use its tools, include OpenMesh.
 #pragma once
 
 #include "core/result.h"

@@ -47,12 +47,37 @@ for file in new.glb new.obj new.ply; do
     says out "texture coordinates: "
     grep -q "several times\|mirrored" out && fail "the texture coordinates of $file overlap"
 done
-run 64 mesh cube.obj -o new.glb
-says err "-o means nothing without --unwrap"
+# The repaired model as it is, refined and simplified.
+for file in same.glb same.obj same.ply same.stl; do
+    run 0 mesh cube.obj -o $file
+    run 0 mesh $file
+    says out "12 triangles, 1 connected component"
+    says out "closed like a sphere"
+done
+run 0 mesh cube.obj --subdivide 3 -o round.ply
+says out "subdivided: 386 points, 768 triangles"
+run 0 mesh round.ply --simplify 100
+says out "simplified: 52 points, 100 triangles"
+run 0 mesh new.ply --subdivide 2 --simplify 96 --unwrap -o both.glb
+says out "simplified: 50 points, 96 triangles, without its texture coordinates"
+says out "made texture coordinates: "
+run 0 mesh new.ply --subdivide 1 -o fine.ply
+run 0 mesh fine.ply
+says out "texture coordinates: "
+run 0 mesh cube.obj --simplify 50
+says out "not simplified: it has no more triangles than that"
+run 0 mesh round.ply --simplify 1
+says out "fewer would change its connections or fold it"
+run 3 mesh cube.obj round.ply --subdivide 8
+says err "50,331,648 triangles would be made, more than the limit of 16,777,216 triangles"
+run 64 mesh cube.obj --subdivide 0
+says err "--subdivide"
+run 64 mesh cube.obj -o same.off
+says err "'same.off' has no ending of a model that is written"
 run 64 mesh cube.obj new.obj --unwrap -o newer.glb
 says err "-o is the file of one model, and several are given"
 run 64 mesh cube.obj --unwrap -o new.vtp
-says err "'new.vtp' has no ending of a model with texture coordinates"
+says err "'new.vtp' cannot hold texture coordinates"
 run 3 mesh cube.obj --unwrap -o nowhere/new.glb
 says err "nowhere"
 run 0 mesh cube.obj --cells faces

@@ -1,0 +1,179 @@
+// A module of OpenMesh's decimater says what each collapse costs, and which ones are refused.
+#include "mesh/simplify.h"
+
+#include "core/check.h"
+#include "mesh/collapse_edges.h"
+#include "mesh/point_quadric.h"
+
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cascade {
+
+namespace {
+
+using OpenMesh::Decimater::ModBaseT;
+using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdges>;
+
+constexpr unsigned most_neighbours = 12;
+/// Where collapses cost nothing else, as in a flat part of one colour, short edges go first.
+constexpr double weight_of_length = 1e-5;
+/// The sides of a boundary, against its distance from the plane of the triangles.
+constexpr double weight_of_boundary = 4;
+
+/// Priorities are the errors of the merged points. Lengths are relative to the surface's box, so
+/// that they fit into OpenMesh's `float`.
+class PatternModule : public ModBaseT<HalfEdges> {
+public:
+    using Handle = OpenMesh::Decimater::ModHandleT<PatternModule>;
+
+    explicit PatternModule(HalfEdges& mesh) : ModBaseT(mesh, false) {}
+    const std::string& name() const override {
+        static const std::string name = "Pattern";
+        return name;
+    }
+
+    void keep(const SurfaceMesh& surface, const KeptPattern& pattern) {
+        const SurfaceMesh::Box box = surface.box();
+        middle_ = (box.low + box.high) * 0.5;
+        scale_ = 1 / length(box.high - box.low);
+        attributes_ = pattern.values.empty() ? 0 : PointQuadric::most_attributes;
+        const double weight = pattern.length * scale_;
+        values_.resize(pattern.values.size());
+        for (std::size_t p = 0; p < values_.size(); ++p) {
+            for (std::size_t k = 0; k < attributes_; ++k) {
+                const auto value = static_cast<double>(pattern.values[p][k]);
+                values_[p][k] = std::isfinite(value) ? value * weight : 0;
+            }
+        }
+    }
+
+    void initialize() override {
+        quadrics_.assign(mesh().n_vertices(), {});
+        for (const FaceHandle f : mesh().faces()) add_face(f);
+        for (const HalfedgeHandle h : mesh().halfedges()) {
+            if (mesh().is_boundary(h)) add_boundary(h);
+        }
+    }
+
+    float collapse_priority(const CollapseInfo& collapse) override {
+        if (!is_allowed(collapse)) return ILLEGAL_COLLAPSE;
+        PointQuadric sum = quadrics_[number(collapse.v0)];
+        const double own_area = sum.area();
+        sum += quadrics_[number(collapse.v1)];
+        const Vector3d to = place(collapse.v1), way = to - place(collapse.v0);
+        const double error = sum.error(to, values_of(collapse.v1), attributes_);
+        return static_cast<float>(std::max(error, 0.0) +
+                                  weight_of_length * own_area * dot(way, way));
+    }
+
+    void postprocess_collapse(const CollapseInfo& collapse) override {
+        quadrics_[number(collapse.v1)] += quadrics_[number(collapse.v0)];
+    }
+
+private:
+    Vector3d place(VertexHandle v) { return (position(mesh(), v) - middle_) * scale_; }
+    PointQuadric::Attributes values_of(VertexHandle v) const {
+        return attributes_ == 0 ? PointQuadric::Attributes{} : values_[number(v)];
+    }
+
+    void add_face(FaceHandle f) {
+        std::array<VertexHandle, 3> corners;
+        std::array<Vector3d, 3> places;
+        std::array<PointQuadric::Attributes, 3> values;
+        HalfedgeHandle h = mesh().halfedge_handle(f);
+        for (std::size_t k = 0; k < 3; ++k, h = mesh().next_halfedge_handle(h)) {
+            corners[k] = mesh().from_vertex_handle(h);
+            places[k] = place(corners[k]);
+            values[k] = values_of(corners[k]);
+        }
+        const Vector3d normal = cross(places[1] - places[0], places[2] - places[0]);
+        if (!(dot(normal, normal) > std::numeric_limits<double>::min())) return;
+        PointQuadric quadric;
+        quadric.add_triangle(places, values, attributes_);
+        for (const VertexHandle v : corners) quadrics_[number(v)] += quadric;
+    }
+
+    /// The plane through a boundary edge that is perpendicular to its triangle.
+    void add_boundary(HalfedgeHandle h) {
+        const HalfedgeHandle inside = mesh().opposite_halfedge_handle(h);
+        const VertexHandle from = mesh().from_vertex_handle(inside),
+                           to = mesh().to_vertex_handle(inside);
+        const Vector3d at = place(from), along = place(to) - at;
+        const Vector3d normal = cross(along, place(mesh().opposite_vh(inside)) - at);
+        const Vector3d side = cross(along, normal);
+        if (!(dot(side, side) > std::numeric_limits<double>::min())) return;
+        PointQuadric quadric;
+        quadric.add_plane(weight_of_boundary * dot(along, along), at, unit(side));
+        for (const VertexHandle v : {from, to}) quadrics_[number(v)] += quadric;
+    }
+
+    /// A point whose neighbour across the collapsed triangle has three triangles would leave two
+    /// there, which coincide.
+    bool keeps_triangles(VertexHandle across) {
+        return !across.is_valid() ||
+               mesh().valence(across) > (mesh().is_boundary(across) ? 2U : 3U);
+    }
+
+    bool is_allowed(const CollapseInfo& collapse) {
+        if (!keeps_triangles(collapse.vl) || !keeps_triangles(collapse.vr)) return false;
+        if (mesh().valence(collapse.v0) + mesh().valence(collapse.v1) > most_neighbours + 4) {
+            return false;
+        }
+        return keep_shape(mesh(), collapse.v0, collapse.v1, position(mesh(), collapse.v1),
+                          std::numeric_limits<double>::infinity());
+    }
+
+    Vector3d middle_;
+    double scale_ = 1;
+    std::size_t attributes_ = 0;
+    std::vector<PointQuadric::Attributes> values_;
+    std::vector<PointQuadric> quadrics_;
+};
+
+class StopWhenCancelled : public OpenMesh::Decimater::Observer {
+public:
+    explicit StopWhenCancelled(const std::atomic<bool>& cancel) : Observer(1000), cancel_(cancel) {}
+    void notify(std::size_t) override {}
+    bool abort() const override { return cancel_; }
+
+private:
+    const std::atomic<bool>& cancel_;
+};
+
+}  // namespace
+
+Result<Simplified> simplify(const SurfaceMesh& mesh, std::size_t triangles,
+                            const KeptPattern& pattern, const std::atomic<bool>& cancel) {
+    CHECK(pattern.values.empty() || pattern.values.size() == mesh.points.size(),
+          "a pattern has values at each point");
+    Result<HalfEdges> edited = half_edges(mesh);
+    if (!edited) return tl::unexpected(edited.error());
+    {
+        Decimater decimater(*edited);
+        PatternModule::Handle module;
+        decimater.add(module);
+        decimater.module(module).keep(mesh, pattern);
+        StopWhenCancelled observer(cancel);
+        decimater.set_observer(&observer);
+        const bool is_ready = decimater.initialize();
+        CHECK(is_ready, "the decimater has one module that says what a collapse costs");
+        decimater.decimate_to_faces(0, std::max(triangles, std::size_t{1}));
+    }
+    Simplified result;
+    for (const VertexHandle v : edited->vertices()) result.points.push_back(number(v));
+    result.mesh = surface_mesh(*edited, result.points);
+    for (const PointAttribute& attribute : mesh.attributes) {
+        PointAttribute& kept =
+            result.mesh.attributes.emplace_back(PointAttribute{attribute.name, {}});
+        for (const std::uint32_t point : result.points) {
+            kept.values.push_back(attribute.values[point]);
+        }
+    }
+    return result;
+}
+
+}  // namespace cascade

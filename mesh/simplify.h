@@ -1,0 +1,39 @@
+// Simplification of surfaces for levels of detail, by OpenMesh's decimater.
+#pragma once
+
+#include "core/result.h"
+#include "mesh/surface_mesh.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace cascade {
+
+/// What simplify() keeps besides the shape: up to three numbers at each point, such as a colour.
+struct KeptPattern {
+    std::span<const std::array<float, 3>> values;  ///< One per point; empty if there is none.
+    /// A difference of 1 in a number counts as much as a distance of this length.
+    double length = 0;
+};
+
+struct Simplified {
+    /// Its points are points of the original, in their order, with their attributes. Triangles have
+    /// no texture coordinates and no faces.
+    SurfaceMesh mesh;
+    std::vector<std::uint32_t> points;  ///< The original's point that each one is.
+};
+
+/// The surface with about `triangles` triangles, at most one more: edges are collapsed into one of
+/// their ends, those first that change the surface and the pattern least (mesh/point_quadric.h).
+/// Components, handles and boundaries remain; corners of boundaries stay. More triangles are left
+/// where only these would be lost, or triangles would fold. The same result in every run. Values
+/// that are not finite count as 0.
+///
+/// Fails as half_edges() does. Throws std::bad_alloc. Meaningless if `cancel` became true.
+Result<Simplified> simplify(const SurfaceMesh& mesh, std::size_t triangles,
+                            const KeptPattern& pattern, const std::atomic<bool>& cancel);
+
+}  // namespace cascade

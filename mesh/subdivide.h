@@ -1,0 +1,21 @@
+// Smooth surfaces from coarse triangles, by OpenMesh's subdivider.
+#pragma once
+
+#include "core/result.h"
+#include "mesh/surface_mesh.h"
+
+namespace cascade {
+
+/// The number of triangles that subdivide() makes at most.
+inline constexpr std::size_t most_subdivided = std::size_t{1} << 24;
+
+/// The surface with four triangles for each one, `times` times over, whose points approach a smooth
+/// surface (C. Loop, "Smooth Subdivision Surfaces Based on Triangles", master's thesis, University
+/// of Utah, 1987). Boundaries become smooth curves; creases are rounded. The points of the surface
+/// come first. Attributes and texture coordinates of new points are those of the middles of edges.
+///
+/// Fails if there would be more than `most_subdivided` triangles, and as half_edges() does. Throws
+/// std::bad_alloc.
+Result<SurfaceMesh> subdivide(const SurfaceMesh& mesh, int times);
+
+}  // namespace cascade
