@@ -255,6 +255,15 @@ void add_files(CLI::App& app, RunRequest& run) {
            "--unwrap", run.model_files.unwrap,
            "New texture coordinates in models .glb, .obj and .ply,\neven if the model has some")
         ->group(group);
+    add_value(
+        app, "--lods", "N",
+        "Models of N levels of detail, each with a quarter of the\ntriangles of the one before",
+        whole_number(2, ModelFileOptions::most_levels),
+        [&](auto levels) { run.model_files.levels = static_cast<int>(levels); })
+        ->group(group);
+    app.add_flag("--displace", run.model_files.displace,
+                 "Models raised by the heights of the picture block or of\n--bump")
+        ->group(group);
     app.add_flag("--merge", run.model_files.merge,
                  "Cells that crawl as plain triangles, for programs that\nknow no instances")
         ->group(group);

@@ -51,7 +51,7 @@ public:
           vertices_(render_vertices(mesh, normals_)),
           colour_(options.width, options.height),
           relief_(texture_if(maps_.heights)),
-          slopes_(texture_if(maps_.heights)),
+          slopes_(texture_if(maps_.normals)),
           material_{texture_if(maps_.has_surface()), texture_if(maps_.emission),
                     texture_if(maps_.opacity)} {}
 
@@ -173,22 +173,30 @@ private:
             texture.texels[texel(x, y)][k % 3] = material[k] / static_cast<float>(count);
             texture.is_filled[texel(x, y)] = 1;
         }
-        if (maps_.heights) raise_texel(x, y, own);
+        if (maps_.heights && !lift_texel(x, y, own)) return;
+        if (maps_.normals) turn_texel(x, y, own);
     }
 
-    void raise_texel(std::int64_t x, std::int64_t y, Scratch& own) {
+    /// The mean height of a texel's samples. False if none is finite.
+    bool lift_texel(std::int64_t x, std::int64_t y, const Scratch& own) {
         double sum = 0, finite = 0;
-        own.places.clear();
         visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
-            own.places.push_back(layout_.place_at(own.row[sample(i, j)], i, y * samples() + j));
             const float height = own.heights[sample(i, j)];
             if (!std::isfinite(height)) return;
             sum += static_cast<double>(height);
             ++finite;
         });
-        if (finite == 0) return;
+        if (finite == 0) return false;
         relief_.texels[texel(x, y)][0] = static_cast<float>(sum / finite);
         relief_.is_filled[texel(x, y)] = 1;
+        return true;
+    }
+
+    void turn_texel(std::int64_t x, std::int64_t y, Scratch& own) {
+        own.places.clear();
+        visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
+            own.places.push_back(layout_.place_at(own.row[sample(i, j)], i, y * samples() + j));
+        });
         const Vector3 normal = raised_normal(own);
         if (!std::isfinite(normal.x + normal.y + normal.z)) return;
         slopes_.texels[texel(x, y)] = {normal.x, normal.y, normal.z};
@@ -228,8 +236,8 @@ private:
         bake.colour = image_of(std::move(colour_));
         bake.maps = maps_;
         finish_material(bake);
-        if (!maps_.heights) return bake;
-        finish_relief(bake);
+        if (maps_.heights) finish_relief(bake);
+        if (!maps_.normals) return bake;
         fill_gaps(slopes_);
         for (auto& texel : slopes_.texels) {
             Vector3 normal = unit(Vector3{texel[0], texel[1], texel[2]});

@@ -32,10 +32,7 @@ void FieldSamples::paint(const SampleRow& row) {
         const PlacePainter::Look look = painter_.look_of(values, place);
         row.lights[k] = light_of(look.colour);
         row.heights[k] = look.height;
-        row.material[k] = look.material;
-        for (const auto part : {MaterialPart::red, MaterialPart::green, MaterialPart::blue}) {
-            row.material[k][part] = light_of(look.material[part]);
-        }
+        row.material[k] = in_light(look.material);
     };
     const std::size_t count = row.lights.size();
     const SurfacePlace begin = row.place(0);
@@ -69,8 +66,7 @@ std::size_t FieldSamples::steps_of(const SurfacePlace& one, const SurfacePlace& 
 
 Vector3d FieldSamples::raised_normal(std::span<const SurfacePlace> samples,
                                      const Vector3d& normal) {
-    const Vector3d rise = painter_.rise_at(samples[samples.size() / 2]);
-    return normal - (rise - normal * dot(rise, normal));
+    return raised(normal, painter_.rise_at(samples[samples.size() / 2]));
 }
 
 }  // namespace cascade

@@ -20,8 +20,7 @@ public:
 
     MapSet maps() const override { return maps_of(cells_.material, !cells_.heights.empty()); }
     void paint(const SampleRow& row) override;
-    /// J. Blinn, "Simulation of Wrinkled Surfaces" (SIGGRAPH 1978), for small heights. The middle
-    /// sample represents all.
+    /// The middle sample represents all.
     Vector3d raised_normal(std::span<const SurfacePlace> samples, const Vector3d& normal) override;
 
 private:

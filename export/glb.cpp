@@ -17,6 +17,10 @@ namespace {
 
 using Json = GlbFile::Json;
 
+/// The part of the screen that a model covers when the next level of detail takes its place, to
+/// that of the level before: each has as many fewer triangles.
+constexpr double coverage_factor = 4;
+
 /// Adds the parts of one model to a file.
 class ModelParts {
 public:
@@ -26,10 +30,10 @@ public:
           vertices_(render_vertices(mesh, corner_normals(mesh))),
           file_(file) {}
 
-    void add() {
+    std::size_t add() {
         Json primitive = this->primitive();
         primitive["material"] = file_.add("materials", material());
-        file_.add_node({{"mesh", file_.add("meshes", {{"primitives", Json::array({primitive})}})}});
+        return file_.add("meshes", {{"primitives", Json::array({primitive})}});
     }
 
 private:
@@ -140,22 +144,42 @@ private:
 
 }  // namespace
 
-void add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file) {
+std::size_t add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file) {
     CHECK(look.colours.empty() || look.colours.size() == mesh.points.size(),
           "there is a colour for each point");
     CHECK((look.colour_map.empty() && look.normal_map.empty() && look.surface_map.empty() &&
            look.emission_map.empty()) ||
               !mesh.texture.empty(),
           "pictures lie over models with texture coordinates");
-    ModelParts(mesh, look, file).add();
+    return ModelParts(mesh, look, file).add();
 }
 
 Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look) {
-    const SurfaceMesh::Box box = mesh.box();
-    const Result<Vector3d> origin = origin_of_glb(mesh.points, box.low, box.high);
+    const GlbLevel only{mesh, look};
+    return encode_glb(std::span(&only, 1));
+}
+
+Result<std::string> encode_glb(std::span<const GlbLevel> levels) {
+    const SurfaceMesh& finest = levels.front().mesh;
+    const SurfaceMesh::Box box = finest.box();
+    const Result<Vector3d> origin = origin_of_glb(finest.points, box.low, box.high);
     if (!origin) return tl::unexpected(origin.error());
     GlbFile file(*origin);
-    add_model(mesh, look, file);
+    Json node = {{"mesh", add_model(finest, levels.front().look, file)}};
+    if (levels.size() > 1) {
+        Json coarser = Json::array(), coverages = Json::array();
+        double coverage = 1;
+        for (const GlbLevel& level : levels.subspan(1)) {
+            coarser.push_back(
+                file.add_node({{"mesh", add_model(level.mesh, level.look, file)}}, false));
+            coverages.push_back(coverage /= coverage_factor);
+        }
+        coverages.push_back(0.0);
+        file.use("MSFT_lod");
+        node["extensions"]["MSFT_lod"]["ids"] = std::move(coarser);
+        node["extras"]["MSFT_screencoverage"] = std::move(coverages);
+    }
+    file.add_node(std::move(node));
     return file.pack();
 }
 

@@ -34,4 +34,15 @@ struct GlbLook {
 /// 10⁻³⁰, which binary32 cannot represent, and above 4 GiB.
 Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look);
 
+/// A level of detail of a model.
+struct GlbLevel {
+    const SurfaceMesh& mesh;
+    const GlbLook& look;
+};
+
+/// The same of a model and its coarser levels, finest first, as the extension MSFT_lod has them:
+/// programs that do not know it show the first one. Of the others, level k = 0, 1, … is meant for a
+/// model that covers 4⁻¹⁻ᵏ of the screen or more, and the last one for all that is smaller.
+Result<std::string> encode_glb(std::span<const GlbLevel> levels);
+
 }  // namespace cascade

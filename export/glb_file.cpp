@@ -46,16 +46,18 @@ std::size_t GlbFile::add(const char* list, Json part) {
     return file_[list].size() - 1;
 }
 
-void GlbFile::add_node(Json node) {
+std::size_t GlbFile::add_node(Json node, bool is_in_scene) {
     if (!(origin_ == Vector3d{})) node["translation"] = {origin_.x, origin_.y, origin_.z};
     const std::size_t number = add("nodes", std::move(node));  // May move the lists in memory.
-    file_["scenes"][0]["nodes"].push_back(number);
+    if (is_in_scene) file_["scenes"][0]["nodes"].push_back(number);
+    return number;
 }
 
+void GlbFile::use(const char* extension) { file_["extensionsUsed"].push_back(extension); }
+
 void GlbFile::require(const char* extension) {
-    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-        file_[list].push_back(extension);
-    }
+    use(extension);
+    file_["extensionsRequired"].push_back(extension);
 }
 
 std::size_t GlbFile::add_corners(std::span<const std::array<std::uint32_t, 3>> triangles,

@@ -34,8 +34,10 @@ public:
     /// Appends to a list: "nodes", "meshes", "materials", "images", "textures",
     /// "samplers".
     std::size_t add(const char* list, Json part);
-    /// A node, which is moved by the origin.
-    void add_node(Json node);
+    /// A node, which is moved by the origin. One that is not in the scene belongs to another one.
+    std::size_t add_node(Json node, bool is_in_scene = true);
+    /// An extension that readers may ignore.
+    void use(const char* extension);
     void require(const char* extension);
 
     /// A view of the bytes that `write` appends; `target` is 0 for what is neither vertices nor
@@ -128,7 +130,7 @@ Result<Vector3d> origin_of_glb(std::span<const Vector3d> points, Vector3d low, V
 /// A material of a roughness that is not metallic.
 GlbFile::Json plain_material(float roughness);
 
-/// Adds a model with its look as a node.
-void add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file);
+/// Adds a model with its look. Returns the number of its mesh.
+std::size_t add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file);
 
 }  // namespace cascade

@@ -62,7 +62,7 @@ void add_body(const InstancedModel& model, GlbFile& file) {
     if (!model.body) return;
     GlbLook look;
     look.colours = model.colours;
-    add_model(*model.body, look, file);
+    file.add_node({{"mesh", add_model(*model.body, look, file)}});
 }
 
 /// The vertices and corners of a small mesh as a primitive without material.

@@ -47,7 +47,7 @@ inline bool is_cut(std::span<const float> opacities) {
 
 /// Which maps there are besides colours.
 struct MapSet {
-    bool heights = false;  ///< And normals.
+    bool heights = false, normals = false;
     bool occlusion = false, roughness = false, metalness = false;
     bool emission = false, opacity = false;
 
@@ -58,6 +58,7 @@ struct MapSet {
 inline MapSet maps_of(const MaterialCells& material, bool has_heights) {
     const auto has = [&](MaterialPart part) { return !material[part].empty(); };
     return {has_heights,
+            has_heights,
             has(MaterialPart::occlusion),
             has(MaterialPart::roughness),
             has(MaterialPart::metalness),

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -75,7 +76,7 @@ SideFiles side_files(const MaterialMaps& maps, const MapSet& which) {
     constexpr auto colours = PngMeaning::colours, numbers = PngMeaning::numbers;
     add(true, "_color.png", {&maps.colour, eight, colours});
     add(which.heights, "_height.png", {&maps.relief, sixteen, numbers});
-    add(which.heights, "_normal.png", {&maps.normals, sixteen, numbers});
+    add(which.normals, "_normal.png", {&maps.normals, sixteen, numbers});
     add(which.occlusion, "_occlusion.png", {&maps.surface, eight, numbers, 0});
     add(which.roughness, "_roughness.png", {&maps.surface, eight, numbers, 1});
     add(which.metalness, "_metalness.png", {&maps.surface, eight, numbers, 2});
@@ -84,30 +85,59 @@ SideFiles side_files(const MaterialMaps& maps, const MapSet& which) {
     return beside;
 }
 
-/// The model with its maps, which have 8 bits there: all viewers of GLB files know these.
-Result<std::string> encode_model(const SurfaceMesh& mesh, const MaterialMaps& maps,
-                                 const PngTexts& texts, const std::string& plain_colours) {
-    GlbLook look;
-    look.has = maps.maps;
-    look.is_cut = maps.is_cut;
-    look.repeats = maps.repeats;
-    std::vector<MapFile> inside;
-    std::vector<std::string_view*> into;
-    const auto add = [&](bool is_there, std::string_view& map, MapFile file) {
+/// The maps of one level inside of a GLB file, which have 8 bits there: all viewers of GLB files
+/// know these.
+class MapsInside {
+public:
+    MapsInside(const MaterialMaps& maps, const PngTexts& texts) : maps_(maps), texts_(texts) {}
+
+    /// `plain_colours` is the encoded map of colours, if it is known.
+    Result<void> encode(std::string_view plain_colours) {
+        const MapSet& has = maps_.maps;
+        constexpr auto eight = PngDepth::eight;
+        constexpr auto colours = PngMeaning::colours, numbers = PngMeaning::numbers;
+        add(has.normals, look_.normal_map, {&maps_.normals, eight, numbers});
+        add(has.has_surface(), look_.surface_map, {&maps_.surface, eight, numbers});
+        add(has.emission, look_.emission_map, {&maps_.emission, eight, colours});
+        look_.colour_map = plain_colours;
+        add(has.opacity || plain_colours.empty(), look_.colour_map,
+            {&maps_.colour, eight, colours, {}, has.opacity ? &maps_.opacity : nullptr});
+        if (auto done = cascade::encode(files_, texts_); !done) return done;
+        for (std::size_t k = 0; k < files_.size(); ++k) *into_[k] = files_[k].bytes;
+        look_.has = has;
+        look_.is_cut = maps_.is_cut;
+        look_.repeats = maps_.repeats;
+        return {};
+    }
+
+    const GlbLook& look() const { return look_; }
+
+private:
+    void add(bool is_there, std::string_view& map, MapFile file) {
         if (!is_there) return;
-        inside.push_back(std::move(file));
-        into.push_back(&map);
-    };
-    constexpr auto eight = PngDepth::eight;
-    add(maps.maps.heights, look.normal_map, {&maps.normals, eight, PngMeaning::numbers});
-    add(maps.maps.has_surface(), look.surface_map, {&maps.surface, eight, PngMeaning::numbers});
-    add(maps.maps.emission, look.emission_map, {&maps.emission, eight, PngMeaning::colours});
-    add(maps.maps.opacity, look.colour_map,
-        {&maps.colour, eight, PngMeaning::colours, {}, &maps.opacity});
-    if (auto done = encode(inside, texts); !done) return tl::unexpected(done.error());
-    for (std::size_t k = 0; k < inside.size(); ++k) *into[k] = inside[k].bytes;
-    if (!maps.maps.opacity) look.colour_map = plain_colours;
-    return encode_glb(mesh, look);
+        files_.push_back(std::move(file));
+        into_.push_back(&map);
+    }
+
+    const MaterialMaps& maps_;
+    const PngTexts& texts_;
+    GlbLook look_;
+    std::vector<MapFile> files_;
+    std::vector<std::string_view*> into_;
+};
+
+Result<std::string> encode_models(std::span<const MappedModel> levels, const PngTexts& texts,
+                                  const std::string& plain_colours) {
+    std::deque<MapsInside> inside;  // Looks refer to the bytes in it.
+    std::vector<GlbLevel> models;
+    for (const MappedModel& level : levels) {
+        MapsInside& maps = inside.emplace_back(level.maps, texts);
+        if (auto done = maps.encode(models.empty() ? plain_colours : std::string_view()); !done) {
+            return tl::unexpected(done.error());
+        }
+        models.push_back({level.mesh, maps.look()});
+    }
+    return encode_glb(models);
 }
 
 }  // namespace
@@ -122,8 +152,9 @@ std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, c
     return paths;
 }
 
-Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mesh,
-                        const MaterialMaps& maps, const PngTexts& texts) {
+Result<void> write_maps(const std::filesystem::path& glb, std::span<const MappedModel> levels,
+                        const PngTexts& texts) {
+    const MaterialMaps& maps = levels.front().maps;
     PngTexts all = texts;
     if (maps.maps.heights) {
         all["Cascade heights"] = fmt::format("{:.9g} {:.9g}", maps.heights.low, maps.heights.high);
@@ -133,13 +164,19 @@ Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mes
         if (auto encoded = encode(beside.files, all); !encoded) {
             return tl::unexpected(encoded.error());
         }
-        return encode_model(mesh, maps, all, beside.files[0].bytes);
+        return encode_models(levels, all, beside.files[0].bytes);
     });
     const auto paths = map_paths(glb, maps.maps);
     for (std::size_t k = 1; k < paths.size() && done; ++k) {
         done = write_file(paths[k], beside.files[k - 1].bytes);
     }
     return done;
+}
+
+Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mesh,
+                        const MaterialMaps& maps, const PngTexts& texts) {
+    const MappedModel only{mesh, maps};
+    return write_maps(glb, std::span(&only, 1), texts);
 }
 
 }  // namespace cascade

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -37,8 +38,18 @@ struct MaterialMaps {
 /// NAME_roughness.png, NAME_metalness.png, NAME_emission.png, NAME_opacity.png.
 std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, const MapSet& maps);
 
+/// A model with texture coordinates, or a level of detail of one.
+struct MappedModel {
+    const SurfaceMesh& mesh;
+    const MaterialMaps& maps;
+};
+
 /// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts.
-/// Each file is written atomically. The mesh has texture coordinates.
+/// Coarser levels follow the model, finest first, and only have their maps inside (encode_glb).
+/// Each file is written atomically.
+Result<void> write_maps(const std::filesystem::path& glb, std::span<const MappedModel> levels,
+                        const PngTexts& texts);
+/// The same of the model alone.
 Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mesh,
                         const MaterialMaps& maps, const PngTexts& texts);
 

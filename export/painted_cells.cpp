@@ -3,6 +3,7 @@
 #include "export/painted_cells.h"
 
 #include "export/channels.h"
+#include "picture/srgb.h"
 
 #include <algorithm>
 
@@ -58,6 +59,13 @@ Vector3d PlacePainter::rise_at(const SurfacePlace& place) {
         rise = rise + slope * ((height(share) - height(slopes_[0])) / filter_.radius());
     }
     return rise;
+}
+
+OfParts<float> in_light(OfParts<float> material) {
+    for (const auto part : {MaterialPart::red, MaterialPart::green, MaterialPart::blue}) {
+        material[part] = light_of(material[part]);
+    }
+    return material;
 }
 
 std::vector<Colour> colours_at(std::span<const SurfacePlace> places, const CellFilter& filter,

@@ -59,6 +59,15 @@ private:
     std::vector<SlopedShare> slopes_;
 };
 
+/// The same with the emitted light as light.
+OfParts<float> in_light(OfParts<float> material);
+
+/// A vector along the normal of a surface with this normal that is raised by small heights with
+/// this gradient (J. Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978).
+inline Vector3d raised(Vector3d normal, Vector3d rise) {
+    return normal - (rise - normal * dot(rise, normal));
+}
+
 /// The colours of places. The same on any number of threads. Throws std::bad_alloc.
 std::vector<Colour> colours_at(std::span<const SurfacePlace> places, const CellFilter& filter,
                                const PaintedCells& cells, Team& team);

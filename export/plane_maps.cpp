@@ -137,7 +137,7 @@ public:
         maps_.emission = image(maps_.maps.emission);
         maps_.opacity = image(maps_.maps.opacity);
         maps_.relief = image(maps_.maps.heights);
-        maps_.normals = image(maps_.maps.heights);
+        maps_.normals = image(maps_.maps.normals);
     }
 
     MaterialMaps run(Team& team) {

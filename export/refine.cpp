@@ -3,6 +3,7 @@
 #include "export/refine.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -250,6 +251,14 @@ RefinedMesh refined(const SurfaceMesh& mesh, double longest_edge, std::size_t mo
     while (refiner.halve(longest_edge, most_triangles)) {
     }
     return refiner.finished();
+}
+
+void displace(SurfaceMesh& mesh, std::span<const Vector3d> normals,
+              std::span<const float> heights) {
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        if (!std::isfinite(heights[p])) continue;
+        mesh.points[p] = mesh.points[p] + normals[p] * static_cast<double>(heights[p]);
+    }
 }
 
 }  // namespace cascade

@@ -4,6 +4,7 @@
 #include "mesh/flat.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -17,5 +18,9 @@ struct RefinedMesh {
 /// is left or the mesh would exceed `most_triangles`. The mesh's points come first, unchanged;
 /// texture coordinates and attributes of new points are interpolated. Throws std::bad_alloc.
 RefinedMesh refined(const SurfaceMesh& mesh, double longest_edge, std::size_t most_triangles);
+
+/// Moves each point along its normal by its height, in lengths of the mesh; one each. Heights that
+/// are not finite count as 0.
+void displace(SurfaceMesh& mesh, std::span<const Vector3d> normals, std::span<const float> heights);
 
 }  // namespace cascade

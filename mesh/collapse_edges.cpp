@@ -89,12 +89,11 @@ void MergedVertices::merge(VertexHandle stays, VertexHandle goes) {
     into_[number(goes)] = number(stays);
 }
 
-std::vector<std::uint32_t> MergedVertices::left() const {
-    std::vector<std::uint32_t> left = into_;
-    for (std::uint32_t& v : left) {
-        while (v != left[v]) v = left[v] = left[left[v]];
+std::vector<std::uint32_t> ends_of_chains(std::vector<std::uint32_t> into) {
+    for (std::uint32_t& v : into) {
+        while (v != into[v]) v = into[v] = into[into[v]];
     }
-    return left;
+    return into;
 }
 
 void collapse_edges(HalfEdges& mesh, double shortest, double longest, MergedVertices* merged) {

@@ -5,6 +5,9 @@
 
 namespace cascade {
 
+/// The vertex that is left where each one was, if each has merged into another one or itself.
+std::vector<std::uint32_t> ends_of_chains(std::vector<std::uint32_t> into);
+
 /// What is known of vertices that have merged. Keeps rims, corners and tips where they are, which
 /// midpoints would wear away.
 class MergedVertices {
@@ -18,7 +21,7 @@ public:
     void merge(VertexHandle stays, VertexHandle goes);
 
     /// The vertex that is left where each one was, by index.
-    std::vector<std::uint32_t> left() const;
+    std::vector<std::uint32_t> left() const { return ends_of_chains(into_); }
 
 private:
     std::vector<PlaneQuadric> planes_;  ///< Of the triangles at each vertex.

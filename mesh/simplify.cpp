@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace cascade {
 
@@ -53,6 +54,8 @@ public:
 
     void initialize() override {
         quadrics_.assign(mesh().n_vertices(), {});
+        into_.resize(mesh().n_vertices());
+        std::iota(into_.begin(), into_.end(), std::uint32_t{0});
         for (const FaceHandle f : mesh().faces()) add_face(f);
         for (const HalfedgeHandle h : mesh().halfedges()) {
             if (mesh().is_boundary(h)) add_boundary(h);
@@ -72,7 +75,11 @@ public:
 
     void postprocess_collapse(const CollapseInfo& collapse) override {
         quadrics_[number(collapse.v1)] += quadrics_[number(collapse.v0)];
+        into_[number(collapse.v0)] = number(collapse.v1);
     }
+
+    /// The vertex that is left where each one was.
+    std::vector<std::uint32_t> left() const { return ends_of_chains(into_); }
 
 private:
     Vector3d place(VertexHandle v) { return (position(mesh(), v) - middle_) * scale_; }
@@ -132,6 +139,7 @@ private:
     std::size_t attributes_ = 0;
     std::vector<PointQuadric::Attributes> values_;
     std::vector<PointQuadric> quadrics_;
+    std::vector<std::uint32_t> into_;  ///< The vertex into which each one has merged; itself.
 };
 
 class StopWhenCancelled : public OpenMesh::Decimater::Observer {
@@ -152,6 +160,7 @@ Result<Simplified> simplify(const SurfaceMesh& mesh, std::size_t triangles,
           "a pattern has values at each point");
     Result<HalfEdges> edited = half_edges(mesh);
     if (!edited) return tl::unexpected(edited.error());
+    Simplified result;
     {
         Decimater decimater(*edited);
         PatternModule::Handle module;
@@ -162,9 +171,14 @@ Result<Simplified> simplify(const SurfaceMesh& mesh, std::size_t triangles,
         const bool is_ready = decimater.initialize();
         CHECK(is_ready, "the decimater has one module that says what a collapse costs");
         decimater.decimate_to_faces(0, std::max(triangles, std::size_t{1}));
+        result.merged = decimater.module(module).left();
     }
-    Simplified result;
-    for (const VertexHandle v : edited->vertices()) result.points.push_back(number(v));
+    std::vector<std::uint32_t> indices(mesh.points.size());
+    for (const VertexHandle v : edited->vertices()) {
+        indices[number(v)] = static_cast<std::uint32_t>(result.points.size());
+        result.points.push_back(number(v));
+    }
+    for (std::uint32_t& point : result.merged) point = indices[point];
     result.mesh = surface_mesh(*edited, result.points);
     for (const PointAttribute& attribute : mesh.attributes) {
         PointAttribute& kept =

@@ -24,6 +24,8 @@ struct Simplified {
     /// no texture coordinates and no faces.
     SurfaceMesh mesh;
     std::vector<std::uint32_t> points;  ///< The original's point that each one is.
+    /// For each point of the original, the point of the result into which it has merged.
+    std::vector<std::uint32_t> merged;
 };
 
 /// The surface with about `triangles` triangles, at most one more: edges are collapsed into one of

@@ -21,13 +21,15 @@ list(APPEND CASCADE_WITHOUT
   ir/tiered_backend
   atlas/flatten atlas/join_charts atlas/make_charts atlas/unwrap
   mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_file mesh/half_edges mesh/isotropic_remesh
+  mesh/simplify mesh/subdivide
   surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute
   picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf
   picture/write_drawing
-  render/ray_caster
-  run/domain/free_memory
-  run/pictures/frame_folder run/pictures/frames run/pictures/model_files run/pictures/series
+  export/levels render/ray_caster
+  run/domain/free_memory run/domain/reshape_model
+  run/pictures/frame_folder run/pictures/frames run/pictures/body_file
+  run/pictures/model_files run/pictures/model_maps run/pictures/series
   run/session/session
   run/commands/.* run/emit_c/.*
   view/admission view/carried view/local_server view/outbox view/page_requests view/page_server

@@ -137,6 +137,41 @@ says err "--unwrap gives each a place of its own"
 run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 --unwrap -o tiles.glb
 grep -q "several parts" err && fail "coordinates of ours overlap"
 
+# Levels of detail: files of their own, and all of them in the first GLB file.
+run 0 $model --lods 3 -o lods.glb -o lods.ply
+for name in lods.glb lods_lod1.glb lods_lod2.glb lods.ply lods_lod1.ply lods_lod2.ply; do
+    [ -s "$name" ] || fail "no $name"
+done
+levels=$(for k in '' _lod1 _lod2; do
+    "$CASCADE" mesh lods$k.ply | sed -n 's/,//g; s/.* points \([0-9]*\) triangles.*/\1/p'
+done | paste -sd' ')
+python3 -c 'import sys
+a, b, c = map(int, sys.argv[1:])
+assert abs(4 * b - a) < 12 and abs(4 * c - b) < 12' $levels || fail "levels of $levels triangles"
+run 0 $model --lods 2 --bake 64 -o maps.glb
+for name in maps.glb maps_color.png maps_lod1.glb maps_lod1_color.png maps_lod1_normal.png; do
+    [ -s "$name" ] || fail "no $name"
+done
+run 0 mesh maps_lod1.glb
+says out "texture coordinates: "
+# The surface moves by its heights, and only then.
+run 0 $model -o level.ply
+run 0 $model --bump 0.1 -o level_too.ply
+cmp -s level.ply level_too.ply || fail "--bump moves a model"
+run 0 $model --bump 0.1 --displace --bake 64 -o raised.glb -o raised.ply
+cmp -s level.ply raised.ply && fail "--displace moves nothing"
+[ ! -e raised_height.png ] && [ ! -e raised_normal.png ] || fail "heights twice"
+run 2 $model --displace -o raised.ply
+says err "the surface has no heights"
+run 2 $model --lods 3 -o lods.png
+says err "no model is written"
+run 2 run -q spots.cascade --lods 3 -o lods.glb --bake 64
+says err "the domain is not a model"
+run 3 $model --lods 2 -o lods.glb -o lods_lod1.glb
+says err "the model and the model are both to be written to"
+run 64 $model --lods 1 -o lods.glb
+says err "whole number from 2 to 8"
+
 # Pictures: options travel inside them, and change them.
 run 0 $model -o plain.png --view 40,10
 run 0 $model -o turned.png --view 40,10 --up z --bump 0.03 --palette viridis

@@ -69,6 +69,8 @@ for model in ply obj glb stl; do
     grep -q "closed" facts || fail "body.$model: $(cat facts)"
 done
 echo 'system_name: turing_spots; iterations: 10' >coat.cascade
+"$CASCADE" run -q body.cascade --lods 2 -o levels.glb || fail "no levels of a body"
+"$CASCADE" mesh levels_lod1.glb | grep -q closed || fail "a level of a body is not closed"
 "$CASCADE" run -q coat.cascade --mesh body.ply --cells 400 -o coat.png || fail "nothing grows on a body"
 "$CASCADE" run -q body.cascade --flat -o slice.png || fail "no slice of a body"
 "$CASCADE" run -q body.cascade --turntable 2 -o turn.png || fail "a body does not turn"

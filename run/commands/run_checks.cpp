@@ -4,13 +4,16 @@
 
 #include "core/file.h"
 #include "core/temporary_file.h"
+#include "export/levels.h"
 #include "export/material_maps.h"
 #include "film/film.h"
 #include "lang/check/check.h"
 #include "picture/caption.h"
+#include "run/commands/model_checks.h"
 #include "run/pictures/body_picture.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/material.h"
+#include "run/pictures/model_maps.h"
 #include "run/pictures/picture_size.h"
 
 #include <fmt/format.h>
@@ -75,8 +78,9 @@ bool has_cells(const Script& script) {
 
 std::vector<OutputFile> files_of(const Script& script, const RunRequest& request,
                                  std::span<const std::filesystem::path> outputs) {
-    const MapSet maps =
-        has_cells(script) ? MapSet{true} : maps_said(script, request.picture.bump != 0);
+    const MapSet maps = has_cells(script) ? MapSet{.heights = true, .normals = true}
+                                          : maps_said(script, request.picture.bump != 0);
+    const auto levels = static_cast<std::size_t>(request.model_files.levels);
     std::vector<OutputFile> files;
     const auto add = [&](std::span<const std::filesystem::path> paths, std::string_view what) {
         for (const auto& path : paths) files.push_back({path, what});
@@ -86,7 +90,14 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
         if (kind == OutputKind::picture && request.turntable > 0) {
             add(turntable_paths(output, request.turntable), "the picture");
         } else if (request.model_files.is_baked(output)) {
-            add(map_paths(output, maps), "the baked model");
+            for (std::size_t k = 0; k < levels; ++k) {
+                add(map_paths_of_level(output, k, maps, request.model_files), "the baked model");
+            }
+        } else if (kind == OutputKind::model) {
+            for (std::size_t k = 0; k < levels; ++k) {
+                const std::filesystem::path path = path_of_level(output, k);
+                add({&path, 1}, name_of(kind));
+            }
         } else {
             add({&output, 1}, name_of(kind));
         }
@@ -183,25 +194,6 @@ void check_stop_at(Script& script, const StopAt& stop_at) {
                              fmt::format("stage '{}' has {} steps", stop_at.stage, iterations));
 }
 
-/// Reports options that are incompatible with the domain or with each other.
-class OptionRefuser {
-public:
-    explicit OptionRefuser(Script& script) : script_(script) {}
-
-    void refuse_if(bool is_wrong, const std::string& option, std::string message,
-                   std::string hint) {
-        if (is_wrong) refuse(option, option, std::move(message), std::move(hint));
-    }
-    void refuse(const std::string& option, const std::string& value, std::string message,
-                std::string hint) {
-        script_.diagnostics.error(option_span(script_.sources, option, value), std::move(message),
-                                  std::move(hint));
-    }
-
-private:
-    Script& script_;
-};
-
 /// Outputs with rows and columns, which a model does not have.
 void check_on_model(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "the cells of a model have no rows and columns";
@@ -213,89 +205,6 @@ void check_on_model(OptionRefuser& options, const RunRequest& request) {
     options.refuse_if(!request.volume.empty(), "--volume", message,
                       "-o model.vtp has all species for ParaView");
     options.refuse_if(request.features, "--features", message, "");
-}
-
-/// Options for model files without a file that they apply to.
-void check_model_files(OptionRefuser& options, const RunRequest& request) {
-    const ModelFileOptions& files = request.model_files;
-    bool has_picture = request.outputs.empty();
-    bool is_baked = false, is_tiled = false, has_texture = false;
-    for (const auto& output : request.outputs) {
-        has_picture = has_picture || output_kind(output) == OutputKind::picture || is_film(output);
-        is_baked = is_baked || files.is_baked(output);
-        is_tiled =
-            is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
-        has_texture =
-            has_texture || files.is_baked(output) || (!files.retile && holds_texture(output));
-    }
-    options.refuse_if(files.retile && !is_tiled, "--retile",
-                      "no model is written that it could tile",
-                      "-o NAME.ply, .obj, .glb, .vtp or .stl writes one");
-    options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
-                      "-o NAME.glb writes one");
-    options.refuse_if(files.unwrap && !has_texture, "--unwrap",
-                      files.retile && is_tiled
-                          ? "the triangles of --retile have no texture coordinates"
-                          : "no model is written that has texture coordinates",
-                      "-o NAME.glb, .obj or .ply writes one");
-    options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
-                      "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
-}
-
-constexpr std::string_view not_a_model = "the domain is not a model";
-constexpr std::string_view how_to_get_a_model =
-    "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
-
-void check_maps_without_model(OptionRefuser& options, const RunRequest& request) {
-    for (const auto& [option, is_given] : {std::pair("--bake", request.model_files.bake > 0),
-                                           std::pair("--unwrap", request.model_files.unwrap)}) {
-        options.refuse_if(is_given, option, std::string(not_a_model),
-                          std::string(how_to_get_a_model));
-    }
-}
-
-/// What is done with the cells of a model alone.
-void check_cells_of_model(OptionRefuser& options, const RunRequest& request) {
-    for (const auto& [option, is_given] :
-         {std::pair("--retile", request.model_files.retile),
-          std::pair("--bump", request.picture.bump != 0),
-          std::pair("--cache", !request.simulation.cell_cache.empty())}) {
-        options.refuse_if(is_given, option, std::string(not_a_model),
-                          std::string(how_to_get_a_model));
-    }
-}
-
-/// A body has a surface and no cells on it.
-void check_of_body(OptionRefuser& options, const RunRequest& request) {
-    for (const auto& output : request.outputs) {
-        if (output_kind(output) != OutputKind::cells) continue;
-        options.refuse("-o", output.string(), "only what grows on a model is written so",
-                       "--volume FILE.vti has all species of a volume");
-    }
-    check_maps_without_model(options, request);
-    check_cells_of_model(options, request);
-}
-
-/// Options that apply to models only. A plane has maps, too.
-void check_without_model(OptionRefuser& options, const RunRequest& request, bool is_plane) {
-    const std::string message(not_a_model), hint(how_to_get_a_model);
-    bool has_model = false;
-    for (const auto& output : request.outputs) {
-        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
-        if (kind != OutputKind::model && kind != OutputKind::cells) continue;
-        has_model = true;
-        const bool has_maps = is_plane && ModelFileOptions{.bake = 1}.is_baked(output);
-        if (has_maps && request.model_files.bake > 0) continue;
-        options.refuse("-o", output.string(),
-                       "only what grows on a model is written so, and " + message,
-                       has_maps ? "--bake N writes a rectangle with maps of N texels" : hint);
-    }
-    check_cells_of_model(options, request);
-    if (!is_plane) return check_maps_without_model(options, request);
-    options.refuse_if(request.model_files.unwrap, "--unwrap", message, hint);
-    options.refuse_if(request.model_files.bake > 0 && !has_model, "--bake",
-                      "no model is written with its maps",
-                      "-o NAME.glb writes a rectangle with them");
 }
 
 /// `has_body` says that --flat shows a slice in place of a body.
@@ -409,10 +318,12 @@ Result<void> check_request(Script& script, const RunRequest& request) {
     if (has_cells(script)) {
         check_with_cells(options, request);
         if (domain.model) check_model_files(options, request);
-        else check_maps_without_model(options, request);
+        else check_without_surface(options, request);
+        check_levels_of_cells(options, request);
     } else if (domain.model) {
         check_on_model(options, request);
         check_model_files(options, request);
+        check_heights(options, request, maps_said(script, request.picture.bump != 0).heights);
     } else if (draws_body(script, request.picture)) {
         check_of_body(options, request);
     } else {

@@ -3,6 +3,7 @@
 
 #include "core/counted.h"
 #include "run/commands/run_checks.h"
+#include "run/pictures/body_file.h"
 #include "run/pictures/body_picture.h"
 #include "run/pictures/cell_files.h"
 #include "run/pictures/frame_folder.h"
@@ -134,13 +135,7 @@ Result<void> RunResults::write_model_files(const Canvas& canvas) {
     const ModelLook look = painter.look(canvas);
     ModelFileWriter writer(*simulation.model(), texture, look, channels(canvas),
                            request.model_files, texts(request.picture));
-    auto done = write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
-        auto paths = writer.write(path);
-        if (!paths) return tl::unexpected(paths.error());
-        return WrittenFiles{*std::move(paths), {}};
-    });
-    warn_of(writer.warnings());
-    return done;
+    return write_each([&](const std::filesystem::path& path) { return writer.write(path); });
 }
 
 /// Of a stage of cells that crawl.
@@ -165,10 +160,8 @@ Result<void> RunResults::write_body_files(const Canvas& canvas) {
     });
     if (shows_number(canvas)) channels.push_back({"shown", numbers(canvas.fields[0])});
     const std::vector<Colour> colours = painter.colours_of_row(canvas);
-    return write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
-        auto done = write_body(path, body, grid, colours, channels);
-        if (!done) return tl::unexpected(done.error());
-        return WrittenFiles{{path}, {}};
+    return write_each([&](const std::filesystem::path& path) {
+        return write_body(path, body, grid, {colours, channels}, request.model_files.levels);
     });
 }
 

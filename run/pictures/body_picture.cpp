@@ -1,7 +1,6 @@
 // A body is drawn as that on which cells crawl, without any cells.
 #include "run/pictures/body_picture.h"
 
-#include "export/model_writer.h"
 #include "lang/check/check.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/tissue_picture.h"
@@ -81,21 +80,6 @@ Image draw_body(std::shared_ptr<const SurfaceMesh> body, std::span<const Colour>
     drawn.body = std::move(body);
     drawn.body_colours.assign(colours.begin(), colours.end());
     return draw_cells(drawn, {}, nullptr, nullptr, options);
-}
-
-Result<void> write_body(const std::filesystem::path& path, const SurfaceMesh& body,
-                        const Grid& grid, std::span<const Colour> colours,
-                        std::span<const Channel> channels) {
-    if (body.points.empty()) {
-        return failure(
-            fmt::format("'{}' is not written, because the body is empty: its formula is "
-                        "nowhere above 0",
-                        path.string()));
-    }
-    SurfaceMesh mesh = body;
-    const double longest = grid.spacing * static_cast<double>(grid.longest_side());
-    for (Vector3d& point : mesh.points) point = point * longest;
-    return write_model(path, mesh, {colours, channels});
 }
 
 }  // namespace cascade

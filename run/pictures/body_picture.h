@@ -5,14 +5,12 @@
 #include "core/parallel.h"
 #include "core/plane.h"
 #include "core/result.h"
-#include "export/channels.h"
 #include "mesh/surface_mesh.h"
 #include "render/draw.h"
 #include "run/domain/domain_mask.h"
 #include "run/script/picture_request.h"
 #include "run/script/script.h"
 
-#include <filesystem>
 #include <memory>
 #include <span>
 
@@ -35,11 +33,5 @@ Field at_points(const Field& values, const SurfaceMesh& body, Boundaries boundar
 /// Draws a body with these colours (sRGB) at its points. Throws std::bad_alloc.
 Image draw_body(std::shared_ptr<const SurfaceMesh> body, std::span<const Colour> colours,
                 const DrawOptions& options);
-
-/// Writes a body with the colours and numbers of its points, as write_model() does, with lengths in
-/// the unit of the grid's spacing.
-Result<void> write_body(const std::filesystem::path& path, const SurfaceMesh& body,
-                        const Grid& grid, std::span<const Colour> colours,
-                        std::span<const Channel> channels);
 
 }  // namespace cascade

@@ -52,7 +52,7 @@ class OutsideSamples : public SamplePainter {
 public:
     OutsideSamples(const CellsFromOutside& cells, const SkinColours& skin);
 
-    MapSet maps() const override { return {true}; }
+    MapSet maps() const override { return {.heights = true, .normals = true}; }
     void paint(const SampleRow& row) override;
     /// The sum of the normals at all samples.
     Vector3d raised_normal(std::span<const SurfacePlace> samples, const Vector3d& normal) override;

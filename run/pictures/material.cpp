@@ -113,7 +113,7 @@ MapSet maps_said(const Script& script, bool has_bumps) {
         return picture_expression(script.tree, setting).has_value();
     };
     MapSet maps;
-    maps.heights = maps.occlusion = has_bumps || says("height");
+    maps.heights = maps.normals = maps.occlusion = has_bumps || says("height");
     maps.roughness = says("roughness");
     maps.metalness = says("metalness");
     maps.emission = says("emission");

@@ -3,13 +3,13 @@
 #include "run/pictures/model_files.h"
 
 #include "core/enough_memory.h"
-#include "export/bake.h"
 #include "export/cell_writer.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
 #include "export/refine.h"
 #include "film/film.h"
-#include "run/pictures/model_occlusion.h"
+#include "mesh/normals.h"
+#include "run/pictures/model_maps.h"
 #include "run/pictures/model_picture.h"
 #include "surface/blur_cells.h"
 #include "surface/retile.h"
@@ -30,20 +30,6 @@ namespace {
 // whose radius is two.
 constexpr double colour_distance = 0.75;
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
-
-static_assert(ModelFileOptions::most_texels == BakeOptions::largest_texture);
-
-/// A sentence about maps of this side that are far finer than what cells show; "" if they are not.
-std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
-    constexpr double most = 16, enough = 4;  // Along a side of a cell.
-    const double along = std::sqrt(texels_of_cell);
-    if (!(along > most)) return {};
-    const auto needed = static_cast<std::uint64_t>(static_cast<double>(side) * enough / along);
-    return fmt::format(
-        "a cell is {:.0f} texels wide in maps of {} texels: '--bake {}' shows as much, and more "
-        "cells show more",
-        along, side, std::bit_ceil(needed));
-}
 
 }  // namespace
 
@@ -118,20 +104,36 @@ const CellFilter& ModelFileWriter::filter() {
     return *filter_;
 }
 
-Result<std::vector<std::filesystem::path>> ModelFileWriter::write(
-    const std::filesystem::path& path) {
-    const auto write_one = [&]() -> Result<std::vector<std::filesystem::path>> {
-        if (options_.is_baked(path) && output_kind(path) != OutputKind::cells) {
-            return write_maps(path);
-        }
-        const auto written = output_kind(path) == OutputKind::cells ? write_cells(path)
-                             : options_.retile                      ? write_retiled(path)
-                                                                    : write_refined(path);
-        if (!written) return tl::unexpected(written.error());
-        return std::vector{path};
-    };
-    return enough_memory_for(write_one,
+/// The model with triangles so small that its points show the pattern, and its heights.
+const RefinedMesh& ModelFileWriter::refined() {
+    if (refined_) return *refined_;
+    refined_ = std::make_unique<RefinedMesh>(refined_for_colours(mesh_, model_.spread().cells));
+    if (!options_.displace) return *refined_;
+    const Channel heights{"height", look_.heights};
+    std::vector<Vector3d> normals;
+    const std::vector<Vector3d> of_points = point_normals(mesh_);
+    for (const SurfacePlace& place : refined_->places) {
+        normals.push_back(normal_at(mesh_, of_points, place));
+    }
+    displace(refined_->mesh, normals,
+             values_at(refined_->places, filter(), {&heights, 1}, team_).front().values);
+    return *refined_;
+}
+
+Result<WrittenFiles> ModelFileWriter::write(const std::filesystem::path& path) {
+    return enough_memory_for([&] { return write_one(path); },
                              "cannot write '" + path.string() + "': there is not enough memory");
+}
+
+Result<WrittenFiles> ModelFileWriter::write_one(const std::filesystem::path& path) {
+    if (output_kind(path) == OutputKind::cells) {
+        if (auto done = write_cells(path); !done) return tl::unexpected(done.error());
+        return WrittenFiles{{path}, {}};
+    }
+    if (!options_.is_baked(path)) return write_with_levels(path);
+    const MappedSurface surface{mesh_, model_.spread().cells, filter(),
+                                options_.displace ? &refined() : nullptr};
+    return write_model_maps(path, surface, look_, options_, texts_, team_);
 }
 
 Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {
@@ -142,72 +144,67 @@ Result<void> ModelFileWriter::write_cells(const std::filesystem::path& path) {
     return cascade::write_cells(path, mesh_, model_.spread().cells, {colours, channels_});
 }
 
-Result<void> ModelFileWriter::write_refined(const std::filesystem::path& path) {
-    if (!refined_) {
-        refined_ = std::make_unique<RefinedMesh>(refined_for_colours(mesh_, model_.spread().cells));
+Result<WrittenFiles> ModelFileWriter::write_with_levels(const std::filesystem::path& path) {
+    if (levels_.empty()) {
+        if (auto made = make_levels(); !made) return tl::unexpected(made.error());
     }
-    PaintedCells painted = look_.painted();
-    painted.heights = {};
-    painted.material = {};
-    return write_model(path, refined_->mesh,
-                       {colours_at(refined_->places, filter(), painted, team_),
-                        values_at(refined_->places, filter(), channels_, team_)});
+    auto paths = write_levels(path, levels_);
+    if (!paths) return tl::unexpected(paths.error());
+    return WrittenFiles{*std::move(paths), {}};
+}
+
+Result<void> ModelFileWriter::make_levels() {
+    ModelLevel finest;
+    if (options_.retile) {
+        auto tiled = retiled();
+        if (!tiled) return tl::unexpected(tiled.error());
+        finest = *std::move(tiled);
+    } else {
+        PaintedCells painted = look_.painted();
+        painted.heights = {};
+        painted.material = {};
+        const std::vector<SurfacePlace>& places = refined().places;
+        finest = {refined().mesh, colours_at(places, filter(), painted, team_),
+                  values_at(places, filter(), channels_, team_)};
+    }
+    const std::atomic<bool> never = false;
+    auto levels = levels_of(std::move(finest), options_.levels,
+                            2 * cell_spacing(model_.spread().cells), never);
+    if (!levels) return tl::unexpected(levels.error());
+    levels_ = *std::move(levels);
+    return {};
 }
 
 /// Points at cells take the cells' values without filtering.
-Result<void> ModelFileWriter::write_retiled(const std::filesystem::path& path) {
+Result<ModelLevel> ModelFileWriter::retiled() {
     const std::size_t count = model_.count();
-    if (!retiled_) {
-        const std::atomic<bool> never = false;
-        auto made = retile(mesh_, model_.spread().cells.places, never);
-        if (!made) return tl::unexpected(made.error());
-        retiled_ = std::make_unique<Retiled>(*std::move(made));
-    }
-    const std::size_t points = retiled_->mesh.points.size();
+    const std::atomic<bool> never = false;
+    auto made = retile(mesh_, model_.spread().cells.places, never);
+    if (!made) return tl::unexpected(made.error());
+    const std::size_t points = made->mesh.points.size();
     std::vector<float> values(look_.channels * points), of_cells(count);
     for (std::size_t c = 0; c < look_.channels; ++c) {
         for (std::size_t k = 0; k < count; ++k) of_cells[k] = look_.values[look_.channels * k + c];
-        const PointAttribute whole = attribute_of(*retiled_, "", of_cells);
+        const PointAttribute whole = attribute_of(*made, "", of_cells);
         for (std::size_t p = 0; p < points; ++p) values[look_.channels * p + c] = whole.values[p];
     }
     const std::vector<SurfacePlace> of_points = places_of_points(mesh_);
-    std::vector<Colour> colours;
+    ModelLevel level;
     for (std::size_t p = 0; p < points; ++p) {
         const SurfacePlace& place = p < count ? model_.spread().cells.places[p]
-                                              : of_points[retiled_->kept[p - count].old_point];
-        colours.push_back(
+                                              : of_points[made->kept[p - count].old_point];
+        level.colours.push_back(
             look_.colour(std::span(values).subspan(look_.channels * p, look_.channels), place));
     }
-    std::vector<Channel> channels;
     for (const Channel& channel : channels_) {
-        channels.push_back(attribute_of(*retiled_, channel.name, channel.values));
+        level.channels.push_back(attribute_of(*made, channel.name, channel.values));
     }
-    return write_model(path, retiled_->mesh, {colours, channels});
-}
-
-Result<std::vector<std::filesystem::path>> ModelFileWriter::write_maps(
-    const std::filesystem::path& path) {
-    BakeOptions options;
-    options.width = options.height = options_.bake;
-    PaintedCells painted = look_.painted();
-    std::vector<float> occlusion;
-    if (!look_.heights.empty()) {
-        occlusion = model_occlusion(mesh_, model_.spread().cells, filter(), look_.heights, team_);
-        painted.material[MaterialPart::occlusion] = occlusion;
+    if (options_.displace) {
+        displace(made->mesh, point_normals(made->mesh),
+                 attribute_of(*made, "", look_.heights).values);
     }
-    const std::atomic<bool> never = false;
-    const auto baked = bake(mesh_, filter(), painted, options, team_, never);
-    if (!baked) return tl::unexpected(baked.error());
-    for (const std::string& warning : baked->warnings) warnings_.push_back(warning);
-    for (const std::string& doubt : look_.material.doubts) warnings_.push_back(doubt);
-    const double texels = baked->covered * static_cast<double>(options_.bake * options_.bake);
-    std::string doubt =
-        describe_spare_texels(options_.bake, texels / static_cast<double>(model_.count()));
-    if (!doubt.empty()) warnings_.push_back(std::move(doubt));
-    if (auto done = cascade::write_maps(path, mesh_, *baked, texts_); !done) {
-        return tl::unexpected(done.error());
-    }
-    return map_paths(path, baked->maps);
+    level.mesh = std::move(made->mesh);
+    return level;
 }
 
 }  // namespace cascade

@@ -3,9 +3,10 @@
 
 #include "atlas/unwrap.h"
 #include "core/result.h"
-#include "export/channels.h"
+#include "export/levels.h"
 #include "picture/image.h"
 #include "run/domain/model_cells.h"
+#include "run/pictures/written_files.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +20,6 @@ namespace cascade {
 class CellFilter;
 struct ModelLook;
 struct RefinedMesh;
-struct Retiled;
 
 /// The kind of an output file.
 enum class OutputKind { picture, figure, film, model, cells };
@@ -40,6 +40,9 @@ struct ModelFileOptions {
     std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 for none.
     bool merge = false;     ///< Of cells that crawl: plain triangles instead of instances.
     bool unwrap = false;    ///< With texture coordinates of our own, even if the model has some.
+    bool displace = false;  ///< Raise the surface by its heights.
+    int levels = 1;         ///< Of detail, each with a quarter of the triangles of the one before.
+    static constexpr int most_levels = 8;
     static constexpr std::int64_t most_texels = 8192;
     /// True if this file gets maps.
     bool is_baked(const std::filesystem::path& path) const;
@@ -73,19 +76,18 @@ public:
                     std::vector<Channel> channels, const ModelFileOptions& options, PngTexts texts);
     ~ModelFileWriter();
 
-    /// Writes a model or cells. Returns the files written, which include the maps of a baked model.
-    /// Fails as the writers of export/ do.
-    Result<std::vector<std::filesystem::path>> write(const std::filesystem::path& path);
-
-    /// Warnings about baked files, a sentence each.
-    const std::vector<std::string>& warnings() const { return warnings_; }
+    /// Writes a model or cells, with the levels and maps that there are. Fails as the writers of
+    /// export/ do.
+    Result<WrittenFiles> write(const std::filesystem::path& path);
 
 private:
-    Result<void> write_refined(const std::filesystem::path& path);
-    Result<void> write_retiled(const std::filesystem::path& path);
+    Result<WrittenFiles> write_one(const std::filesystem::path& path);
     Result<void> write_cells(const std::filesystem::path& path);
-    Result<std::vector<std::filesystem::path>> write_maps(const std::filesystem::path& path);
+    Result<WrittenFiles> write_with_levels(const std::filesystem::path& path);
+    Result<void> make_levels();
+    Result<ModelLevel> retiled();
     const CellFilter& filter();
+    const RefinedMesh& refined();
 
     const ModelCells& model_;
     SurfaceMesh changed_;      ///< Empty if files have the model as it is.
@@ -95,11 +97,10 @@ private:
     ModelFileOptions options_;
     PngTexts texts_;
     Team team_;
-    std::vector<std::string> warnings_;
     // Made when first needed.
     std::unique_ptr<CellFilter> filter_;
-    std::unique_ptr<RefinedMesh> refined_;
-    std::unique_ptr<Retiled> retiled_;
+    std::unique_ptr<RefinedMesh> refined_;  ///< Displaced, if it is asked for.
+    std::vector<ModelLevel> levels_;        ///< The finest one first.
 };
 
 }  // namespace cascade

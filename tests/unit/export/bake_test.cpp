@@ -433,7 +433,7 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
     Bake result = baked(sphere.mesh, sphere.cells, sphere.look, size_of_texture(64, 32));
     const std::filesystem::path model = folder / "a.b.glb";
     ASSERT_TRUE(write_maps(model, sphere.mesh, result, {{"Software", "Cascade"}}).has_value());
-    EXPECT_THAT(map_paths(model, {true}),
+    EXPECT_THAT(map_paths(model, {.heights = true, .normals = true}),
                 ElementsAre(model, folder / "a.b_color.png", folder / "a.b_height.png",
                             folder / "a.b_normal.png"));
     // Heights and normals are no colours, and who displaces the surface learns by how much.
@@ -445,7 +445,7 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
         EXPECT_EQ(parse_png_texts(bytes)->at("Cascade heights"),
                   fmt::format("{:.9g} {:.9g}", result.heights.low, result.heights.high));
     }
-    for (const auto& path : map_paths(model, {true})) {
+    for (const auto& path : map_paths(model, {.heights = true, .normals = true})) {
         EXPECT_TRUE(std::filesystem::remove(path)) << path;
     }
     result.relief = result.normals = {};

@@ -119,6 +119,12 @@ TEST(Simplify, KeepsAttributesAndSaysWhichPointsAreLeft) {
         EXPECT_EQ(coarse.mesh.points[p], fine.points[coarse.points[p]]);
         EXPECT_EQ(coarse.mesh.attributes.at(0).values[p],
                   fine.attributes[0].values[coarse.points[p]]);
+        EXPECT_EQ(coarse.merged[coarse.points[p]], p);
+    }
+    // What has merged lies nearby.
+    ASSERT_EQ(coarse.merged.size(), fine.points.size());
+    for (std::size_t p = 0; p < fine.points.size(); ++p) {
+        EXPECT_LT(length(fine.points[p] - coarse.mesh.points.at(coarse.merged[p])), 0.6);
     }
 }
 

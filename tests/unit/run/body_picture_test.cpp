@@ -4,6 +4,7 @@
 #include "export/model_writer.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
+#include "run/pictures/body_file.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/painter.h"
 #include "run/session/turns.h"
@@ -99,7 +100,7 @@ TEST(BodyPicture, IsEmptyWhereNothingIsInside) {
     EXPECT_TRUE(drawn.canvas.body->points.empty());
     EXPECT_EQ(drawn.image().width, 800);
     const auto path = std::filesystem::path(::testing::TempDir()) / "empty.ply";
-    const auto written = write_body(path, *drawn.canvas.body, Grid{24, 24}, {}, {});
+    const auto written = write_body(path, *drawn.canvas.body, Grid{24, 24}, {}, 1);
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find("the body is empty"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(path));
@@ -145,7 +146,7 @@ TEST(BodyPicture, IsWrittenInUnitsOfTheGrid) {
     const Drawn drawn(ball("body: u", "spacing: 0.5"));
     const auto path = std::filesystem::path(::testing::TempDir()) / "ball.stl";
     const Grid grid = drawn.ran.simulation->grid();
-    ASSERT_TRUE(write_body(path, *drawn.canvas.body, grid, {}, {}));
+    ASSERT_TRUE(write_body(path, *drawn.canvas.body, grid, {}, 1));
     auto soup = read_model(path);
     ASSERT_TRUE(soup) << soup.error().message;
     const auto read = make_mesh(*std::move(soup));

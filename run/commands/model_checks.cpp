@@ -1,0 +1,122 @@
+// Each refusal names the option, and the hint what would give it a meaning.
+#include "run/commands/model_checks.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::string_view not_a_model = "the domain is not a model";
+constexpr std::string_view how_to_get_a_model =
+    "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
+constexpr const char* how_to_write_one = "-o NAME.ply, .obj, .glb, .vtp or .stl writes one";
+
+bool writes_model(const RunRequest& request) {
+    return std::any_of(request.outputs.begin(), request.outputs.end(),
+                       [](const auto& output) { return output_kind(output) == OutputKind::model; });
+}
+
+/// What is done with the cells of a model alone.
+void check_cells_of_model(OptionRefuser& options, const RunRequest& request) {
+    for (const auto& [option, is_given] :
+         {std::pair("--retile", request.model_files.retile),
+          std::pair("--displace", request.model_files.displace),
+          std::pair("--bump", request.picture.bump != 0),
+          std::pair("--cache", !request.simulation.cell_cache.empty())}) {
+        options.refuse_if(is_given, option, std::string(not_a_model),
+                          std::string(how_to_get_a_model));
+    }
+}
+
+}  // namespace
+
+void check_heights(OptionRefuser& options, const RunRequest& request, bool has_heights) {
+    options.refuse_if(request.model_files.displace && !has_heights, "--displace",
+                      "the surface has no heights",
+                      "height: e in the picture block gives them, or --bump");
+}
+
+void check_levels_of_cells(OptionRefuser& options, const RunRequest& request) {
+    const std::string message = "cells that crawl are written as copies of shapes";
+    options.refuse_if(request.model_files.levels > 1, "--lods", message,
+                      "'detail' in the picture block says how fine the shapes are");
+    options.refuse_if(request.model_files.displace, "--displace", message,
+                      "--bake writes their heights as a map");
+}
+
+void check_without_surface(OptionRefuser& options, const RunRequest& request) {
+    for (const auto& [option, is_given] : {std::pair("--bake", request.model_files.bake > 0),
+                                           std::pair("--unwrap", request.model_files.unwrap)}) {
+        options.refuse_if(is_given, option, std::string(not_a_model),
+                          std::string(how_to_get_a_model));
+    }
+}
+
+void check_model_files(OptionRefuser& options, const RunRequest& request) {
+    const ModelFileOptions& files = request.model_files;
+    bool has_picture = request.outputs.empty();
+    bool is_baked = false, is_tiled = false, has_texture = false, has_model = false;
+    for (const auto& output : request.outputs) {
+        has_picture = has_picture || output_kind(output) == OutputKind::picture || is_film(output);
+        is_baked = is_baked || files.is_baked(output);
+        has_model = has_model || output_kind(output) == OutputKind::model;
+        is_tiled =
+            is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
+        has_texture =
+            has_texture || files.is_baked(output) || (!files.retile && holds_texture(output));
+    }
+    options.refuse_if(files.retile && !is_tiled, "--retile",
+                      "no model is written that it could tile", how_to_write_one);
+    for (const auto& [option, is_given] :
+         {std::pair("--lods", files.levels > 1), std::pair("--displace", files.displace)}) {
+        options.refuse_if(is_given && !has_model, option, "no model is written", how_to_write_one);
+    }
+    options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
+                      "-o NAME.glb writes one");
+    options.refuse_if(files.unwrap && !has_texture, "--unwrap",
+                      files.retile && is_tiled
+                          ? "the triangles of --retile have no texture coordinates"
+                          : "no model is written that has texture coordinates",
+                      "-o NAME.glb, .obj or .ply writes one");
+    options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
+                      "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
+}
+
+void check_of_body(OptionRefuser& options, const RunRequest& request) {
+    for (const auto& output : request.outputs) {
+        if (output_kind(output) != OutputKind::cells) continue;
+        options.refuse("-o", output.string(), "only what grows on a model is written so",
+                       "--volume FILE.vti has all species of a volume");
+    }
+    check_without_surface(options, request);
+    check_cells_of_model(options, request);
+    options.refuse_if(request.model_files.levels > 1 && !writes_model(request), "--lods",
+                      "no model is written", how_to_write_one);
+}
+
+void check_without_model(OptionRefuser& options, const RunRequest& request, bool is_plane) {
+    const std::string message(not_a_model), hint(how_to_get_a_model);
+    bool has_model = false;
+    for (const auto& output : request.outputs) {
+        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
+        if (kind != OutputKind::model && kind != OutputKind::cells) continue;
+        has_model = true;
+        const bool has_maps = is_plane && ModelFileOptions{.bake = 1}.is_baked(output);
+        if (has_maps && request.model_files.bake > 0) continue;
+        options.refuse("-o", output.string(),
+                       "only what grows on a model is written so, and " + message,
+                       has_maps ? "--bake N writes a rectangle with maps of N texels" : hint);
+    }
+    check_cells_of_model(options, request);
+    options.refuse_if(request.model_files.levels > 1, "--lods", message, hint);
+    if (!is_plane) return check_without_surface(options, request);
+    options.refuse_if(request.model_files.unwrap, "--unwrap", message, hint);
+    options.refuse_if(request.model_files.bake > 0 && !has_model, "--bake",
+                      "no model is written with its maps",
+                      "-o NAME.glb writes a rectangle with them");
+}
+
+}  // namespace cascade
