@@ -2,6 +2,7 @@
 #include "core/check.h"
 #include "core/palette.h"
 #include "ir/space.h"
+#include "lang/check/domain_lengths.h"
 #include "lang/check/expression_checker.h"
 #include "lang/program/fold.h"
 #include "lang/vocabulary/words_elsewhere.h"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr double largest_of_points = 1e15;
 /// Functions that always need `over`, as in sum(e over i).
-constexpr std::array<std::string_view, 3> only_over{"sum", "mean", "product"};
+constexpr std::array<std::string_view, 4> only_over{"sum", "mean", "product", "integral"};
 
 std::string number_of_values(Arity arity) {
     if (arity.is_groups) {
@@ -94,7 +95,8 @@ void ExpressionChecker::visit(const ast::Over& over) {
         return error(over.function.span,
                      fmt::format("{} cannot be taken over {}", over.function.text,
                                  is_domain ? "the domain" : "neighbours"),
-                     "mean, sum, min and max can");
+                     is_domain ? "mean, sum, integral, min and max can"
+                               : "mean, sum, min and max can");
     }
     if (!belongs_here(*function, over.function.span)) return;
     if (over.index.text == "near" && !over.distance) {
@@ -135,8 +137,10 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
                              const std::vector<std::string>& own) {
     if (std::find(only_over.begin(), only_over.end(), name.text) != only_over.end()) {
         return work.diagnostics.error(name.span, fmt::format("{} needs 'over'", name.text),
-                                      fmt::format("write {0}(e over i) or {0}(e over domain)",
-                                                  name.text));
+                                      name.text == integral_word
+                                          ? "write integral(e over domain)"
+                                          : fmt::format("write {0}(e over i) or {0}(e over domain)",
+                                                        name.text));
     }
     std::string hint(advice_about(name.text, WordContext::function));
     if (hint.empty() && !is_hopeless(work)) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double most_cells = 2147483648.0;  // 2^31: a cell's number fits a 32-bit word.
 constexpr double largest_seed = 4294967295.0;
+constexpr double same_length = 1e-6;     // Relative; what rounding in a script may leave.
 constexpr double least_spacing = 1e-15;  // Its square and inverse square are normal numbers.
 
 Span span_of(const ast::Script& script, ast::Expression expression) {
@@ -121,6 +122,33 @@ void check_spacing(Workspace& work, const ast::Script& script, const ast::Statem
     work.draft->domain.grid.spacing = *spacing;
 }
 
+/// The spacing at which the sides of the grid, which is known, have these lengths.
+void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    Grid& grid = work.draft->domain.grid;
+    const std::array sides{grid.width, grid.height, grid.depth};
+    for (std::size_t axis = 0; axis < statement.values.size(); ++axis) {
+        const Span span = span_of(script, statement.values[axis]);
+        if (axis == 3) return work.diagnostics.error(span, "the domain has three sides at most");
+        const auto length =
+            check_constant(work, script, statement.values[axis], "a side of the domain");
+        if (!length) return;
+        const double spacing = *length / static_cast<double>(sides[axis]);
+        if (!(spacing >= least_spacing && spacing <= 1 / least_spacing)) {
+            return work.diagnostics.error(span, *length > 0
+                                                    ? "cells must be from 1e-15 to 1e15 long"
+                                                    : "the length of a side must be above 0");
+        }
+        if (axis == 0) grid.spacing = spacing;
+        if (std::abs(spacing - grid.spacing) <= same_length * grid.spacing) continue;
+        return work.diagnostics.error(
+            span,
+            fmt::format("cells would be {:.6g} long along one side and {:.6g} along another",
+                        grid.spacing, spacing),
+            fmt::format("cells are as long as wide: with this grid the side is {:.6g} long",
+                        grid.spacing * static_cast<double>(sides[axis])));
+    }
+}
+
 void check_seed(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (!has_one_value(work, script, statement)) return;
     const auto seed = check_constant(work, script, statement.values[0], "seed");
@@ -172,7 +200,7 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
     if (hint.empty()) {
         hint =
-            "a domain has grid, spacing, boundary, sides, mask, precision, seed, surface and mesh";
+            "a domain has grid, extent, spacing, boundary, sides, mask, precision, seed, surface and mesh";
     }
     work.diagnostics.error(name.span, fmt::format("'{}' is not a setting of the domain", name.text),
                            std::move(hint));
@@ -191,6 +219,7 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
         case Setting::grid: return check_grid(work, script, statement);
         case Setting::boundary: return check_boundary(work, script, statement);
         case Setting::spacing: return check_spacing(work, script, statement);
+        case Setting::extent: return;  // After the grid: see check_domain().
         case Setting::seed: return check_seed(work, script, statement);
         case Setting::mask: return check_mask(work, script, statement);
         case Setting::precision: return check_precision(work, script, statement);
@@ -219,6 +248,15 @@ void check_domain(Workspace& work, const ast::Script& script) {
     for (const std::string_view name : {"grid", "seed", "precision"}) {
         if (const auto* option = find_option(script, name))
             check_domain_statement(work, script, *option);
+    }
+    for (const ast::Statement& statement : block.statements) {
+        if (statement.name.text != "extent" || statement.values.empty()) continue;
+        if (!seen.contains("spacing")) {
+            check_extent(work, script, statement);
+            break;
+        }
+        report_twice(work, statement.name.span, seen.at("spacing"),
+                     "a domain has an extent or a spacing, not both");
     }
     if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
     if (!check_model(work, script, block)) check_surface(work, script, block);

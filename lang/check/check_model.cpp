@@ -113,7 +113,8 @@ private:
         const std::string_view word = statement.name.text;
         const auto setting = setting_named(word);
         if (!setting || includes(info(*setting).domains, Domains::model)) return;
-        const bool is_shape = word == "grid" || word == "spacing" || word == "metric";
+        const bool is_shape =
+            word == "grid" || word == "spacing" || word == "extent" || word == "metric";
         work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
                                 is_shape
                                     ? "its cells are spread over it: cells: 20000, or --cells 20000"

@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "lang/check/check_expression.h"
+#include "lang/check/domain_lengths.h"
 #include "lang/check/user_functions.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ private:
     void visit_name(ast::ExprId part, const ast::Name& name);
     void visit_call(ast::ExprId part, const ast::Call& call);
     void visit_over(ast::ExprId part, const ast::Over& over);
+    void emit_length(Span span, const ast::Word& name);
     void finish(const Task& task);
     void finish_call(const ast::Expr& expr, const ast::Call& call);
     void finish_member(const ast::Expr& expr, const ast::Indexed& member, std::size_t before);
@@ -147,9 +149,16 @@ ast::ExprId Expander::append(Span span, decltype(ast::Expr::node) node) {
 
 void Expander::visit(ast::ExprId part) {
     const ast::Expr& here = expr(part);
+    const auto* component = std::get_if<ast::Component>(&here.node);
+    if (has_domain_length(script(), here)) {
+        if (component != nullptr) return emit_length(here.span, component->name);
+        if (const auto* qualified = std::get_if<ast::Qualified>(&here.node)) {
+            return emit_length(here.span, qualified->name);
+        }
+    }
     if (const auto* name = std::get_if<ast::Name>(&here.node)) return visit_name(part, *name);
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return visit_call(part, *call);
-    if (const auto* component = std::get_if<ast::Component>(&here.node)) {
+    if (component != nullptr) {
         push(TaskKind::finish, part);
         return push(TaskKind::visit, component->operand);
     }
@@ -169,6 +178,16 @@ void Expander::visit(ast::ExprId part) {
         return push(TaskKind::visit, member->index);
     }
     emit(here.span, here.node);
+}
+
+/// domain.x and the like.
+void Expander::emit_length(Span span, const ast::Word& name) {
+    const auto length = domain_length(work_, scope_, name);
+    if (!length) return emit(span, ast::Garbage{});
+    if (length->builtin.empty()) return emit(span, ast::Number{length->factor});
+    const ast::ExprId place = append(span, ast::Name{length->builtin});
+    const ast::ExprId factor = append(span, ast::Number{length->factor});
+    emit(span, ast::Binary{Function::multiply, place, factor});
 }
 
 /// A parameter of the function, a constant, an index with a value, or any other name.
@@ -301,7 +320,13 @@ void Expander::finish(const Task& task) {
     }
     if (const auto* over = std::get_if<ast::Over>(&here.node)) {
         const auto distance = over->distance ? std::optional(take()) : std::nullopt;
-        return emit(here.span, ast::Over{over->function, take(), over->index, distance});
+        if (over->function.text != integral_word || over->index.text != domain_word) {
+            return emit(here.span, ast::Over{over->function, take(), over->index, distance});
+        }
+        const ast::Word sum{over->function.span, "sum"};
+        const ast::ExprId total = append(here.span, ast::Over{sum, take(), over->index, {}});
+        const ast::ExprId content = append(here.span, ast::Number{content_of_cell(work_.program)});
+        return emit(here.span, ast::Binary{Function::multiply, total, content});
     }
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return finish_call(here, *call);
     if (const auto* component = std::get_if<ast::Component>(&here.node)) {
@@ -386,6 +411,7 @@ bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression
     for (ast::ExprId id = expression.first; id <= expression.root; ++id) {
         const auto& node = script.expressions[id].node;
         if (std::holds_alternative<ast::Indexed>(node)) return true;
+        if (has_domain_length(script, script.expressions[id])) return true;
         if (const auto* over = std::get_if<ast::Over>(&node)) {
             if (over->index.text != "domain") return true;
         } else if (const auto* name = std::get_if<ast::Name>(&node)) {

@@ -5,6 +5,7 @@
 #include "core/counted.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
+#include "lang/check/domain_lengths.h"
 #include "lang/program/order.h"
 
 #include <fmt/format.h>
@@ -134,6 +135,9 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const ast::Expr& part = script_.expressions[id];
         if (is_family[id - body.first]) continue;  // Reported with its index.
+        if (has_domain_length(script_, part) && !std::holds_alternative<ast::Over>(part.node)) {
+            continue;  // Checked where the function is called.
+        }
         if (const auto* name = std::get_if<ast::Name>(&part.node)) {
             check_name(index, name->name, part.span);
         } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {
@@ -162,7 +166,7 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
 
 void FunctionTableMaker::check_name(std::uint32_t index, std::string_view name, Span span) {
     UserFunction& function = table_.functions_[index];
-    if (function.parameters.contains(name)) return;
+    if (function.parameters.contains(name) || name == domain_word) return;
     if (const UserFunction* constant = table_.find_constant(name)) {
         calls_[index].push_back(static_cast<std::uint32_t>(constant - table_.functions_.data()));
         return;

@@ -34,8 +34,8 @@ constexpr WordElsewhere rows[] = {
 
     {Context::domain, "size width height resolution nx shape dimensions n",
      "write 'grid: 100, 100' for the numbers of cells"},
-    {Context::domain, "length l lx side extent",
-     "a side is as long as its cells together: write 'grid: 100, 100; spacing: 0.5' for 50"},
+    {Context::domain, "length lengths l lx side",
+     "write 'extent: 50, 50' for the lengths of the sides"},
     {Context::domain, "dx dy h cell_size delta_x resolution_length", "write 'spacing: 0.5'"},
     {Context::domain, "bc boundaries boundary_condition boundary_conditions edges borders",
      "write 'boundary: noflux'"},
@@ -99,8 +99,7 @@ constexpr WordElsewhere rows[] = {
     {Context::function, "lerp interpolate", "did you mean 'mix'?"},
     {Context::function, "where select ifelse piecewise", "write 'if(u > v, u, v)'"},
     {Context::function, "average avg", "write 'mean(u over domain)'"},
-    {Context::function, "integral integrate",
-     "write 'sum(u over domain)', on a plane times the size of a cell"},
+    {Context::function, "integrate", "write 'integral(u over domain)'"},
     {Context::function, "steady", "it stands alone after 'until:'"},
     {Context::function, "fixed flux", "it stands after a side, as in u.left: fixed(1)"},
 

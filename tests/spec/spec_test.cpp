@@ -190,7 +190,10 @@ TEST(FunctionsPage, HasARowForEveryFunction) {
         EXPECT_EQ((*row)[1], words_of(info(function).arity)) << beginning;
         EXPECT_EQ((*row)[2], word_of(info(function).places)) << beginning;
     }
-    EXPECT_EQ(rows.size(), of_language) << "a row is for no function";
+    // The checker writes integrals as sums.
+    const auto is_integral = [](const auto& cells) { return cells[0].starts_with("`integral("); };
+    EXPECT_EQ(std::count_if(rows.begin(), rows.end(), is_integral), 1);
+    EXPECT_EQ(rows.size(), of_language + 1) << "a row is for no function";
 }
 
 std::string_view word_of(SettingBlock block) {

@@ -136,6 +136,7 @@ inline constexpr HintCase hint_cases[] = {
     {"family", "u[i]' = k[1]", "write k without an index", "u[i]' = k"},
     {"family", "u[i]' = u[i, 2]", "write u[i]", "u[i]' = u[i]"},
     {"family", "u[i + 1]' = 1", "write u[i] or u[1]", "u[i]' = 1"},
+    {"rate", "integral(u)", "write integral(e over domain)", "integral(u over domain)"},
     {"family", "u[i]' = sum(u[i])", "write sum(e over i) or sum(e over domain)",
      "u[i]' = sum(u[i] over i)"},
     {"family", "u[i]' = abs(1 + (u[i] over i))", "write sum(e over i) or mean(e over domain)",
