@@ -255,6 +255,10 @@ void add_files(CLI::App& app, RunRequest& run) {
            "--unwrap", run.model_files.unwrap,
            "New texture coordinates in models .glb, .obj and .ply,\neven if the model has some")
         ->group(group);
+    app.add_flag_callback(
+           "--exr", [&run] { run.model_files.map_format = MapFormat::exr; },
+           "The maps beside it as OpenEXR: linear light, and heights in\nlengths of the model")
+        ->group(group);
     add_value(
         app, "--lods", "N",
         "Models of N levels of detail, each with a quarter of the\ntriangles of the one before",

@@ -4,12 +4,15 @@
 #include "core/parallel.h"
 #include "core/write_encoded.h"
 #include "export/glb.h"
+#include "picture/exr.h"
+#include "picture/srgb.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,7 +21,7 @@ namespace cascade {
 
 namespace {
 
-/// A PNG file to be made, inside of the GLB file or beside it.
+/// A file of a map to be made, inside of the GLB file or beside it.
 struct MapFile {
     const Image* image = nullptr;
     PngDepth depth = PngDepth::eight;
@@ -27,31 +30,58 @@ struct MapFile {
     std::optional<std::size_t> channel = {};
     /// The alpha channel.
     const Image* opacity = nullptr;
+    /// Of heights: the numbers that are black and white.
+    std::optional<ValueRange> range = {};
     std::string bytes = {};
     Result<void> done = {};
 
-    void encode(const PngTexts& texts) {
-        Result<std::string> encoded = [&] {
-            if (!channel && opacity == nullptr) return encode_png(*image, depth, texts, meaning);
-            Image own = *image;
-            for (std::size_t k = 0; k < own.pixels.size(); ++k) {
-                Colour& pixel = own.pixels[k];
-                if (channel) pixel.fill(pixel[*channel]);
-                if (opacity != nullptr) own.alpha.push_back(opacity->pixels[k][0]);
-            }
-            return encode_png(own, depth, texts, meaning);
-        }();
+    void encode(MapFormat format, const PngTexts& texts) {
+        auto encoded = format == MapFormat::png ? encode_as_png(texts) : encode_as_exr();
         if (encoded) bytes = std::move(*encoded);
         else done = tl::unexpected(encoded.error());
+    }
+
+private:
+    Result<std::string> encode_as_png(const PngTexts& texts) const {
+        if (!channel && opacity == nullptr) return encode_png(*image, depth, texts, meaning);
+        Image own = *image;
+        for (std::size_t k = 0; k < own.pixels.size(); ++k) {
+            Colour& pixel = own.pixels[k];
+            if (channel) pixel.fill(pixel[*channel]);
+            if (opacity != nullptr) own.alpha.push_back(opacity->pixels[k][0]);
+        }
+        return encode_png(own, depth, texts, meaning);
+    }
+
+    /// Colours as linear light, heights in lengths.
+    Result<std::string> encode_as_exr() const {
+        if (channel || range) {
+            std::vector<float> numbers;
+            for (const Colour& pixel : image->pixels) {
+                const float number = pixel[channel.value_or(0)];
+                numbers.push_back(range ? range->low + number * (range->high - range->low)
+                                        : number);
+            }
+            const ExrChannel only{"Y", numbers.data(), 1, !range};
+            return encode_exr(image->width, image->height, {&only, 1});
+        }
+        std::vector<Colour> pixels = image->pixels;
+        if (meaning == PngMeaning::colours) {
+            for (Colour& pixel : pixels) pixel = light_of(pixel);
+        }
+        const ExrChannel channels[] = {{"R", pixels[0].data(), 3, true},
+                                       {"G", pixels[0].data() + 1, 3, true},
+                                       {"B", pixels[0].data() + 2, 3, true}};
+        return encode_exr(image->width, image->height, channels);
     }
 };
 
 /// Encodes files side by side; those of most bytes come first.
-Result<void> encode(std::span<MapFile> files, const PngTexts& texts) {
+Result<void> encode(std::span<MapFile> files, MapFormat format, const PngTexts& texts) {
     if (files.empty()) return {};
     std::atomic<std::size_t> next = 0;
     Team(std::min(hardware_threads(), static_cast<int>(files.size()))).run([&](int) {
-        for (std::size_t k = next++; k < files.size(); k = next++) files[k].encode(texts);
+        for (std::size_t k = next++; k < files.size(); k = next++) files[k].encode(format, texts);
     });
     for (const MapFile& file : files) {
         if (!file.done) return tl::unexpected(file.done.error());
@@ -61,27 +91,27 @@ Result<void> encode(std::span<MapFile> files, const PngTexts& texts) {
 
 /// The files beside a model.
 struct SideFiles {
-    std::vector<std::string_view> endings;
+    std::vector<std::string_view> names;  ///< What follows after the model's.
     std::vector<MapFile> files;
 };
 
 SideFiles side_files(const MaterialMaps& maps, const MapSet& which) {
     SideFiles beside;
-    const auto add = [&](bool is_there, std::string_view ending, MapFile file) {
+    const auto add = [&](bool is_there, std::string_view name, MapFile file) {
         if (!is_there) return;
-        beside.endings.push_back(ending);
+        beside.names.push_back(name);
         beside.files.push_back(std::move(file));
     };
     constexpr auto eight = PngDepth::eight, sixteen = PngDepth::sixteen;
     constexpr auto colours = PngMeaning::colours, numbers = PngMeaning::numbers;
-    add(true, "_color.png", {&maps.colour, eight, colours});
-    add(which.heights, "_height.png", {&maps.relief, sixteen, numbers});
-    add(which.normals, "_normal.png", {&maps.normals, sixteen, numbers});
-    add(which.occlusion, "_occlusion.png", {&maps.surface, eight, numbers, 0});
-    add(which.roughness, "_roughness.png", {&maps.surface, eight, numbers, 1});
-    add(which.metalness, "_metalness.png", {&maps.surface, eight, numbers, 2});
-    add(which.emission, "_emission.png", {&maps.emission, eight, colours});
-    add(which.opacity, "_opacity.png", {&maps.opacity, eight, numbers});
+    add(true, "_color", {&maps.colour, eight, colours});
+    add(which.heights, "_height", {&maps.relief, sixteen, numbers, {}, nullptr, maps.heights});
+    add(which.normals, "_normal", {&maps.normals, sixteen, numbers});
+    add(which.occlusion, "_occlusion", {&maps.surface, eight, numbers, 0});
+    add(which.roughness, "_roughness", {&maps.surface, eight, numbers, 1});
+    add(which.metalness, "_metalness", {&maps.surface, eight, numbers, 2});
+    add(which.emission, "_emission", {&maps.emission, eight, colours});
+    add(which.opacity, "_opacity", {&maps.opacity, eight, numbers, 0});
     return beside;
 }
 
@@ -102,7 +132,7 @@ public:
         look_.colour_map = plain_colours;
         add(has.opacity || plain_colours.empty(), look_.colour_map,
             {&maps_.colour, eight, colours, {}, has.opacity ? &maps_.opacity : nullptr});
-        if (auto done = cascade::encode(files_, texts_); !done) return done;
+        if (auto done = cascade::encode(files_, MapFormat::png, texts_); !done) return done;
         for (std::size_t k = 0; k < files_.size(); ++k) *into_[k] = files_[k].bytes;
         look_.has = has;
         look_.is_cut = maps_.is_cut;
@@ -142,18 +172,20 @@ Result<std::string> encode_models(std::span<const MappedModel> levels, const Png
 
 }  // namespace
 
-std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, const MapSet& maps) {
+std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, const MapSet& maps,
+                                             MapFormat format) {
     std::vector<std::filesystem::path> paths = {glb};
-    for (const std::string_view ending : side_files({}, maps).endings) {
-        std::filesystem::path name = glb.stem();
-        name += ending;
-        paths.push_back(glb.parent_path() / name);
+    for (const std::string_view name : side_files({}, maps).names) {
+        std::filesystem::path file = glb.stem();
+        file += name;
+        file += format == MapFormat::png ? ".png" : ".exr";
+        paths.push_back(glb.parent_path() / file);
     }
     return paths;
 }
 
 Result<void> write_maps(const std::filesystem::path& glb, std::span<const MappedModel> levels,
-                        const PngTexts& texts) {
+                        const PngTexts& texts, MapFormat format) {
     const MaterialMaps& maps = levels.front().maps;
     PngTexts all = texts;
     if (maps.maps.heights) {
@@ -161,12 +193,13 @@ Result<void> write_maps(const std::filesystem::path& glb, std::span<const Mapped
     }
     SideFiles beside = side_files(maps, maps.maps);
     Result<void> done = write_encoded(glb, [&]() -> Result<std::string> {
-        if (auto encoded = encode(beside.files, all); !encoded) {
+        if (auto encoded = encode(beside.files, format, all); !encoded) {
             return tl::unexpected(encoded.error());
         }
-        return encode_models(levels, all, beside.files[0].bytes);
+        return encode_models(levels, all,
+                             format == MapFormat::png ? beside.files[0].bytes : std::string());
     });
-    const auto paths = map_paths(glb, maps.maps);
+    const auto paths = map_paths(glb, maps.maps, format);
     for (std::size_t k = 1; k < paths.size() && done; ++k) {
         done = write_file(paths[k], beside.files[k - 1].bytes);
     }
@@ -174,9 +207,9 @@ Result<void> write_maps(const std::filesystem::path& glb, std::span<const Mapped
 }
 
 Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mesh,
-                        const MaterialMaps& maps, const PngTexts& texts) {
+                        const MaterialMaps& maps, const PngTexts& texts, MapFormat format) {
     const MappedModel only{mesh, maps};
-    return write_maps(glb, std::span(&only, 1), texts);
+    return write_maps(glb, std::span(&only, 1), texts, format);
 }
 
 }  // namespace cascade

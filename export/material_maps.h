@@ -7,6 +7,7 @@
 #include "picture/image.h"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
@@ -33,10 +34,15 @@ struct MaterialMaps {
     std::array<bool, 2> repeats{true, true};
 };
 
+/// The format of maps beside a model: PNG, or OpenEXR with colours as linear light and heights as
+/// lengths.
+enum class MapFormat : std::uint8_t { png, exr };
+
 /// The files that write_maps makes: the model, then in the same folder NAME_color.png and one for
 /// each of the other maps: NAME_height.png and NAME_normal.png (16 bits), NAME_occlusion.png,
-/// NAME_roughness.png, NAME_metalness.png, NAME_emission.png, NAME_opacity.png.
-std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, const MapSet& maps);
+/// NAME_roughness.png, NAME_metalness.png, NAME_emission.png, NAME_opacity.png; or .exr.
+std::vector<std::filesystem::path> map_paths(const std::filesystem::path& glb, const MapSet& maps,
+                                             MapFormat format = MapFormat::png);
 
 /// A model with texture coordinates, or a level of detail of one.
 struct MappedModel {
@@ -44,13 +50,14 @@ struct MappedModel {
     const MaterialMaps& maps;
 };
 
-/// Writes a GLB file of the model with the maps inside, and the maps as PNG files with these texts.
-/// Coarser levels follow the model, finest first, and only have their maps inside (encode_glb).
-/// Each file is written atomically.
+/// Writes a GLB file of the model with the maps inside, and the maps beside it; PNG files have
+/// these texts. Coarser levels follow the model, finest first, and only have their maps inside
+/// (encode_glb). Each file is written atomically.
 Result<void> write_maps(const std::filesystem::path& glb, std::span<const MappedModel> levels,
-                        const PngTexts& texts);
+                        const PngTexts& texts, MapFormat format = MapFormat::png);
 /// The same of the model alone.
 Result<void> write_maps(const std::filesystem::path& glb, const SurfaceMesh& mesh,
-                        const MaterialMaps& maps, const PngTexts& texts);
+                        const MaterialMaps& maps, const PngTexts& texts,
+                        MapFormat format = MapFormat::png);
 
 }  // namespace cascade

@@ -24,7 +24,7 @@ list(APPEND CASCADE_WITHOUT
   mesh/simplify mesh/subdivide
   surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute
-  picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf
+  picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf picture/exr
   picture/write_drawing
   export/levels render/ray_caster
   run/domain/free_memory run/domain/reshape_model

@@ -154,6 +154,14 @@ for name in maps.glb maps_color.png maps_lod1.glb maps_lod1_color.png maps_lod1_
 done
 run 0 mesh maps_lod1.glb
 says out "texture coordinates: "
+# OpenEXR: heights in lengths, which fill the range that the PNG file's text says.
+run 0 $model --bump 0.1 --bake 64 --exr -o lengths.glb
+for name in lengths.glb lengths_color.exr lengths_height.exr lengths_normal.exr; do
+    [ -s "$name" ] || fail "no $name"
+done
+[ ! -e lengths_color.png ] || fail "maps in two formats"
+run 2 $model --exr -o lengths.glb
+says err "no maps are written"
 # The surface moves by its heights, and only then.
 run 0 $model -o level.ply
 run 0 $model --bump 0.1 -o level_too.ply

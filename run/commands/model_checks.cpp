@@ -12,7 +12,12 @@ namespace {
 constexpr std::string_view not_a_model = "the domain is not a model";
 constexpr std::string_view how_to_get_a_model =
     "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
+constexpr const char* how_to_write_maps = "-o NAME.glb --bake 2048 writes them";
 constexpr const char* how_to_write_one = "-o NAME.ply, .obj, .glb, .vtp or .stl writes one";
+
+bool writes_exr(const RunRequest& request) {
+    return request.model_files.map_format == MapFormat::exr;
+}
 
 bool writes_model(const RunRequest& request) {
     return std::any_of(request.outputs.begin(), request.outputs.end(),
@@ -49,6 +54,7 @@ void check_levels_of_cells(OptionRefuser& options, const RunRequest& request) {
 
 void check_without_surface(OptionRefuser& options, const RunRequest& request) {
     for (const auto& [option, is_given] : {std::pair("--bake", request.model_files.bake > 0),
+                                           std::pair("--exr", writes_exr(request)),
                                            std::pair("--unwrap", request.model_files.unwrap)}) {
         options.refuse_if(is_given, option, std::string(not_a_model),
                           std::string(how_to_get_a_model));
@@ -76,6 +82,8 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
     }
     options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
                       "-o NAME.glb writes one");
+    options.refuse_if(writes_exr(request) && !is_baked, "--exr", "no maps are written",
+                      how_to_write_maps);
     options.refuse_if(files.unwrap && !has_texture, "--unwrap",
                       files.retile && is_tiled
                           ? "the triangles of --retile have no texture coordinates"
@@ -114,6 +122,8 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
     options.refuse_if(request.model_files.levels > 1, "--lods", message, hint);
     if (!is_plane) return check_without_surface(options, request);
     options.refuse_if(request.model_files.unwrap, "--unwrap", message, hint);
+    options.refuse_if(writes_exr(request) && request.model_files.bake == 0, "--exr",
+                      "no maps are written", how_to_write_maps);
     options.refuse_if(request.model_files.bake > 0 && !has_model, "--bake",
                       "no model is written with its maps",
                       "-o NAME.glb writes a rectangle with them");

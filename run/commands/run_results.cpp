@@ -171,7 +171,7 @@ Result<void> RunResults::write_plane_files(const Canvas& canvas) {
         painter.plane_look(painter.map_canvas(simulation, request.model_files.bake),
                            painter.range_of(canvas));
     return write_each([&](const std::filesystem::path& path) {
-        return write_plane(path, look, request.model_files.bake, texts(request.picture));
+        return write_plane(path, look, request.model_files, texts(request.picture));
     });
 }
 

@@ -105,20 +105,20 @@ Result<void> write_things(const std::filesystem::path& path, const GrownCells& c
 }
 
 Result<WrittenFiles> write_maps(const std::filesystem::path& path, const GrownCells& cells,
-                                const MeshTexture& texture, std::int64_t side,
+                                const MeshTexture& texture, const ModelFileOptions& files,
                                 const PngTexts& texts) {
     Skin skin(*cells.simulation.model(), texture, cells.drawn);
     const CellsFromOutside outside(skin.mesh, things_in_file(cells));
     BakeOptions options;
-    options.width = options.height = side;
+    options.width = options.height = files.bake;
     const std::atomic<bool> never = false;
     const auto painter = [&] { return std::make_unique<OutsideSamples>(outside, skin.colours); };
     const auto baked = bake(skin.mesh, painter, options, skin.team(), never);
     if (!baked) return tl::unexpected(baked.error());
-    if (auto done = cascade::write_maps(path, skin.mesh, *baked, texts); !done) {
+    if (auto done = cascade::write_maps(path, skin.mesh, *baked, texts, files.map_format); !done) {
         return tl::unexpected(done.error());
     }
-    return WrittenFiles{map_paths(path, baked->maps), baked->warnings};
+    return WrittenFiles{map_paths(path, baked->maps, files.map_format), baked->warnings};
 }
 
 Result<void> write_values(const std::filesystem::path& path, const GrownCells& cells) {
@@ -151,7 +151,7 @@ Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownC
                                  const PngTexts& texts) {
     const bool has_things = output_kind(path) == OutputKind::model;
     if (has_things && options.is_baked(path)) {
-        return write_maps(path, cells, texture, options.bake, texts);
+        return write_maps(path, cells, texture, options, texts);
     }
     auto done =
         has_things ? write_things(path, cells, texture, options.merge) : write_values(path, cells);

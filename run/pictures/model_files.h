@@ -4,6 +4,7 @@
 #include "atlas/unwrap.h"
 #include "core/result.h"
 #include "export/levels.h"
+#include "export/material_maps.h"
 #include "picture/image.h"
 #include "run/domain/model_cells.h"
 #include "run/pictures/written_files.h"
@@ -41,7 +42,8 @@ struct ModelFileOptions {
     bool merge = false;     ///< Of cells that crawl: plain triangles instead of instances.
     bool unwrap = false;    ///< With texture coordinates of our own, even if the model has some.
     bool displace = false;  ///< Raise the surface by its heights.
-    int levels = 1;         ///< Of detail, each with a quarter of the triangles of the one before.
+    MapFormat map_format = MapFormat::png;  ///< Of the maps beside GLB files.
+    int levels = 1;  ///< Of detail, each with a quarter of the triangles of the one before.
     static constexpr int most_levels = 8;
     static constexpr std::int64_t most_texels = 8192;
     /// True if this file gets maps.

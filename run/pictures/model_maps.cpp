@@ -112,7 +112,7 @@ std::vector<std::filesystem::path> map_paths_of_level(const std::filesystem::pat
     if (level > 0 || options.displace) maps.heights = false;
     if (options.displace) maps.normals = false;
     if (level > 0) maps.normals = true;
-    return map_paths(path_of_level(path, level), maps);
+    return map_paths(path_of_level(path, level), maps, options.map_format);
 }
 
 Result<WrittenFiles> write_model_maps(const std::filesystem::path& path,
@@ -143,8 +143,10 @@ Result<WrittenFiles> write_model_maps(const std::filesystem::path& path,
     for (std::size_t k = 0; k < models.size(); ++k) {
         const auto file = path_of_level(path, k);
         const auto rest = std::span(models).subspan(k, k == 0 ? models.size() : 1);
-        if (auto done = write_maps(file, rest, texts); !done) return tl::unexpected(done.error());
-        const auto paths = map_paths(file, models[k].maps.maps);
+        if (auto done = write_maps(file, rest, texts, options.map_format); !done) {
+            return tl::unexpected(done.error());
+        }
+        const auto paths = map_paths(file, models[k].maps.maps, options.map_format);
         written.paths.insert(written.paths.end(), paths.begin(), paths.end());
     }
     return written;

@@ -5,16 +5,16 @@
 #include "picture/image.h"
 #include "run/pictures/written_files.h"
 
-#include <cstdint>
 #include <filesystem>
 
 namespace cascade {
 
+struct ModelFileOptions;
 struct PlaneLook;
 
-/// Writes a rectangle with maps, of which the longer side has so many texels, as a GLB file, and
-/// the maps beside it (export/material_maps.h).
+/// Writes a rectangle with maps, of which the longer side has options.bake texels, as a GLB file,
+/// and the maps beside it (export/material_maps.h).
 Result<WrittenFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
-                                 std::int64_t texels, const PngTexts& texts);
+                                 const ModelFileOptions& options, const PngTexts& texts);
 
 }  // namespace cascade

@@ -8,6 +8,7 @@
 #include "mesh/model_file.h"
 #include "picture/srgb.h"
 #include "unit/export/example_surfaces.h"
+#include "unit/picture/exr_reader.h"
 #include "unit/surface/even_cells.h"
 
 #include <algorithm>
@@ -447,6 +448,25 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
     }
     for (const auto& path : map_paths(model, {.heights = true, .normals = true})) {
         EXPECT_TRUE(std::filesystem::remove(path)) << path;
+    }
+    // The same as OpenEXR: heights in lengths, colours in linear light.
+    ASSERT_TRUE(write_maps(model, sphere.mesh, result, {}, MapFormat::exr).has_value());
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.b_color.png"));
+    const test::ReadExr heights = test::read_exr(folder / "a.b_height.exr");
+    EXPECT_EQ(heights.names, std::vector<std::string>{"Y"});
+    EXPECT_TRUE(heights.half.empty());
+    const auto [least, most] =
+        std::minmax_element(heights.numbers[0].begin(), heights.numbers[0].end());
+    EXPECT_FLOAT_EQ(*least, result.heights.low);
+    EXPECT_FLOAT_EQ(*most, result.heights.high);
+    const test::ReadExr colours = test::read_exr(folder / "a.b_color.exr");
+    ASSERT_EQ(colours.names, (std::vector<std::string>{"B", "G", "R"}));
+    EXPECT_EQ(colours.width, 64);
+    EXPECT_EQ(colours.height, 32);
+    for (std::size_t k = 0; k < result.colour.pixels.size(); ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(colours.numbers[2 - c][k], light_of(result.colour.pixels[k][c]), 1e-3);
+        }
     }
     result.relief = result.normals = {};
     result.maps = {};
