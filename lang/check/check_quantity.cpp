@@ -39,7 +39,7 @@ void check_range(Workspace& work, const Declaration& declaration, Quantity& quan
                                "the step of a range is above 0 and no longer than the range");
     } else {
         quantity.range = range;
-        const ast::Expression default_value = declaration.statement->values[0];
+        const ast::Expression default_value = declaration.value();
         warn_outside(work, quantity, value,
                      declaration.script->expressions[default_value.root].span);
     }

@@ -199,15 +199,15 @@ void StageChecker::set(const Declaration& declaration) {
                                             system().name));
         return;
     }
-    if (!has_one_value(work_, script_, statement)) return;
+    if (!has_one_value(work_, declaration)) return;
     Scope own = scope();
     own.index = declaration.index;
-    auto checked = check_number(work_, script_, statement.values[0], own);
+    auto checked = check_number(work_, script_, declaration.value(), own);
     if (!checked) return;
     const ItemId item = meaning->item();
     if (item < system().frozen_item()) {
         warn_outside(work_, system().quantities[item], checked->constant,
-                     script_.expressions[statement.values[0].root].span);
+                     script_.expressions[declaration.value().root].span);
     }
     stage().items[item] = std::move(checked->formula);
 }

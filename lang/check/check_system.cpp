@@ -85,7 +85,7 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
 /// Reports a string as the value of a quantity, and suggests a text of the system with a similar
 /// name.
 bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
-    const ast::ExprId value = declaration.statement->values[0].root;
+    const ast::ExprId value = declaration.value().root;
     if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node))
         return false;
     std::string hint = did_you_mean(work_, declaration.name, settings_of({SettingBlock::system}));

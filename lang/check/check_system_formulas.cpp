@@ -37,9 +37,9 @@ void SystemChecker::report_type(const Declaration& declaration, const CheckedExp
 /// The value of a declaration, a number or a vector; reports errors.
 std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
                                                             Context context, ValueType type) {
-    if (!has_one_value(work_, *declaration.script, *declaration.statement)) return std::nullopt;
+    if (!has_one_value(work_, declaration)) return std::nullopt;
     const Scope where = scope(context, declaration);
-    const ast::Expression value = declaration.statement->values[0];
+    const ast::Expression value = declaration.value();
     auto checked = check_expression(work_, *declaration.script, value, where);
     if (checked && checked->type() != type) {
         report_type(declaration, *checked, context, type);

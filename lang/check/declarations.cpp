@@ -1,6 +1,8 @@
 // From statements to declarations: expands indices, and replaces what is overridden.
 #include "lang/check/declarations.h"
 
+#include "core/counted.h"
+#include "lang/check/check_blocks.h"
 #include "lang/check/check_expression.h"
 #include "lang/check/expand.h"
 
@@ -128,6 +130,22 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
                            std::move(hint));
 }
 
+/// Reports a list that has not one value for each member.
+void check_list(Workspace& work, const ast::Script& script, const ast::Statement& statement,
+                const Index& index) {
+    const std::int64_t members = index.high - index.low + 1;
+    const auto values = static_cast<std::int64_t>(statement.values.size());
+    if (values == members) return;
+    const ast::Expression last = values > members
+                                     ? statement.values[static_cast<std::size_t>(members)]
+                                     : statement.values.back();
+    work.diagnostics.error(script.expressions[last.root].span,
+                           fmt::format("{}[{}] has {}, and the list {}", statement.name.text,
+                                       index.name, counted(members, "member"),
+                                       counted(values, "value")),
+                           "a family takes one value for all members, or one for each");
+}
+
 std::vector<Declaration> expand_statement(Workspace& work, const System& system,
                                           const ast::Script& script,
                                           const ast::Statement& statement, std::uint32_t level) {
@@ -155,10 +173,14 @@ std::vector<Declaration> expand_statement(Workspace& work, const System& system,
         report_unknown_index(work, system, word);
         return {};
     }
+    const std::size_t count = statement.values.size();
+    const bool is_list = statement.kind == Kind::value && count > 1;
+    if (is_list) check_list(work, script, statement, *index);
     std::vector<Declaration> declarations;
     for (std::int64_t value = index->low; value <= index->high; ++value) {
         declaration.name = member_name(statement.name.text, value);
         declaration.index = IndexValue{word.text, value};
+        if (is_list) declaration.listed = std::min(declarations.size(), count - 1);
         declarations.push_back(declaration);
     }
     return declarations;
@@ -275,6 +297,10 @@ std::vector<Declaration> system_declarations(Workspace& work, System& system,
         }
     }
     return list.take();
+}
+
+bool has_one_value(Workspace& work, const Declaration& declaration) {
+    return declaration.listed || has_one_value(work, *declaration.script, *declaration.statement);
 }
 
 std::vector<Declaration> stage_declarations(Workspace& work, const System& system,

@@ -1,5 +1,6 @@
 // Declarations: the statements of a system or a stage, one for each name (internal to the checker).
 // `u[i]: e` is one statement; with `i: 1..3` it becomes three declarations, of u[1], u[2] and u[3].
+// In a list, `u[i]: e, e, e`, each has a value of its own.
 #pragma once
 
 #include "lang/check/check_names.h"
@@ -21,8 +22,9 @@ struct SystemStatement {
 struct Declaration {
     const ast::Script* script = nullptr;
     const ast::Statement* statement = nullptr;
-    std::string name;                 ///< `ka`, or `u[2]` for a member.
-    std::optional<IndexValue> index;  ///< The value of i for u[i]; empty for u[2] and ka.
+    std::string name;                   ///< `ka`, or `u[2]` for a member.
+    std::optional<IndexValue> index;    ///< The value of i for u[i]; empty for u[2] and ka.
+    std::optional<std::size_t> listed;  ///< Its place in the list of the statement, if it has one.
     std::uint32_t level = 0;
     std::string doc;  ///< Its own doc comment, or that of the declaration it has replaced.
     /// Its own range, or that of the declaration it has replaced; null if there is none.
@@ -30,6 +32,7 @@ struct Declaration {
     const ast::Script* range_script = nullptr;
 
     ast::StatementKind kind() const { return statement->kind; }
+    ast::Expression value() const { return statement->values[listed.value_or(0)]; }
     /// Is it `u: e after divide`?
     bool is_restart() const { return !statement->after.empty(); }
     Span span() const { return statement->name.span; }
@@ -43,6 +46,9 @@ struct Declaration {
 /// about u[2]; the same holds for definitions and rates.
 std::vector<Declaration> system_declarations(Workspace& work, System& system,
                                              std::span<const SystemStatement> statements);
+
+/// Has it one value? Reports an error if its statement has several that are no list.
+bool has_one_value(Workspace& work, const Declaration& declaration);
 
 /// The declarations of a statement of a stage, with the indices of its system.
 std::vector<Declaration> stage_declarations(Workspace& work, const System& system,

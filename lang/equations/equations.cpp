@@ -102,6 +102,9 @@ private:
             case ast::StatementKind::value: break;
         }
         std::string value = typeset_value(said, first);
+        for (std::size_t k = 1; k < statement.values.size(); ++k) {
+            value += ", " + typeset_value(said, statement.values[k]);
+        }
         (system_.is_species(statement.name.text) ? starts_ : parameters_)
             .push_back({symbol, "=", std::move(value)});
     }

@@ -53,6 +53,11 @@ Row row_of(const SaidStatement& said, const SystemStatements& system) {
     row.name = statement.index.empty() ? std::string(name)
                                        : fmt::format("{}[{}]", name, statement.index.text);
     row.value = source_of(said, statement.values.front());
+    if (statement.kind == ast::StatementKind::value) {
+        for (std::size_t k = 1; k < statement.values.size(); ++k) {
+            row.value += ", " + source_of(said, statement.values[k]);
+        }
+    }
     if (statement.kind == ast::StatementKind::index) {
         row.kind = "index";
         row.value += " .. " + source_of(said, statement.values.back());

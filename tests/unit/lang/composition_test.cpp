@@ -115,6 +115,33 @@ TEST(Families, AreWrittenOut) {
             run_s);
 }
 
+TEST(Families, TakeListsOfValues) {
+    expect_same_program(
+        "system s { i: 1..3; r[i]: 1, 0.9, 2 * i; u[i]: r[i]; u[i]' = r[i] * lap(u[i]) }\n" + run_s,
+        "system s { i: 1..3; r[1]: 1; r[2]: 0.9; r[3]: 2 * 3; u[1]: r[1]; u[2]: r[2]; u[3]: r[3]\n"
+        "u[1]' = r[1] * lap(u[1]); u[2]' = r[2] * lap(u[2]); u[3]' = r[3] * lap(u[3]) }\n" +
+            run_s);
+    // One member is overridden, a base's list replaced, and a stage has its own.
+    expect_same_program(
+        "system b { i: 0..1; r[i]: 1, 2; u[i]: 0; u[i]' = r[i] }\n"
+        "system s: b { r[i]: 3, 4; r[1]: 5 }\nstage a: s { r[i]: 6, 7 }\n",
+        "system b { i: 0..1; r[0]: 1; r[1]: 2; u[i]: 0; u[i]' = r[i] }\n"
+        "system s { i: 0..1; r[0]: 3; r[1]: 5; u[i]: 0; u[i]' = r[i] }\n"
+        "stage a: s { r[0]: 6; r[1]: 7 }\n");
+    const auto faults = [](const std::string& statement) {
+        return check_text("system s { i: 1..3; r[i]: 1; u: 0; u' = r[2] }\nstage a: s { " +
+                          statement + " }\n")
+            ->faults();
+    };
+    EXPECT_THAT(faults("r[i]: 1, 2"),
+                ::testing::ElementsAre("2:23: r[i] has 3 members, and the list 2 values | a family "
+                                       "takes one value for all members, or one for each"));
+    EXPECT_THAT(faults("r[i]: 1, 2, 3, 4"),
+                ::testing::ElementsAre("2:29: r[i] has 3 members, and the list 4 values | a family "
+                                       "takes one value for all members, or one for each"));
+    EXPECT_THAT(faults("r[2]: 1, 2"), ::testing::ElementsAre("2:23: 'r' takes one value"));
+}
+
 TEST(Families, InStagesAndPictures) {
     const std::string system = "system s { i: 1..2; u[i]: 0; p[i]: 1; u[i]' = p[i] }\n";
     expect_same_program(
