@@ -63,19 +63,24 @@ public:
     }
 
     float collapse_priority(const CollapseInfo& collapse) override {
-        if (!is_allowed(collapse)) return ILLEGAL_COLLAPSE;
         PointQuadric sum = quadrics_[number(collapse.v0)];
         const double own_area = sum.area();
         sum += quadrics_[number(collapse.v1)];
         const Vector3d to = place(collapse.v1), way = to - place(collapse.v0);
-        const double error = sum.error(to, values_of(collapse.v1), attributes_);
-        return static_cast<float>(std::max(error, 0.0) +
-                                  weight_of_length * own_area * dot(way, way));
+        const double error = std::max(0.0, sum.error(to, values_of(collapse.v1), attributes_));
+        const auto cost = static_cast<float>(error + weight_of_length * own_area * dot(way, way));
+        // The decimater asks about all edges of a vertex in turn, and takes the cheapest one. What
+        // costs more than one that is allowed need not be tested.
+        if (collapse.v0 == asked_ && cost >= cheapest_) return cost;
+        if (!is_allowed(collapse)) return ILLEGAL_COLLAPSE;
+        asked_ = collapse.v0;
+        return cheapest_ = cost;
     }
 
     void postprocess_collapse(const CollapseInfo& collapse) override {
         quadrics_[number(collapse.v1)] += quadrics_[number(collapse.v0)];
         into_[number(collapse.v0)] = number(collapse.v1);
+        asked_ = VertexHandle();
     }
 
     /// The vertex that is left where each one was.
@@ -139,6 +144,8 @@ private:
     std::size_t attributes_ = 0;
     std::vector<PointQuadric::Attributes> values_;
     std::vector<PointQuadric> quadrics_;
+    VertexHandle asked_;  ///< Of the last collapse that was allowed, until the surface changes,
+    float cheapest_ = 0;  ///< and what it costs.
     std::vector<std::uint32_t> into_;  ///< The vertex into which each one has merged; itself.
 };
 
