@@ -167,6 +167,13 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
     add_value(app, "--ground", "YES", "On a surface: yes or no, a ground that receives shadows",
               one_of({"yes", "no"}), [&](const auto& word) { picture.ground = word == "yes"; })
         ->group(group);
+    add_value(
+        app, "--background", "WHAT",
+        "On a surface: none, for transparent pixels, or a colour\nsuch as '#204060'; "
+        "without it white",
+        [](const std::string& name) { return background_named(name); },
+        [&](const auto& background) { picture.background = background; })
+        ->group(group);
     add_value(app, "--bump", "S",
               "On a model: raise the surface by the number shown, by up\n"
               "to S times the model's longest side, such as 0.02",

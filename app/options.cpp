@@ -342,6 +342,7 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.quality) request.quality = *changes.quality;
     if (changes.fov) request.fov = changes.fov;
     if (changes.ground) request.ground = *changes.ground;
+    if (changes.background) request.background = *changes.background;
     if (changes.bump) request.bump = *changes.bump;
     return request;
 }

@@ -55,6 +55,7 @@ struct PictureChanges {
     std::optional<Quality> quality;
     std::optional<float> fov;
     std::optional<bool> ground;
+    std::optional<std::optional<Colour>> background;
     std::optional<float> bump;
 };
 

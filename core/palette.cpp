@@ -3,6 +3,8 @@
 
 #include "core/palette_stops.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -41,12 +43,7 @@ constexpr std::array<Palette, 15> all_palettes{{
 
 std::span<const Palette> palettes() { return all_palettes; }
 
-namespace {
-
-constexpr std::size_t most_stops = 64;
-
-/// "#1b2a49" or "#fff"; nothing for other words.
-std::optional<Colour> colour_of(std::string_view word) {
+std::optional<Colour> find_colour(std::string_view word) {
     if ((word.size() != 4 && word.size() != 7) || word[0] != '#') return std::nullopt;
     const std::size_t digits = word.size() / 3;  // Of a channel.
     Colour colour{};
@@ -59,6 +56,17 @@ std::optional<Colour> colour_of(std::string_view word) {
     }
     return colour;
 }
+
+std::string hexadecimal(const Colour& colour) {
+    const auto part = [](float value) {
+        return static_cast<int>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", part(colour[0]), part(colour[1]), part(colour[2]));
+}
+
+namespace {
+
+constexpr std::size_t most_stops = 64;
 
 /// A palette by its colours, with the texts and the stops that it refers to.
 struct OwnPalette {
@@ -79,7 +87,7 @@ const Palette* find_own(std::string_view name) {
     for (std::size_t at = 0; at < name.size();) {
         const std::size_t end = std::min(name.find(' ', at), name.size());
         if (end > at) {
-            const auto colour = colour_of(name.substr(at, end - at));
+            const auto colour = find_colour(name.substr(at, end - at));
             if (!colour || made->stops.size() == most_stops) return nullptr;
             made->stops.push_back(*colour);
         }

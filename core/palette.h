@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace cascade {
@@ -27,6 +29,11 @@ std::span<const Palette> palettes();
 /// between them, "#1b2a49 #f08a5d #fff3d6" or "#000 #fff". nullptr if there is none. Never
 /// destroyed.
 const Palette* find_palette(std::string_view name);
+
+/// "#1b2a49" or "#fff"; nothing for other words.
+std::optional<Colour> find_colour(std::string_view word);
+/// "#1b2a49": each channel rounded to 256 levels.
+std::string hexadecimal(const Colour& colour);
 
 /// The colour at `position`, clamped to 0 … 1; colour_of_nan for NaN.
 Colour colour_at(const Palette& palette, double position);

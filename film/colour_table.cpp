@@ -26,7 +26,7 @@ std::vector<Counted> counted(std::span<const FilmFrame> frames) {
         const unsigned char* pixel = frame.row(0);
         const unsigned char* const end = pixel + frame.pixels.size();
         for (; pixel != end; pixel += FilmFrame::pixel_bytes) {
-            if (pixel[3] != 0) all.push_back(packed(pixel));
+            if (!is_hole(pixel)) all.push_back(packed(pixel));
         }
     }
     std::sort(all.begin(), all.end());
@@ -82,7 +82,7 @@ std::optional<std::vector<PackedColour>> few_colours(const FilmFrame& frame, std
     const unsigned char* pixel = frame.row(0);
     const unsigned char* const end = pixel + frame.pixels.size();
     for (; pixel != end; pixel += FilmFrame::pixel_bytes) {
-        if (pixel[3] == 0 || packed(pixel) == last) continue;
+        if (is_hole(pixel) || packed(pixel) == last) continue;
         last = packed(pixel);
         found.insert(last);
         if (found.size() > most) return std::nullopt;

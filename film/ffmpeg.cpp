@@ -28,29 +28,41 @@ std::filesystem::path program_named(const std::string& name) {
     return {};
 }
 
-std::vector<std::string> encoder(FilmFormat format) {
+/// How frames are given to ffmpeg, and what becomes of them.
+struct Stream {
+    FilmFormat format;
+    double frames_per_second;
+    std::int64_t width, height;
+    bool has_alpha;
+};
+
+std::vector<std::string> encoder(const Stream& stream) {
     // The quality is such that noise of a pattern stays sharp; VP9 needs the bit rate 0 for it.
-    if (format == FilmFormat::mp4) {
+    if (stream.format == FilmFormat::mp4) {
         return {"-c:v",   "libx264",   "-crf",       "16", "-preset",
                 "medium", "-movflags", "+faststart", "-f", "mp4"};
     }
-    return {"-c:v",    "libvpx-vp9", "-crf",      "24", "-b:v", "0",
-            "-row-mt", "1",          "-cpu-used", "3",  "-f",   "webm"};
+    std::vector<std::string> words = {"-c:v",    "libvpx-vp9", "-crf",      "24", "-b:v", "0",
+                                      "-row-mt", "1",          "-cpu-used", "3",  "-f",   "webm"};
+    // The encoder cannot look ahead with alpha.
+    if (stream.has_alpha) words.insert(words.end(), {"-auto-alt-ref", "0"});
+    return words;
 }
 
-std::vector<std::string> arguments(FilmFormat format, double frames_per_second, std::int64_t width,
-                                   std::int64_t height) {
+std::vector<std::string> arguments(const Stream& stream) {
     std::vector<std::string> words = {
         "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt",
-        "rgb24", "-video_size", fmt::format("{}x{}", width, height), "-framerate",
-        fmt::format("{:.6f}", frames_per_second), "-i", "pipe:0",
+        stream.has_alpha ? "rgba" : "rgb24", "-video_size",
+        fmt::format("{}x{}", stream.width, stream.height), "-framerate",
+        fmt::format("{:.6f}", stream.frames_per_second), "-i", "pipe:0",
         // Players take the matrix of HDTV where the file says so; the transfer curve is sRGB.
         "-vf",
-        "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,"
-        "format=yuv420p",
+        fmt::format("scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,"
+                    "format={}",
+                    stream.has_alpha ? "yuva420p" : "yuv420p"),
         "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1",
         "-color_range", "tv"};
-    for (std::string& word : encoder(format)) words.push_back(std::move(word));
+    for (std::string& word : encoder(stream)) words.push_back(std::move(word));
     return words;
 }
 
@@ -61,11 +73,13 @@ public:
     explicit FfmpegWriter(std::filesystem::path path) : path_(std::move(path)) {}
 
     /// Without a file ffmpeg drops what it encodes.
-    Result<void> begin(FilmFormat format, const FilmSettings& settings, std::int64_t width,
-                       std::int64_t height, std::unique_ptr<GrowingFile> file) {
+    Result<void> begin(FilmFormat format, const FilmSettings& settings, const FilmFrame& first,
+                       std::unique_ptr<GrowingFile> file) {
         if (auto found = find_ffmpeg(path_); !found) return found;
         file_ = std::move(file);
-        auto words = arguments(format, settings.frames_per_second, even(width), even(height));
+        has_alpha_ = format == FilmFormat::webm && has_alpha(first);
+        auto words = arguments({format, settings.frames_per_second, even(first.width),
+                                even(first.height), has_alpha_});
         if (!file_) words.insert(words.end(), {"-f", "null"});
         // "file:" keeps ffmpeg from reading a protocol or an option into a name.
         words.push_back(file_ ? "file:" + file_->temporary_path().string() : "-");
@@ -91,14 +105,22 @@ public:
     }
 
 private:
-    static std::string colours_of(const FilmFrame& frame, std::int64_t y) {
+    std::string colours_of(const FilmFrame& frame, std::int64_t y) const {
         std::string row;
         const unsigned char* pixel = frame.row(y);
         for (std::int64_t x = 0; x < even(frame.width); ++x) {
-            row.append(reinterpret_cast<const char*>(pixel), 3);
+            if (has_alpha_) row.append(reinterpret_cast<const char*>(pixel), 4);
+            else append_on_white(pixel, row);
             if (x + 1 < frame.width) pixel += FilmFrame::pixel_bytes;
         }
         return row;
+    }
+
+    static void append_on_white(const unsigned char* pixel, std::string& row) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int dark = (255 - pixel[c]) * pixel[3];
+            row += static_cast<char>(255 - (dark + 127) / 255);
+        }
     }
 
     /// What became of ffmpeg, which has got all that it will get.
@@ -111,6 +133,7 @@ private:
     }
 
     std::filesystem::path path_;
+    bool has_alpha_ = false;
     std::unique_ptr<GrowingFile> file_;
     std::unique_ptr<ChildProcess> process_;
 };
@@ -128,19 +151,19 @@ Result<void> find_ffmpeg(const std::filesystem::path& film) {
 Result<void> try_ffmpeg(const std::filesystem::path& film, FilmFormat format, std::int64_t width,
                         std::int64_t height) {
     FfmpegWriter writer(film);
-    if (auto begun = writer.begin(format, {}, width, height, nullptr); !begun) return begun;
-    const FilmFrame white = film_frame(Image(width, height));
-    if (auto done = writer.add(white); !done) return done;
+    const FilmFrame first = film_frame(Image(width, height));
+    if (auto begun = writer.begin(format, {}, first, nullptr); !begun) return begun;
+    if (auto done = writer.add(first); !done) return done;
     return writer.finish();
 }
 
 Result<std::unique_ptr<FilmWriter>> begin_ffmpeg(const std::filesystem::path& path,
                                                  FilmFormat format, const FilmSettings& settings,
-                                                 std::int64_t width, std::int64_t height) {
+                                                 const FilmFrame& first) {
     auto file = GrowingFile::create(path);
     if (!file) return tl::unexpected(file.error());
     auto film = std::make_unique<FfmpegWriter>(path);
-    if (auto begun = film->begin(format, settings, width, height, *std::move(file)); !begun) {
+    if (auto begun = film->begin(format, settings, first, *std::move(file)); !begun) {
         return tl::unexpected(begun.error());
     }
     return film;

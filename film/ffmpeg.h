@@ -12,11 +12,12 @@ Result<void> find_ffmpeg(const std::filesystem::path& film);
 Result<void> try_ffmpeg(const std::filesystem::path& film, FilmFormat format, std::int64_t width,
                         std::int64_t height);
 
-/// A film in MP4 (H.264) or WebM (VP9). ffmpeg gets the frames through a pipe. Sides of an odd
-/// number of pixels get one more, since both formats have colours for squares of two by two: the
-/// last row or column once more. Writing fails by a signal unless the program ignores SIGPIPE.
+/// A film in MP4 (H.264) or WebM (VP9) of frames like the first. ffmpeg gets the frames through a
+/// pipe. Sides of an odd number of pixels get one more, since both formats have colours for squares
+/// of two by two: the last row or column once more. A WebM film has alpha if the first frame has
+/// it; else frames are laid on white. Writing fails by a signal unless the program ignores SIGPIPE.
 Result<std::unique_ptr<FilmWriter>> begin_ffmpeg(const std::filesystem::path& path,
                                                  FilmFormat format, const FilmSettings& settings,
-                                                 std::int64_t width, std::int64_t height);
+                                                 const FilmFrame& first);
 
 }  // namespace cascade

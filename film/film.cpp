@@ -97,7 +97,7 @@ Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path
         case FilmFormat::webp: return begin_webp(path, settings, width, height);
         case FilmFormat::apng: return begin_apng(path, settings, width, height);
         case FilmFormat::mp4:
-        case FilmFormat::webm: return begin_ffmpeg(path, format.format, settings, width, height);
+        case FilmFormat::webm: return begin_ffmpeg(path, format.format, settings, samples[0]);
     }
     CHECK(false, "every format has a writer");
 }

@@ -12,20 +12,35 @@ FilmFrame film_frame(const Image& image) {
     FilmFrame frame{image.width, image.height, {}};
     frame.pixels.resize(image.pixels.size() * FilmFrame::pixel_bytes);
     char* out = frame.pixels.data();
-    for (const Colour& pixel : image.pixels) {
-        const bool is_seen = !is_transparent(pixel);
-        for (const float value : pixel)
-            *out++ = static_cast<char>(is_seen ? level_of(value, 255) : 255);
-        *out++ = static_cast<char>(is_seen ? 255 : 0);
+    for (std::int64_t y = 0; y < image.height; ++y) {
+        for (std::int64_t x = 0; x < image.width; ++x) {
+            const unsigned alpha = level_of(image.opacity(x, y), 255);
+            for (const float value : image.at(x, y))
+                *out++ = static_cast<char>(alpha > 0 ? level_of(value, 255) : 255);
+            *out++ = static_cast<char>(alpha);
+        }
     }
     return frame;
 }
 
-bool has_holes(const FilmFrame& frame) {
-    for (std::size_t k = 3; k < frame.pixels.size(); k += FilmFrame::pixel_bytes) {
-        if (frame.pixels[k] == 0) return true;
+namespace {
+
+template <typename Test>
+bool has_pixel(const FilmFrame& frame, const Test& test) {
+    const unsigned char* pixel = frame.row(0);
+    const unsigned char* const end = pixel + frame.pixels.size();
+    for (; pixel != end; pixel += FilmFrame::pixel_bytes) {
+        if (test(pixel)) return true;
     }
     return false;
+}
+
+}  // namespace
+
+bool has_holes(const FilmFrame& frame) { return has_pixel(frame, is_hole); }
+
+bool has_alpha(const FilmFrame& frame) {
+    return has_pixel(frame, [](const unsigned char* pixel) { return pixel[3] < 255; });
 }
 
 FramePart changed_part(const FilmFrame& before, const FilmFrame& now) {

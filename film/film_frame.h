@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// Red, green, blue and alpha of each pixel, a byte each, rows from the top. Alpha is 0 or 255;
-/// transparent pixels are white, for players that ignore it.
+/// Red, green, blue and alpha of each pixel, a byte each, rows from the top. Pixels whose alpha is
+/// 0 are white, for players that ignore it.
 struct FilmFrame {
     std::int64_t width = 0, height = 0;
     std::string pixels;
@@ -25,8 +25,14 @@ struct FilmFrame {
 /// The image with each colour rounded as in PNG files of 8 bits. Throws std::bad_alloc.
 FilmFrame film_frame(const Image& image);
 
-/// True if a pixel is transparent.
+/// Whether a pixel counts as transparent where each has to be so or opaque: less than half opaque.
+inline bool is_hole(const unsigned char* pixel) { return pixel[3] < 128; }
+
+/// True if such a pixel is there.
 bool has_holes(const FilmFrame& frame);
+
+/// True if a pixel is not entirely opaque.
+bool has_alpha(const FilmFrame& frame);
 
 /// A part of a frame, in pixels.
 struct FramePart {

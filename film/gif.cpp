@@ -154,7 +154,7 @@ private:
     }
 
     GifPixelType number_of(const unsigned char* pixel, const OwnColours& own) {
-        if (with_holes_ && pixel[3] == 0) return static_cast<GifPixelType>(hole(own));
+        if (with_holes_ && is_hole(pixel)) return static_cast<GifPixelType>(hole(own));
         if (!own) return nearest_(packed(pixel));
         const auto place = std::lower_bound(own->begin(), own->end(), packed(pixel));
         return static_cast<GifPixelType>(place - own->begin());

@@ -131,7 +131,9 @@ private:
                 const auto from = [](double value, std::int64_t count) {
                     return std::min(count - 1, static_cast<std::int64_t>(value));
                 };
-                image_.at(left + x, top + y) = drawn.image.at(
+                Colour& pixel = image_.at(left + x, top + y);
+                pixel = drawn.image.over(
+                    pixel,
                     from((side(x) + 0.5) * side(drawn.image.width) / width, drawn.image.width),
                     from((side(y) + 0.5) * side(drawn.image.height) / height, drawn.image.height));
             }

@@ -153,14 +153,15 @@ private:
         HPDF_Page_EndText(page_);
     }
 
-    /// What is transparent is white. Without interpolation, which is the default of the format.
+    /// On white, which pages are. Without interpolation, which is the default of the format.
     void add(const DrawnImage& drawn) {
         const Image& image = drawn.image;
         std::vector<HPDF_BYTE> levels;
-        for (const Colour& pixel : image.pixels) {
-            for (const float value : pixel) {
-                const float shown = is_transparent(pixel) ? 1 : part(value);
-                levels.push_back(static_cast<HPDF_BYTE>(std::lround(255 * shown)));
+        for (std::int64_t y = 0; y < image.height; ++y) {
+            for (std::int64_t x = 0; x < image.width; ++x) {
+                for (const float value : image.over(pure_white, x, y)) {
+                    levels.push_back(static_cast<HPDF_BYTE>(std::lround(255 * part(value))));
+                }
             }
         }
         const HPDF_Image made =

@@ -13,13 +13,6 @@ namespace cascade {
 
 namespace {
 
-std::string hex(const Colour& colour) {
-    const auto part = [](float value) {
-        return static_cast<int>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
-    };
-    return fmt::format("#{:02x}{:02x}{:02x}", part(colour[0]), part(colour[1]), part(colour[2]));
-}
-
 class Writer {
 public:
     Result<std::string> write(const Drawing& drawing) {
@@ -43,20 +36,21 @@ private:
         }
         text_ += fmt::format(
             "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3g}\"{}/>\n",
-            points, hex(line.colour), line.width, line.dashed ? " stroke-dasharray=\"5 4\"" : "");
+            points, hexadecimal(line.colour), line.width,
+            line.dashed ? " stroke-dasharray=\"5 4\"" : "");
         return {};
     }
 
     Result<void> add(const DrawnArea& area) {
         text_ += fmt::format(
             "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
-            area.corner[0], area.corner[1], area.width, area.height, hex(area.colour));
+            area.corner[0], area.corner[1], area.width, area.height, hexadecimal(area.colour));
         return {};
     }
 
     Result<void> add(const DrawnDisc& disc) {
         text_ += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\"/>\n",
-                             disc.centre[0], disc.centre[1], disc.radius, hex(disc.colour));
+                             disc.centre[0], disc.centre[1], disc.radius, hexadecimal(disc.colour));
         return {};
     }
 

@@ -19,6 +19,8 @@
 
 namespace cascade {
 
+inline constexpr Colour pure_white{1, 1, 1};
+
 /// A pixel that shows the background: all channels are NaN.
 inline constexpr Colour transparent{std::numeric_limits<float>::quiet_NaN(),
                                     std::numeric_limits<float>::quiet_NaN(),
@@ -30,18 +32,35 @@ struct Image {
     std::int64_t width = 0;
     std::int64_t height = 0;
     std::vector<Colour> pixels;
-    /// Of a map: its opacity, a number from 0 to 1 for each pixel; empty if it has none. Only PNG
-    /// files have it.
+    /// How opaque each pixel is, 0 … 1, with colours as they are (not multiplied by it), as PNG
+    /// files have it; empty if all are, but for those that are `transparent`.
     std::vector<float> alpha = {};
 
     Image() = default;
-    Image(std::int64_t w, std::int64_t h, Colour fill = {1, 1, 1})
+    Image(std::int64_t w, std::int64_t h, Colour fill = pure_white)
         : width(w), height(h), pixels(static_cast<std::size_t>(w * h), fill) {}
     Colour& at(std::int64_t x, std::int64_t y) {
         return pixels[static_cast<std::size_t>(y * width + x)];
     }
     const Colour& at(std::int64_t x, std::int64_t y) const {
         return pixels[static_cast<std::size_t>(y * width + x)];
+    }
+    float& alpha_at(std::int64_t x, std::int64_t y) {
+        return alpha[static_cast<std::size_t>(y * width + x)];
+    }
+    /// 0 … 1.
+    float opacity(std::int64_t x, std::int64_t y) const {
+        if (is_transparent(at(x, y))) return 0;
+        return alpha.empty() ? 1 : alpha[static_cast<std::size_t>(y * width + x)];
+    }
+    /// The pixel on a ground of this colour, blended in sRGB, as other programs do.
+    Colour over(const Colour& ground, std::int64_t x, std::int64_t y) const {
+        const float part = opacity(x, y);
+        if (part == 1) return at(x, y);
+        Colour sum = ground;
+        if (part == 0) return sum;
+        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += part * (at(x, y)[c] - sum[c]);
+        return sum;
     }
 };
 
@@ -125,12 +144,14 @@ struct Panel {
 Image make_sheet(std::span<const Panel> panels, int columns);
 
 /// The picture in half-block characters and 24-bit colour for terminals, at most `columns` wide.
-/// Wider pictures are averaged down in proportion; none is enlarged. Transparent pixels show the
-/// terminal's background. Each line ends with a reset of the colours and a line end.
+/// Wider pictures are averaged down in proportion; none is enlarged. Pixels that are less than half
+/// opaque show the terminal's background. Each line ends with a reset of the colours and a line
+/// end.
 std::string half_blocks(const Image& image, int columns);
 
 /// The same in plain characters from dark to light, " .:-=+*#%@", each for two vertically adjacent
-/// pixels, for pipes and for terminals without colours. Transparent pixels are spaces.
+/// pixels, for pipes and for terminals without colours. Pixels that are less than half opaque are
+/// spaces.
 std::string plain_characters(const Image& image, int columns);
 
 }  // namespace cascade

@@ -28,7 +28,10 @@ void draw_glyph(Image& image, char32_t character, std::int64_t x, std::int64_t y
 
 void fill_rectangle(Image& image, std::int64_t x, std::int64_t y, std::int64_t width,
                     std::int64_t height, Colour colour) {
-    for (std::int64_t j = y; j < y + height; ++j) std::fill_n(&image.at(x, j), width, colour);
+    for (std::int64_t j = y; j < y + height; ++j) {
+        std::fill_n(&image.at(x, j), width, colour);
+        if (!image.alpha.empty()) std::fill_n(&image.alpha_at(x, j), width, 1.0F);
+    }
 }
 
 std::int64_t text_width(std::string_view text, std::int64_t dot) {
@@ -62,8 +65,7 @@ void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_
         // Rows are enlarged, or stretched to the band of a picture of few rows.
         const std::int64_t row = j * picture.height / height;
         for (std::int64_t i = 0; i < width; ++i) {
-            const Colour& pixel = picture.at(i / factor, row);
-            image.at(x + i, y + j) = is_transparent(pixel) ? sheet_ground : pixel;
+            image.at(x + i, y + j) = picture.over(sheet_ground, i / factor, row);
         }
     }
 }

@@ -41,15 +41,18 @@ bool index(const Image& image, int levels, Indexed& indexed) {
     indexed.colours.clear();
     indexed.pixels.clear();
     indexed.levels = levels;
-    for (const Colour& pixel : image.pixels) {
-        if (is_transparent(pixel)) {
-            indexed.pixels.push_back(no_colour);
-            continue;
+    for (std::int64_t y = 0; y < image.height; ++y) {
+        for (std::int64_t x = 0; x < image.width; ++x) {
+            if (image.opacity(x, y) < 0.5F) {
+                indexed.pixels.push_back(no_colour);
+                continue;
+            }
+            const auto next = static_cast<std::int16_t>(indexed.colours.size());
+            const auto [colour, is_new] =
+                indexed.colours.emplace(rounded(image.at(x, y), levels), next);
+            if (is_new && next == most_colours) return false;
+            indexed.pixels.push_back(colour->second);
         }
-        const auto next = static_cast<std::int16_t>(indexed.colours.size());
-        const auto [colour, is_new] = indexed.colours.emplace(rounded(pixel, levels), next);
-        if (is_new && next == most_colours) return false;
-        indexed.pixels.push_back(colour->second);
     }
     return true;
 }

@@ -22,7 +22,7 @@ std::string without_kitty_picture(std::uint32_t id);
 
 /// The picture in DEC's sixels: bands of six rows, in at most 256 colours. Colours are rounded to
 /// fewer levels if there are more. Where the cursor is afterwards depends on the terminal.
-/// Transparent pixels stay as they are.
+/// Pixels that are less than half opaque stay as they are.
 std::string sixel_picture(const Image& image);
 
 }  // namespace cascade

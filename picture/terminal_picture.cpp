@@ -37,25 +37,35 @@ struct Stretch {
           last(std::min(size, static_cast<std::int64_t>(std::ceil(to)))) {}
 };
 
-Colour average(const Image& image, const Stretch& across, const Stretch& down) {
+struct Average {
+    Colour colour = transparent;
+    double opacity = 0;
+};
+
+Average average(const Image& image, const Stretch& across, const Stretch& down) {
     std::array<double, 3> sum{};
     double weight_sum = 0, weight_seen = 0;
     for (std::int64_t y = down.first; y < down.last; ++y) {
         for (std::int64_t x = across.first; x < across.last; ++x) {
             const double weight =
                 overlap(x, across.from, across.to) * overlap(y, down.from, down.to);
-            const Colour& pixel = image.at(x, y);
             weight_sum += weight;
-            if (is_transparent(pixel)) continue;
-            weight_seen += weight;
-            for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * static_cast<double>(pixel[c]);
+            const double seen = weight * static_cast<double>(image.opacity(x, y));
+            if (seen == 0) continue;
+            weight_seen += seen;
+            for (std::size_t c = 0; c < 3; ++c) {
+                sum[c] += seen * static_cast<double>(image.at(x, y)[c]);
+            }
         }
     }
-    if (weight_seen < weight_sum / 2) return transparent;
-    Colour colour{};
-    for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(sum[c] / weight_seen);
-    return colour;
+    if (weight_seen == 0) return {};
+    Average result{{}, weight_seen / weight_sum};
+    for (std::size_t c = 0; c < 3; ++c) result.colour[c] = static_cast<float>(sum[c] / weight_seen);
+    return result;
 }
+
+/// Characters and sixels are there or not.
+bool is_seen(double opacity) { return opacity >= 0.5; }
 
 }  // namespace
 
@@ -66,7 +76,10 @@ Image reduce(const Image& image, std::int64_t width) {
     for (std::int64_t y = 0; y < small.height; ++y) {
         const Stretch down(y, small.height, image.height);
         for (std::int64_t x = 0; x < width; ++x) {
-            small.at(x, y) = average(image, Stretch(x, width, image.width), down);
+            const Average mean = average(image, Stretch(x, width, image.width), down);
+            const bool is_kept = !image.alpha.empty() || is_seen(mean.opacity);
+            small.at(x, y) = is_kept ? mean.colour : transparent;
+            if (!image.alpha.empty()) small.alpha.push_back(static_cast<float>(mean.opacity));
         }
     }
     return small;
@@ -77,8 +90,8 @@ namespace {
 using Levels = std::array<int, 3>;
 
 /// Nothing for the terminal's background.
-std::optional<Levels> bytes_of(const Colour& colour) {
-    if (is_transparent(colour)) return std::nullopt;
+std::optional<Levels> bytes_of(const Colour& colour, double opacity) {
+    if (!is_seen(opacity)) return std::nullopt;
     Levels bytes{};
     std::transform(colour.begin(), colour.end(), bytes.begin(), [](float value) {
         if (!(value > 0)) return 0;
@@ -126,8 +139,11 @@ std::string half_blocks(const Image& image, int columns) {
         std::optional<Levels> ink, ground;
         for (std::int64_t x = 0; x < image.width; ++x) {
             // Below the last row of an odd number the terminal's background remains.
-            draw_pair(out, ink, ground, bytes_of(image.at(x, y)),
-                      y + 1 < image.height ? bytes_of(image.at(x, y + 1)) : std::nullopt);
+            const auto bytes = [&](std::int64_t row) -> std::optional<Levels> {
+                if (row >= image.height) return std::nullopt;
+                return bytes_of(image.at(x, row), static_cast<double>(image.opacity(x, row)));
+            };
+            draw_pair(out, ink, ground, bytes(y), bytes(y + 1));
         }
         out += "\x1b[0m\n";
     }
@@ -143,8 +159,8 @@ std::string plain_characters(const Image& image, int columns) {
     for (std::int64_t y = 0; y < image.height; y += 2) {
         for (std::int64_t x = 0; x < image.width; ++x) {
             const Stretch down(y / 2, (image.height + 1) / 2, image.height);
-            const std::optional<Levels> bytes =
-                bytes_of(average(image, Stretch(x, image.width, image.width), down));
+            const Average mean = average(image, Stretch(x, image.width, image.width), down);
+            const std::optional<Levels> bytes = bytes_of(mean.colour, mean.opacity);
             const int light = bytes ? (*bytes)[0] + (*bytes)[1] + (*bytes)[2] : 0;
             out += ramp[static_cast<std::size_t>(light) * ramp.size() / (3 * 256)];
         }

@@ -14,6 +14,7 @@ Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& 
            Team& team) {
     const Tracer tracer(caster, look, options);
     Image image(options.width, options.height);
+    if (!options.background) image.alpha.resize(image.pixels.size());
     const std::int64_t columns = (options.width + TileDrawer::side - 1) / TileDrawer::side;
     const std::int64_t rows = (options.height + TileDrawer::side - 1) / TileDrawer::side;
     std::atomic<std::int64_t> next{0};

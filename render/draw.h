@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace cascade {
 
@@ -36,6 +37,8 @@ struct DrawOptions {
     std::int64_t width = 800, height = 600;  ///< Pixels, at least 1.
     Quality quality = Quality::normal;
     View view;
+    /// What is behind the scene; nothing: the picture has `alpha`.
+    std::optional<Colour> background = pure_white;
     bool ground = true;
     bool round_shadows = false;  ///< Smooths shadows on large facets.
     /// Told now and then, in the calling thread, what part is done, 0 … 1; may be empty.
@@ -44,11 +47,18 @@ struct DrawOptions {
 
 /// Renders by ray tracing. The picture is the same on any number of threads and on every processor.
 /// Both sides of a surface are drawn. `look` is that of the body, and may be empty if there is
-/// none. Throws std::bad_alloc.
+/// none. Without a background a surface is as opaque as the part of the pixel that it covers, and
+/// the shadow on the ground is black: over white it is as dark as on a white background. Throws
+/// std::bad_alloc.
 Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options,
            Team& team);
 
-/// The same for a body with colours.
+/// The picture of nothing.
+inline Image empty_picture(const DrawOptions& options) {
+    return Image(options.width, options.height, options.background.value_or(transparent));
+}
+
+/// The same as draw() for a body with colours.
 Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
            Team& team);
 

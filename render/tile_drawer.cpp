@@ -32,61 +32,11 @@ constexpr float sharp_outline = 0.2F;     ///< Between a pixel's share of the su
 constexpr float contrast_beside = 0.06F;  ///< Of tones side by side: above it, one ray is too few.
 constexpr float dark_share = 0.2F;        ///< Of the sky: below it, a pixel is in a crevice.
 
-void add(const Colour& light, float part, Colour& sum) {
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;
-}
-
-/// What eyes take for evenly spaced.
-Colour tone_of(const Colour& light) {
-    Colour tone{};
-    for (std::size_t c = 0; c < 3; ++c) tone[c] = std::sqrt(std::max(light[c], 0.0F));
-    return tone;
-}
-
-Colour light_of(const Seen& seen, float sun, float sky) {
-    Colour sum = seen.always;
-    add(seen.of_sun, sun, sum);
-    add(seen.of_sky, sky, sum);
-    return sum;
-}
-
 float contrast(const Colour& a, const Colour& b) {
     float most = 0;
     for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(a[c] - b[c]));
     return most;
 }
-
-/// The mean of lights, and how far it may be off.
-class Mean {
-public:
-    void add(const Colour& light) {
-        cascade::add(light, 1, sum_);
-        const Colour tone = tone_of(light);
-        for (std::size_t c = 0; c < 3; ++c) {
-            tones_[c] += tone[c];
-            squares_[c] += tone[c] * tone[c];
-        }
-        ++count_;
-    }
-    Colour light() const {
-        Colour mean{};
-        cascade::add(sum_, 1 / static_cast<float>(count_), mean);
-        return mean;
-    }
-    /// The standard error of the tone, as if rays were random.
-    float error() const {
-        const auto n = static_cast<float>(count_);
-        float most = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            most = std::max(most, squares_[c] / n - tones_[c] / n * (tones_[c] / n));
-        }
-        return std::sqrt(most / n);
-    }
-
-private:
-    Colour sum_{}, tones_{}, squares_{};
-    int count_ = 0;
-};
 
 }  // namespace
 
@@ -104,7 +54,8 @@ void TileDrawer::draw(std::int64_t left, std::int64_t top, Image& image) {
     });
     visit(sun_reach, [&](Pixel& pixel) { ask_more(Light::sun, pixel); });
     visit(0, [&](Pixel& pixel) {
-        image.at(left_ + pixel.x, top_ + pixel.y) = stored_of(light_of_pixel(pixel));
+        put(light_of_pixel(pixel), options_.background.has_value(), left_ + pixel.x, top_ + pixel.y,
+            image);
     });
 }
 
@@ -227,10 +178,12 @@ void TileDrawer::ask_more(Light light, Pixel& pixel) {
     }
 }
 
-Colour TileDrawer::light_of_pixel(Pixel& pixel) {
+PixelLight TileDrawer::light_of_pixel(Pixel& pixel) {
     const bool is_even = !pixel.is_edge && !pixel.is_varied;
     const bool one_is_enough = is_even && effort_.one_is_enough;
-    if (one_is_enough && pixel.seen.kind == Seen::Kind::background) return pixel.seen.always;
+    if (one_is_enough && pixel.seen.kind == Seen::Kind::background) {
+        return light_of_ray(pixel.seen, 0, 0);
+    }
     const auto shares_around = [&] {
         return OfLights<float>{share_around(Light::sun, pixel, sun_reach),
                                share_around(Light::sky, pixel, sky_reach)};
@@ -239,7 +192,7 @@ Colour TileDrawer::light_of_pixel(Pixel& pixel) {
     if (!pixel.is_edge) {
         shares = shares_around();
         if (one_is_enough && !is_at_outline_of_shadow(pixel, shares.sun)) {
-            return light_of(pixel.seen, shares.sun, shares.sky);
+            return light_of_ray(pixel.seen, shares.sun, shares.sky);
         }
     }
     const Rays rays = first_rays_of(pixel);
@@ -311,7 +264,7 @@ bool TileDrawer::is_in_thicket(const Pixel& pixel, const Rays& rays) {
 }
 
 /// Of four rays, with the shares of the lights that are seen from here and around.
-Colour TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
+PixelLight TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
     OfLights<Tally> tally;
     for (const Light light : {Light::sun, Light::sky}) {
         visit_around(pixel, light == Light::sun ? sun_reach : sky_reach, [&](const Pixel& other) {
@@ -324,9 +277,9 @@ Colour TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
         if (k % 2 == 0) tally.sun += ask(Light::sun, rays[k], even_point(k, u, v));
         else tally.sky += ask(Light::sky, rays[k], even_point(k, w, t));
     }
-    Mean mean;
+    MeanLight mean;
     for (const Seen& seen : rays) {
-        mean.add(light_of(seen, tally.sun.share(), tally.sky.share()));
+        mean.add(light_of_ray(seen, tally.sun.share(), tally.sky.share()));
     }
     return mean.light();
 }
@@ -334,19 +287,23 @@ Colour TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
 /// The mean of rays through a pixel. `shares(seen, number)` says how much of the lights reaches
 /// what they see.
 template <typename Shares>
-Colour TileDrawer::light_of_rays(const Pixel& pixel, const Rays& first, std::uint32_t least,
-                                 const Shares& shares) {
+PixelLight TileDrawer::light_of_rays(const Pixel& pixel, const Rays& first, std::uint32_t least,
+                                     const Shares& shares) {
     const Shifts shift = shifts(pixel);
     const float width = 1 / std::sqrt(static_cast<float>(effort_.most_rays));
-    Mean mean;
+    MeanLight mean;
+    const auto is_known = [&] {
+        if (!options_.background && mean.error_of_open() > effort_.error) return false;
+        return mean.error() <= effort_.error;
+    };
     for (std::uint32_t k = 0; k < effort_.most_rays; ++k) {
         const bool is_doubled = k >= least && std::has_single_bit(k);
-        if (is_doubled && mean.error() <= effort_.error) break;
+        if (is_doubled && is_known()) break;
         const Seen seen =
             k < first_rays ? first[k]
                            : trace(pixel, even_point(k, shift.of_rays[0], shift.of_rays[1]), width);
         const OfLights<float> parts = shares(seen, k);
-        mean.add(light_of(seen, parts.sun, parts.sky));
+        mean.add(light_of_ray(seen, parts.sun, parts.sky));
     }
     return mean.light();
 }

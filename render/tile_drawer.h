@@ -2,6 +2,7 @@
 #pragma once
 
 #include "picture/image.h"
+#include "render/pixel_light.h"
 #include "render/quality.h"
 #include "render/samples.h"
 #include "render/tracer.h"
@@ -73,15 +74,15 @@ private:
     void look(Pixel& pixel);
     void look_beside(Pixel& pixel);
     void ask_more(Light light, Pixel& pixel);
-    Colour light_of_pixel(Pixel& pixel);
+    PixelLight light_of_pixel(Pixel& pixel);
     bool is_at_outline_of_shadow(const Pixel& pixel, float share) const;
     Rays first_rays_of(const Pixel& pixel) const;
     float share_around(Light light, Pixel& pixel, int reach);
     bool is_in_thicket(const Pixel& pixel, const Rays& rays);
-    Colour light_in_thicket(const Pixel& pixel, const Rays& rays);
+    PixelLight light_in_thicket(const Pixel& pixel, const Rays& rays);
     template <typename Shares>
-    Colour light_of_rays(const Pixel& pixel, const Rays& first, std::uint32_t least,
-                         const Shares& shares);
+    PixelLight light_of_rays(const Pixel& pixel, const Rays& first, std::uint32_t least,
+                             const Shares& shares);
     Shifts shifts(const Pixel& pixel) const { return shifts_of(left_ + pixel.x, top_ + pixel.y); }
 
     const Tracer& tracer_;

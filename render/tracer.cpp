@@ -15,7 +15,6 @@ constexpr float sun_light = 0.72F;
 constexpr float sky_light = 0.42F;
 constexpr float sun_radius = 0.12F;    ///< Tangent of the sun's half width.
 constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's shadow takes away.
-constexpr Colour background{1, 1, 1};
 
 /// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
 /// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
@@ -37,6 +36,7 @@ Tracer::Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptio
       look_(look),
       options_(options),
       camera_(caster.scene(), options.view, options.width, options.height),
+      background_(light_of(options.background.value_or(pure_white))),
       box_(bounds(caster.scene())),
       size_(length(box_.high - box_.low)) {
     sun_ = unit(camera_.backward() + camera_.up() * 0.9F - camera_.right() * 0.7F);
@@ -49,7 +49,7 @@ Seen Tracer::trace(float x, float y, float width) const {
     if (const auto hit = caster_.nearest(ray)) return surface(ray, *hit, width);
     if (options_.ground) return ground(ray);
     Seen nothing;
-    nothing.always = background;
+    nothing.always = background_;
     return nothing;
 }
 
@@ -100,7 +100,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
 /// The background, darkened by the surface's shadow.
 Seen Tracer::ground(const Ray& ray) const {
     Seen seen;
-    seen.always = background;
+    seen.always = background_;
     const Vector3 up = options_.view.up;
     const float fall = dot(ray.direction, up);
     if (fall > -1e-3F) return seen;
@@ -112,9 +112,9 @@ Seen Tracer::ground(const Ray& ray) const {
     const float sun = sun_light * std::max(0.0F, dot(up, sun_));
     const float full = sun + sky_light;
     for (std::size_t k = 0; k < 3; ++k) {
-        seen.always[k] = background[k] * (1 - ground_shade);
-        seen.of_sun[k] = background[k] * ground_shade * (sun / full);
-        seen.of_sky[k] = background[k] * ground_shade * (sky_light / full);
+        seen.always[k] = background_[k] * (1 - ground_shade);
+        seen.of_sun[k] = background_[k] * ground_shade * (sun / full);
+        seen.of_sky[k] = background_[k] * ground_shade * (sky_light / full);
     }
     seen.kind = Seen::Kind::ground;
     seen.place = place + up * (size_ * 1e-4F);

@@ -55,6 +55,7 @@ private:
     const SurfaceLook& look_;
     const DrawOptions& options_;
     Camera camera_;
+    Colour background_;  ///< Its light.
     Box box_;
     float size_;
     float ground_ = 0;

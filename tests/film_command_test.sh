@@ -77,6 +77,17 @@ refused "no frames of a run are drawn" -o bad.png --label step
 refused "no room for a label" -o bad.gif --label step
 refused "this differs from cell to cell" -o bad.gif --label b
 
+# Surfaces without a background have films with alpha, where the format has it.
+echo 'domain { surface: sphere; cells: 200 }' >ball.cascade
+echo 'stage s: turing_spots { iterations: 4 }' >>ball.cascade
+ball() { "$CASCADE" run -q ball.cascade --size 48x36 --background none "$@" >/dev/null 2>err; }
+ball --turntable 2 -o ball.gif -o ball.webp -o ball.apng || fail "a film without background: $(cat err)"
+ball --turntable 2 -o ball.mp4 && fail "an MP4 without background"
+grep -q "an MP4 film has no transparent pixels" err || fail "an MP4 without background: $(cat err)"
+[ ! -e ball.mp4 ] || fail "there is an MP4 without background"
+ball -o ball.png --label step --frames balls || fail "a picture without background: $(cat err)"
+[ "$(od -An -t u1 -j 25 -N 1 ball.png | tr -d ' ')" = 4 ] || fail "a grey picture without background has no alpha"
+
 # A label lies over the pattern; a sweep and a volume are films, too.
 "$CASCADE" run spots.cascade -q --scale 8 -o label.gif --label stage --label step || fail "a label"
 "$CASCADE" run spots.cascade -q --scale 8 -o plain.gif || fail "no label"

@@ -217,6 +217,7 @@ void check_on_plane(OptionRefuser& options, const RunRequest& request, bool has_
                       "--scale N draws each cell as N x N pixels");
     options.refuse_if(request.picture.fov.has_value(), "--fov", message, hint);
     options.refuse_if(!request.picture.ground, "--ground", message, hint);
+    options.refuse_if(request.picture.background != pure_white, "--background", message, hint);
     options.refuse_if(request.picture.quality != Quality::normal, "--quality", message, hint);
     options.refuse_if(request.turntable > 0 || request.picture.view.is_turning, "--turntable",
                       message, hint);
@@ -260,6 +261,9 @@ void check_films(OptionRefuser& options, const RunRequest& request) {
         if (auto good = check_pace(output, wanted.frames_per_second); !good) {
             options.refuse("--fps", "--fps", good.error().message, good.error().hint);
         }
+        options.refuse_if(!request.picture.background && film_format(output) == FilmFormat::mp4,
+                          "--background", "an MP4 film has no transparent pixels",
+                          "-o NAME.webm, .webp and .apng have them, or give a colour");
     }
     if (request.session && films_steps(request)) {
         options.refuse("-o", film->string(),

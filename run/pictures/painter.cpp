@@ -218,6 +218,7 @@ DrawOptions Painter::draw_options() const {
     options.height = request_.size.height;
     options.quality = request_.quality;
     options.ground = request_.ground;
+    options.background = request_.background;
     options.report = report_;
     if (width_) {
         options.height = std::max<std::int64_t>(1, *width_ * options.height / options.width);

@@ -102,7 +102,7 @@ Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const
     }
     // All cells may have died, or have no width.
     if (below.triangles.empty() && copies.triangle_count() == 0) {
-        return Image(options.width, options.height);
+        return empty_picture(options);
     }
     used.round_shadows = model != nullptr || cells.body;
     Team team(hardware_threads());

@@ -5,6 +5,7 @@
 #include "core/json_size.h"
 #include "run/script/json_fields.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -43,6 +44,17 @@ bool PictureRequest::is_turned() const {
     return view.azimuth != usual.azimuth || view.elevation != usual.elevation;
 }
 
+Result<std::optional<Colour>> background_named(std::string_view name) {
+    if (name == "none") return std::nullopt;
+    if (const auto colour = find_colour(name)) return colour;
+    return failure(fmt::format("'{}' is not a background", name),
+                   "write none or a colour in quotes, as in --background '#204060'");
+}
+
+std::string name_of(const std::optional<Colour>& background) {
+    return background ? hexadecimal(*background) : "none";
+}
+
 std::string to_json(const PictureRequest& request) {
     nlohmann::json json = {{"palette", request.palette},
                            {"scale", request.scale},
@@ -54,6 +66,7 @@ std::string to_json(const PictureRequest& request) {
     if (request.quality != Quality::normal) json["quality"] = name_of(request.quality);
     if (request.fov) json["fov"] = *request.fov;
     if (!request.ground) json["ground"] = false;
+    if (request.background != pure_white) json["background"] = name_of(request.background);
     if (request.view.is_turning) json["turning"] = true;
     if (request.bump != 0) json["bump"] = request.bump;
     if (!request.show.empty()) json["show"] = request.show;
@@ -73,7 +86,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     PictureRequest request;
     std::vector<float> view, range;
     std::vector<std::int64_t> size;
-    std::string quality(name_of(Quality::normal));
+    std::string quality(name_of(Quality::normal)), background = name_of(request.background);
     fields.read("palette", request.palette);
     fields.read("scale", request.scale);
     fields.read("depth", request.depth);
@@ -85,6 +98,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     fields.read("quality", quality);
     if (json.contains("fov")) fields.read("fov", request.fov.emplace());
     fields.read("ground", request.ground);
+    fields.read("background", background);
     fields.read("turning", request.view.is_turning);
     fields.read("bump", request.bump);
     fields.read("range", range);
@@ -112,6 +126,9 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     const auto named = quality_named(quality);
     if (!named) return tl::unexpected(senseless);
     request.quality = *named;
+    const auto behind = background_named(background);
+    if (!behind) return tl::unexpected(senseless);
+    request.background = *behind;
     if (!range.empty()) request.range = ValueRange{range[0], range[1]};
     if (!makes_sense(request)) return tl::unexpected(senseless);
     return request;

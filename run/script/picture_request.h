@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace cascade {
 
@@ -38,6 +39,8 @@ struct PictureRequest {
     /// Of a surface: the field of view along the shorter side of the picture, in degrees.
     std::optional<float> fov;
     bool ground = true;  ///< Of a surface: a plane below it that receives shadows.
+    /// Of a surface: what is behind it; nothing if the picture is to be transparent there.
+    std::optional<Colour> background = pure_white;
     /// Of a model: height of the largest number above the smallest one, in sides of the model, −1 …
     /// 1.
     float bump = 0;
@@ -53,6 +56,10 @@ inline PictureRequest picture_of(std::string expression) {
     request.show = std::move(expression);
     return request;
 }
+
+/// A background by its name, "none" or "#204060"; fails for other names.
+Result<std::optional<Colour>> background_named(std::string_view name);
+std::string name_of(const std::optional<Colour>& background);
 
 std::string to_json(const PictureRequest& request);
 Result<PictureRequest> picture_request_from_json(const std::string& json);

@@ -108,16 +108,21 @@ TEST(Options, run_takes_what_models_have) {
 
 TEST(Options, pictures_of_surfaces_have_a_size_a_quality_and_a_camera) {
     const Options options = parsed({"run", "a.cascade", "--size", "1920x1080", "--quality", "fine",
-                                    "--fov", "40", "--ground", "no"});
+                                    "--fov", "40", "--ground", "no", "--background", "none"});
     const PictureRequest picture = apply(options.picture, {});
     EXPECT_EQ(picture.size, (PictureSize{1920, 1080}));
     EXPECT_EQ(picture.quality, Quality::fine);
     EXPECT_EQ(picture.fov, 40.0F);
     EXPECT_FALSE(picture.ground);
+    EXPECT_FALSE(picture.background);
+    const PictureRequest coloured =
+        apply(parsed({"run", "a.cascade", "--background", "#00f"}).picture, picture);
+    EXPECT_EQ(coloured.background, (Colour{0, 0, 1}));
     const PictureRequest stored = apply(parsed({"run", "a.png"}).picture, picture);
     EXPECT_EQ(stored.size, picture.size);
     EXPECT_EQ(stored.quality, Quality::fine);
     EXPECT_FALSE(stored.ground);
+    EXPECT_FALSE(stored.background);
 }
 
 TEST(Options, run_takes_everything) {

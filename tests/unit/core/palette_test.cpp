@@ -146,6 +146,14 @@ TEST(Palette, MayBeColoursOfOnesOwn) {
     EXPECT_FLOAT_EQ(colour_at(*own, 0.5)[0], 128.0F / 255);
     EXPECT_FLOAT_EQ(colour_at(*own, 0.75)[1], (64.0F / 255 + 1) / 2);
     EXPECT_EQ(find_palette("#000000 #8040ff  #fff"), own);
+    for (const char* word : {"#000000", "#8040ff", "#1b2a49"}) {
+        ASSERT_TRUE(find_colour(word)) << word;
+        EXPECT_EQ(hexadecimal(*find_colour(word)), word);
+    }
+    EXPECT_EQ(hexadecimal(*find_colour("#FA0")), "#ffaa00");
+    for (const char* word : {"", "#", "white", "8040ff", "#8040fg", "#8040f", "#-10000"}) {
+        EXPECT_FALSE(find_colour(word)) << word;
+    }
     std::string many = "#000";
     for (int k = 0; k < 63; ++k) many += " #fff";
     EXPECT_NE(find_palette(many), nullptr);

@@ -39,10 +39,11 @@ protected:
         std::filesystem::permissions(path("bin/ffmpeg"), std::filesystem::perms::owner_all);
     }
 
-    /// All pixels of a film in red, green and blue, by ffmpeg's own decoder.
-    std::string decoded(const std::string& name) const {
-        const std::string command =
-            "ffmpeg -v error -i '" + path(name).string() + "' -f rawvideo -pix_fmt rgb24 -";
+    /// All pixels of a film, by ffmpeg's own decoder or another one.
+    std::string decoded(const std::string& name, const std::string& format = "rgb24",
+                        const std::string& decoder = "") const {
+        const std::string command = "ffmpeg -v error " + decoder + " -i '" + path(name).string() +
+                                    "' -f rawvideo -pix_fmt " + format + " -";
         std::FILE* const pipe = ::popen(command.c_str(), "r");
         std::string pixels;
         for (int byte = std::fgetc(pipe); byte != EOF; byte = std::fgetc(pipe)) {
@@ -77,6 +78,34 @@ TEST_F(Ffmpeg, WritesWhatItsDecoderShows) {
     EXPECT_EQ(files(), 2U);
     EXPECT_TRUE(check_film_size(path("b.mp4"), 33, 21));
     EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(Ffmpeg, KeepsOpacityInWebmAndLaysMp4OnWhite) {
+    if (!check_film(path("a.mp4"))) GTEST_SKIP() << "ffmpeg is not installed";
+    Image image(64, 32, {1, 0, 0});
+    for (std::int64_t y = 0; y < 32; ++y) {
+        for (std::int64_t x = 0; x < 64; ++x) {
+            image.alpha.push_back(x < 16 ? 1 : x < 48 ? 0.4F : 0);
+        }
+    }
+    const std::vector<FilmFrame> frames(3, film_frame(image));
+    for (const std::string name : {"a.webm", "a.mp4"}) write(name, frames);
+    // The pixel in the middle of a stretch of the last row.
+    const auto level = [](const std::string& pixels, std::size_t x, std::size_t channel) {
+        return static_cast<unsigned char>(pixels[(31 * 64 + x) * 4 + channel]);
+    };
+    // ffmpeg's own decoder of VP9 leaves alpha out.
+    const std::string webm = decoded("a.webm", "rgba", "-c:v libvpx-vp9");
+    ASSERT_EQ(webm.size(), 3U * 64 * 32 * 4);
+    EXPECT_NEAR(level(webm, 8, 3), 255, 4);
+    EXPECT_NEAR(level(webm, 32, 3), 102, 4);
+    EXPECT_NEAR(level(webm, 56, 3), 0, 4);
+    EXPECT_NEAR(level(webm, 32, 0), 255, 4) << "not multiplied by alpha";
+    EXPECT_NEAR(level(webm, 32, 1), 0, 8);
+    const std::string mp4 = decoded("a.mp4", "rgba");
+    EXPECT_NEAR(level(mp4, 8, 1), 0, 6);
+    EXPECT_NEAR(level(mp4, 32, 1), 153, 6);
+    EXPECT_NEAR(level(mp4, 56, 1), 255, 6);
 }
 
 TEST_F(Ffmpeg, IsAskedForWhereItIsMissing) {

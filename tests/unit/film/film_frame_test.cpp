@@ -15,7 +15,22 @@ TEST(FilmFrames, AreRoundedAsPicturesAre) {
     const FilmFrame frame = film_frame(image);
     EXPECT_EQ(frame.pixels, std::string("\x33\xff\x00\xff\xff\xff\xff\x00", 8));
     EXPECT_TRUE(has_holes(frame));
+    EXPECT_TRUE(has_alpha(frame));
     EXPECT_FALSE(has_holes(disc_frame(9, 9, 4, 4)));
+    EXPECT_FALSE(has_alpha(disc_frame(9, 9, 4, 4)));
+}
+
+TEST(FilmFrames, HaveTheOpacityOfPictures) {
+    Image image(3, 1, {1, 0, 0});
+    image.alpha = {0.8F, 0.5F, 0};
+    FilmFrame frame = film_frame(image);
+    EXPECT_EQ(frame.pixels, std::string("\xff\0\0\xcc\xff\0\0\x80\xff\xff\xff\0", 12));
+    EXPECT_FALSE(is_hole(frame.row(0, 1)));
+    EXPECT_TRUE(has_holes(frame));
+    image.alpha[2] = 1;
+    frame = film_frame(image);
+    EXPECT_FALSE(has_holes(frame)) << "half opaque is seen in a GIF";
+    EXPECT_TRUE(has_alpha(frame));
 }
 
 TEST(FilmFrames, ChangeInARectangle) {

@@ -30,6 +30,14 @@ TEST(Captions, LieInTheLowerLeftCorner) {
     EXPECT_EQ(pixels_of(image, sheet_ink, 100, 0), pixels_of(image, sheet_ink, width, 40 - height));
 }
 
+TEST(Captions, AreOpaque) {
+    Image image(100, 40, transparent);
+    image.alpha.assign(image.pixels.size(), 0);
+    draw_caption(image, "t");
+    EXPECT_EQ(image.opacity(1, 38), 1.0F);
+    EXPECT_EQ(image.opacity(90, 2), 0.0F);
+}
+
 TEST(Captions, GrowWithThePicture) {
     Image image(720, 60, ground);
     draw_caption(image, "t");

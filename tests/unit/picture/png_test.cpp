@@ -73,6 +73,17 @@ TEST(EncodePng, WhatIsTransparentIsWhiteBehindAlpha) {
     EXPECT_THAT(grey.samples, ElementsAre(13107, 65535, 65535, 0));
 }
 
+TEST(EncodePng, OpacityStandsBesideColoursAsTheyAre) {
+    Image image = coloured();
+    image.alpha = {0.2F, 1};
+    const DecodedPng png = test::decode(encoded(image, PngDepth::eight));
+    EXPECT_EQ(png.colour_type, 6);
+    EXPECT_THAT(png.samples, ElementsAre(255, 128, 0, 51, 51, 102, 153, 255));
+    EXPECT_EQ(image.over({0, 0, 1}, 1, 0), image.at(1, 0));
+    EXPECT_FLOAT_EQ(image.over({0, 0, 1}, 0, 0)[0], 0.2F);
+    EXPECT_FLOAT_EQ(image.over({0, 0, 1}, 0, 0)[2], 0.8F);
+}
+
 TEST(EncodePng, GreyPicturesAreGreyscale) {
     Image image(3, 2);
     for (int k = 0; k < 6; ++k) {

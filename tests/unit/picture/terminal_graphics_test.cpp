@@ -79,11 +79,32 @@ TEST(SixelPicture, HasBandsOfSixRows) {
     Image image(5, 7, {0, 0, 0});
     image.at(1, 1) = {1, 1, 1};
     image.at(4, 6) = transparent;
-    EXPECT_EQ(sixel_picture(image),
-              "\x1bP0;1;0q\"1;1;5;7#0;2;0;0;0#1;2;100;100;100"
-              "#0~|~~~$#1?A$-"
-              "#0!4@$-"
-              "\x1b\\");
+    const std::string text =
+        "\x1bP0;1;0q\"1;1;5;7#0;2;0;0;0#1;2;100;100;100"
+        "#0~|~~~$#1?A$-"
+        "#0!4@$-"
+        "\x1b\\";
+    EXPECT_EQ(sixel_picture(image), text);
+    // Pixels are there or not.
+    image.at(4, 6) = {1, 0, 1};
+    image.alpha.assign(image.pixels.size(), 0.5F);
+    image.alpha_at(4, 6) = 0.49F;
+    EXPECT_EQ(sixel_picture(image), text);
+}
+
+TEST(ReducedPictures, KeepTheirOpacity) {
+    Image image(4, 2, {1, 0, 0});
+    image.alpha = {1, 0, 0, 0, 1, 0.5F, 0, 0};
+    image.at(1, 1) = {0, 1, 0};
+    image.at(3, 0) = transparent;
+    const Image small = reduce(image, 2);
+    ASSERT_EQ(small.alpha.size(), 2U);
+    EXPECT_FLOAT_EQ(small.alpha[0], 2.5F / 4);
+    EXPECT_EQ(small.alpha[1], 0);
+    // Each pixel counts as far as it is opaque.
+    EXPECT_FLOAT_EQ(small.at(0, 0)[0], 2 / 2.5F);
+    EXPECT_FLOAT_EQ(small.at(0, 0)[1], 0.5F / 2.5F);
+    EXPECT_TRUE(is_transparent(small.at(1, 0)));
 }
 
 TEST(SixelPicture, HasAtMost256Colours) {

@@ -53,6 +53,14 @@ TEST(HalfBlocks, TransparentPixelsLeaveTheGround) {
     EXPECT_EQ(half_blocks(image, 80), " \x1b[38;2;0;0;0m\x1b[48;2;0;0;0m▀\x1b[49m▄▀\x1b[0m\n");
 }
 
+TEST(HalfBlocks, PixelsOfLessThanHalfTheOpacityLeaveTheGround) {
+    Image image(2, 2, {0, 0, 0});
+    image.alpha = {0.4F, 1, 0.3F, 0.5F};
+    EXPECT_EQ(half_blocks(image, 80), " \x1b[38;2;0;0;0m\x1b[48;2;0;0;0m▀\x1b[0m\n");
+    image.pixels.assign(4, {1, 1, 1});
+    EXPECT_EQ(plain_characters(image, 80), " @\n");
+}
+
 TEST(HalfBlocks, AveragesAreOfWhatIsSeen) {
     Image image(4, 2, {0, 0, 0});
     image.at(0, 0) = image.at(1, 0) = image.at(0, 1) = transparent;

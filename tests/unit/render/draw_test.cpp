@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -241,6 +242,72 @@ TEST(Draw, ThreadsDoNotMatter) {
     const Image one = picture_of(mesh, options, red, 1);
     const Image three = picture_of(mesh, options, red, 3);
     EXPECT_TRUE(one.pixels == three.pixels);
+}
+
+TEST(Draw, ABackgroundHasAColour) {
+    DrawOptions options = small_picture();
+    const Colour blue{32.0F / 255, 64.0F / 255, 96.0F / 255};
+    options.background = blue;
+    const Image alone = picture_of(sphere(1), options, red);
+    EXPECT_TRUE(alone.alpha.empty());
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(alone.at(0, 0)[c], blue[c], 1e-6F);
+    options.ground = true;
+    const Image shaded = picture_of(sphere(1), options, red);
+    float darkest = 1;
+    for (const Colour& pixel : shaded.pixels) {
+        if (!is_red(pixel)) darkest = std::min(darkest, pixel[2]);
+    }
+    EXPECT_LT(darkest, 0.8F * blue[2]) << "a shadow darkens it";
+    EXPECT_GT(darkest, 0.5F * blue[2]);
+}
+
+TEST(Draw, WithoutABackgroundEdgesKeepTheColourOfTheSurface) {
+    DrawOptions options = small_picture();
+    options.background = std::nullopt;
+    for (const Quality quality : {Quality::draft, Quality::normal, Quality::fine}) {
+        options.quality = quality;
+        const Image image = picture_of(sphere(1), options, red);
+        ASSERT_EQ(image.alpha.size(), image.pixels.size());
+        float area = 0;
+        std::int64_t partial = 0;
+        for (std::int64_t y = 0; y < 120; ++y) {
+            for (std::int64_t x = 0; x < 160; ++x) {
+                const float opacity = image.opacity(x, y);
+                area += opacity;
+                if (opacity == 0) continue;
+                if (opacity < 1) ++partial;
+                // The sphere has highlights of white light, so some green, but never much.
+                EXPECT_LT(image.at(x, y)[1], 0.35F) << x << ", " << y;
+            }
+        }
+        EXPECT_TRUE(is_transparent(image.at(0, 0)));
+        EXPECT_EQ(image.opacity(80, 60), 1.0F);
+        EXPECT_GT(partial, 100) << "the outline";
+        // The disc's diameter is 120 pixels without the margin of 12 %.
+        const float radius = 60 / 1.12F;
+        EXPECT_NEAR(area, std::numbers::pi_v<float> * radius * radius, 0.03F * area);
+    }
+}
+
+TEST(Draw, WithoutABackgroundTheShadowIsBlackAndOverWhiteTheSame) {
+    DrawOptions options = small_picture();
+    options.ground = true;
+    const Image on_white = picture_of(sphere(1), options, red);
+    options.background = std::nullopt;
+    const Image image = picture_of(sphere(1), options, red);
+    std::int64_t in_shadow = 0;
+    for (std::int64_t y = 0; y < 120; ++y) {
+        for (std::int64_t x = 0; x < 160; ++x) {
+            // Where the surface is seen: edges are mixed in sRGB here and in light there.
+            if (image.at(x, y)[0] > 0 && !is_transparent(image.at(x, y))) continue;
+            const Colour over = image.over(pure_white, x, y);
+            for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(over[c], on_white.at(x, y)[c], 1e-3F);
+            if (image.opacity(x, y) < 0.05F) continue;
+            ++in_shadow;
+            EXPECT_LT(image.opacity(x, y), 0.5F);
+        }
+    }
+    EXPECT_GT(in_shadow, 500);
 }
 
 TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {

@@ -62,10 +62,18 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     EXPECT_EQ(back->fov, 62.5F);
     EXPECT_FALSE(back->ground);
     EXPECT_EQ(to_json({}).find("fov"), std::string::npos);
+    EXPECT_EQ(to_json({}).find("background"), std::string::npos);
+    for (const auto& background : {std::optional<Colour>(), std::optional(Colour{1, 0.2F, 0})}) {
+        request.background = background;
+        const auto kept = picture_request_from_json(to_json(request));
+        ASSERT_TRUE(kept);
+        EXPECT_EQ(kept->background, background);
+    }
     for (const char* wrong :
          {R"({"bump": 2})", R"({"bump": "a"})", R"({"turning": 3})", R"({"size": [0, 9]})",
           R"({"size": [9]})", R"({"size": 9})", R"({"quality": "best"})", R"({"quality": 1})",
-          R"({"fov": 0})", R"({"fov": "a"})", R"({"ground": 2})"}) {
+          R"({"fov": 0})", R"({"fov": "a"})", R"({"ground": 2})", R"({"background": "blue"})",
+          R"({"background": null})"}) {
         EXPECT_FALSE(picture_request_from_json(wrong)) << wrong;
     }
 }
