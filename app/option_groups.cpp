@@ -78,6 +78,11 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
               one_of({"x", "y", "z"}),
               [&](const std::string& up) { overrides.up = axis_of_name(up); })
         ->group(group);
+    add_value(app, "--facing", "AXIS",
+              "Along which axis of the model it looks, such as -y; pictures\nshow its face",
+              one_of({heading_names.begin(), heading_names.end()}),
+              [&](const std::string& facing) { overrides.facing = heading_of_name(facing); })
+        ->group(group);
     add_value(app, "--seed", "N", "The seed of all random numbers",
               whole_number(0, std::numeric_limits<std::uint32_t>::max()),
               [&](auto seed) { overrides.seed = static_cast<std::uint32_t>(seed); })

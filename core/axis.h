@@ -1,4 +1,4 @@
-// The axes of space, and the rotation that makes one of them point upwards.
+// The axes of space, and the rotation that brings a model upright and to look along z.
 #pragma once
 
 #include "core/vector3.h"
@@ -26,28 +26,78 @@ constexpr std::optional<Axis> axis_of_name(std::string_view name) {
     return std::nullopt;
 }
 
-/// Rotates `v` so that the axis `up` becomes y. The rotation only permutes coordinates and changes
-/// signs, so no bit is lost. With z up, the direction −y becomes z: the convention of programs that
-/// model with z up and export glTF, which has y up.
-template <typename Number>
-constexpr BasicVector3<Number> turned_upright(BasicVector3<Number> v, Axis up) {
-    switch (up) {
-        case Axis::x: return {v.z, v.x, v.y};
-        case Axis::y: break;
-        case Axis::z: return {v.x, v.z, -v.y};
+/// One of the six directions along the axes.
+struct Heading {
+    Axis axis = Axis::z;
+    bool is_backwards = false;  ///< Towards smaller coordinates.
+    bool operator==(const Heading&) const = default;
+};
+
+inline constexpr std::array<std::string_view, 6> heading_names{"x", "y", "z", "-x", "-y", "-z"};
+
+/// The name "x" … "-z".
+constexpr std::string_view name_of(Heading heading) {
+    return heading_names[static_cast<std::size_t>(heading.axis) + (heading.is_backwards ? 3 : 0)];
+}
+
+/// The direction of that name; nothing if there is none.
+constexpr std::optional<Heading> heading_of_name(std::string_view name) {
+    for (std::size_t k = 0; k < heading_names.size(); ++k) {
+        if (heading_names[k] == name) return Heading{static_cast<Axis>(k % 3), k >= 3};
     }
-    return v;
+    return std::nullopt;
+}
+
+/// How a model stands: what points upwards, and where it looks, at a right angle to that.
+struct Stance {
+    Axis up = Axis::y;
+    Heading facing;
+    bool operator==(const Stance&) const = default;
+};
+
+/// Where a model looks if nothing is said of it. With z up that is −y: the convention of programs
+/// that model with z up and export glTF, which has y up.
+constexpr Stance usual_stance(Axis up) {
+    return {up, up == Axis::y ? Heading{Axis::z} : Heading{Axis::y, up == Axis::z}};
+}
+
+namespace axis_detail {
+
+/// What becomes x: the cross product of what points upwards and where the model looks.
+constexpr Heading side_of(const Stance& stance) {
+    const auto up = static_cast<unsigned>(stance.up);
+    const auto facing = static_cast<unsigned>(stance.facing.axis);
+    const bool is_next = (up + 1) % 3 == facing;
+    return {static_cast<Axis>(3 - up - facing), stance.facing.is_backwards == is_next};
+}
+
+template <typename Number>
+constexpr Number along(const BasicVector3<Number>& v, Heading heading) {
+    const Number part = heading.axis == Axis::x ? v.x : heading.axis == Axis::y ? v.y : v.z;
+    return heading.is_backwards ? -part : part;
+}
+
+}  // namespace axis_detail
+
+/// Rotates `v` so that what points upwards becomes y, and where the model looks z. The rotation
+/// only permutes coordinates and changes signs, so no bit is lost.
+template <typename Number>
+constexpr BasicVector3<Number> turned_upright(const BasicVector3<Number>& v, const Stance& stance) {
+    return {axis_detail::along(v, axis_detail::side_of(stance)), axis_detail::along(v, {stance.up}),
+            axis_detail::along(v, stance.facing)};
 }
 
 /// The inverse of turned_upright.
 template <typename Number>
-constexpr BasicVector3<Number> turned_from_upright(BasicVector3<Number> v, Axis up) {
-    switch (up) {
-        case Axis::x: return {v.y, v.z, v.x};
-        case Axis::y: break;
-        case Axis::z: return {v.x, -v.z, v.y};
-    }
-    return v;
+constexpr BasicVector3<Number> turned_from_upright(const BasicVector3<Number>& v,
+                                                   const Stance& stance) {
+    const Heading side = axis_detail::side_of(stance);
+    const auto part = [&](Axis axis) {
+        if (axis == stance.up) return v.y;
+        if (axis == side.axis) return side.is_backwards ? -v.x : v.x;
+        return stance.facing.is_backwards ? -v.z : v.z;
+    };
+    return {part(Axis::x), part(Axis::y), part(Axis::z)};
 }
 
 }  // namespace cascade

@@ -81,14 +81,16 @@ public:
             check_named(mesh != nullptr ? *mesh : *surface);
         }
         if (!model_) return;
-        // A unit refers to the surface that the script has without --mesh, and an upward axis to
-        // the script's own model.
+        // A unit refers to the surface that the script has without --mesh, and how a model stands
+        // to the script's own model.
         const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
         const auto* unit = is_own || model_of(script_, domain_) ? find("unit") : nullptr;
         if (unit != nullptr) check_unit(*unit);
         if (const auto* up = is_own ? find("up") : find_option(script_, "up")) check_up(*up);
+        const auto* facing = is_own ? find("facing") : find_option(script_, "facing");
+        if (facing != nullptr) check_facing(*facing);
         check_anisotropy(find("directions"), find("stretch"));
         if (is_own) {
             for (const ast::Statement& other : domain_.statements) refuse(other);
@@ -118,6 +120,8 @@ private:
         work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
                                 is_shape
                                     ? "its cells are spread over it: cells: 20000, or --cells 20000"
+                                : word == "front"
+                                    ? "facing: -y says along which axis it looks"
                                     : "it ends where its surface ends, and nothing flows out");
     }
 
@@ -266,10 +270,31 @@ private:
         if (!has_one_value(work_, script_, statement)) return;
         const std::string_view word = word_of(value_of(script_, statement));
         if (const auto axis = axis_of_name(word)) {
-            model_->up = *axis;
+            model_->stance = usual_stance(*axis);
         } else {
             work_.diagnostics.error(span_of(statement),
                                     "the axis that points upwards is x, y or z");
+        }
+    }
+
+    void check_facing(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const ast::Expr* value = &value_of(script_, statement);
+        const auto* minus = std::get_if<ast::Unary>(&value->node);
+        const bool is_backwards = minus != nullptr && minus->op == Function::negate;
+        if (is_backwards) value = &script_.expressions[minus->operand];
+        const auto axis = axis_of_name(word_of(*value));
+        if (!axis) {
+            work_.diagnostics.error(span_of(statement),
+                                    "the axis along which a model looks is x, -x, y, -y, z or -z");
+        } else if (*axis == model_->stance.up) {
+            work_.diagnostics.error(
+                span_of(statement),
+                fmt::format("a model does not look along {}, which points upwards", name_of(*axis)),
+                *axis == Axis::y ? "up: z says that another axis points upwards"
+                                 : "it looks along another axis");
+        } else {
+            model_->stance.facing = {*axis, is_backwards};
         }
     }
 

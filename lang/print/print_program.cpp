@@ -231,7 +231,11 @@ void print_model(const Program& program, Output out) {
     }
     if (model.laplacian == ModelLaplacian::turk) fmt::format_to(out, "  laplacian: turk\n");
     if (model.unit) fmt::format_to(out, "  unit: {}\n", *model.unit);
-    if (model.up != Axis::y) fmt::format_to(out, "  up: {}\n", name_of(model.up));
+    const Stance& stance = model.stance;
+    if (stance.up != Axis::y) fmt::format_to(out, "  up: {}\n", name_of(stance.up));
+    if (stance != usual_stance(stance.up)) {
+        fmt::format_to(out, "  facing: {}\n", name_of(stance.facing));
+    }
     if (model.directions) print_directions(program, model, out);
 }
 

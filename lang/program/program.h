@@ -474,7 +474,7 @@ struct ModelSettings {
     std::int64_t count = 16384;  ///< Of spread cells.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
     std::optional<double> unit;  ///< Length of one unit; empty: the mean cell has area 1.
-    Axis up = Axis::y;           ///< The axis of the model that becomes y of the script.
+    Stance stance;               ///< What of the model becomes y and z of the script.
     std::optional<DirectionSettings> directions;
     double stretch = 2;  ///< The ratio of length to width of cells along the directions.
     Span span;           ///< Of the name of the model.

@@ -210,7 +210,7 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
     if (!changes.sets.empty() || changes.grid || changes.seed || changes.solver ||
-        changes.precision || changes.fast || changes.cells || changes.up) {
+        changes.precision || changes.fast || changes.cells || changes.up || changes.facing) {
         return failure(
             "a resumed run keeps its grid, seed, precision, rounding, parameters and solver",
             "--steps, --until-stage and --allow-read can change, and --mesh where the "

@@ -117,7 +117,7 @@ const Links& ModelCells::links_with_gradients() const {
 
 SurfaceMesh ModelCells::mesh_of_file() const {
     SurfaceMesh turned_back = mesh;
-    for (Vector3d& point : turned_back.points) point = turned_from_upright(point, up);
+    for (Vector3d& point : turned_back.points) point = turned_from_upright(point, stance);
     return turned_back;
 }
 
@@ -135,7 +135,7 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
     Result<MadeMesh> made = make_surface(settings, access, control.cancel);
     if (!made) return tl::unexpected(made.error());
     if (control.cancel) return Made();
-    for (Vector3d& point : made->mesh.points) point = turned_upright(point, settings.up);
+    for (Vector3d& point : made->mesh.points) point = turned_upright(point, settings.stance);
     if (access.check) {
         if (auto good = access.check(made->mesh); !good) return tl::unexpected(good.error());
     }
@@ -155,7 +155,7 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
     }
     auto model = std::make_shared<ModelCells>(std::move(made->mesh), count, std::move(make));
     model->repairs = std::move(made->repairs);
-    model->up = settings.up;
+    model->stance = settings.stance;
     if (!access.is_made_when_read) model->spread();
     return model;
 }
@@ -166,7 +166,7 @@ std::shared_ptr<const ModelCells> link_carried_model(const Program& program, Car
     auto model = std::make_shared<ModelCells>(std::move(carried.mesh), count,
                                               linking(request, std::move(carried.cells)));
     model->repairs = std::move(carried.repairs);
-    model->up = request.settings.up;
+    model->stance = request.settings.stance;
     return model;
 }
 

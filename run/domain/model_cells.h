@@ -39,10 +39,10 @@ class ModelCells {
 public:
     using Make = std::function<SpreadCells(const ModelCells&)>;
 
-    /// The mesh with y upwards, whichever axis points upwards in the file. Only the writers of
-    /// model files need the original coordinates.
+    /// The mesh with y upwards that looks along z, however it stands in the file. Only the writers
+    /// of model files need the original coordinates.
     SurfaceMesh mesh;
-    Axis up = Axis::y;                 ///< Of the model before it was turned.
+    Stance stance;                     ///< Of the model before it was turned.
     std::vector<std::string> repairs;  ///< What was repaired in the model, one sentence each.
 
     /// `make` is called once, by the first call of spread().

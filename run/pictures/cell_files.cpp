@@ -25,21 +25,21 @@ public:
     explicit FilePlaces(const ModelCells* model) {
         if (model == nullptr) return;
         box_.emplace(model->mesh);
-        up_ = model->up;
+        stance_ = model->stance;
     }
 
     Vector3d place(Vector3d p) const {
-        return box_ ? turned_from_upright(box_->in_model(p), up_) : p;
+        return box_ ? turned_from_upright(box_->in_model(p), stance_) : p;
     }
     double length(double l) const { return box_ ? l * box_->longest : l; }
     Quaternion turn(const Quaternion& q) const {
-        const auto axis = [&](Vector3d v) { return turned_from_upright(turned(q, v), up_); };
+        const auto axis = [&](Vector3d v) { return turned_from_upright(turned(q, v), stance_); };
         return quaternion_of(axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1}));
     }
 
 private:
     std::optional<ModelBox> box_;
-    Axis up_ = Axis::y;
+    Stance stance_;
 };
 
 /// Facets of the things in files are as fine as in a picture of this height.

@@ -69,7 +69,7 @@ Result<MeshTexture> made_texture(const SurfaceMesh& mesh, const ModelFileOptions
 namespace {
 
 bool is_as_in_file(const ModelCells& model, const MeshTexture& texture) {
-    return model.up == Axis::y && texture.empty();
+    return model.stance == Stance() && texture.empty();
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ std::string overrides_to_json(const Overrides& overrides) {
     if (overrides.model) json["mesh"] = portable_path(*overrides.model);
     if (overrides.cells) json["cells"] = *overrides.cells;
     if (overrides.up) json["up"] = name_of(*overrides.up);
+    if (overrides.facing) json["facing"] = name_of(*overrides.facing);
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -75,12 +76,23 @@ Result<Overrides> overrides_from_json(const std::string& text) {
     fields.read("mesh", overrides.model);
     fields.read("cells", overrides.cells);
     fields.read("up", overrides.up, axis_of_name);
+    fields.read("facing", overrides.facing, heading_of_name);
     if (!fields.is_sound() || grid.size() == 1 || grid.size() > 3) {
         return tl::unexpected(unreadable);
     }
     if (!grid.empty()) overrides.grid = {grid[0], grid[1], grid.size() > 2 ? grid[2] : 1};
     return overrides;
 }
+
+namespace {
+
+/// Of a model that gives way to another.
+void leave_stance(Overrides& overrides) {
+    overrides.up.reset();
+    overrides.facing.reset();
+}
+
+}  // namespace
 
 Overrides merge(Overrides base, const Overrides& changes) {
     base.sets.insert(base.sets.end(), changes.sets.begin(), changes.sets.end());
@@ -101,13 +113,14 @@ Overrides merge(Overrides base, const Overrides& changes) {
         base.model = changes.model;
         base.model_is_asked_for = changes.model_is_asked_for;
         base.grid.reset();
-        if (!is_same_model) base.up.reset();
+        if (!is_same_model) leave_stance(base);
     } else if (changes.grid) {
         base.model.reset();
         base.cells.reset();
-        base.up.reset();
+        leave_stance(base);
     }
     if (changes.up) base.up = changes.up;
+    if (changes.facing) base.facing = changes.facing;
     base.reads = changes.reads;
     return base;
 }

@@ -79,6 +79,7 @@ void add_option_statements(Script& script) {
     if (asked.model) statements.add_model(*asked.model);
     if (asked.cells) statements.add("cells", *asked.cells);
     if (asked.up) statements.add("up", std::string(name_of(*asked.up)));
+    if (asked.facing) statements.add("facing", std::string(name_of(*asked.facing)));
     if (asked.seed) statements.add("seed", std::to_string(*asked.seed));
     if (asked.precision) statements.add("precision", std::string(name_of(*asked.precision)));
     if (asked.fast) statements.add("fast");

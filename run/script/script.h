@@ -40,6 +40,7 @@ struct Overrides {
     bool model_is_asked_for = false;   ///< By the user, so the file may be anywhere. Not stored.
     std::optional<std::string> cells;  ///< Of the model: a number, faces or vertices.
     std::optional<Axis> up;            ///< Of the model: its axis that points upwards.
+    std::optional<Heading> facing;     ///< Likewise: the direction in which it looks.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };

@@ -90,11 +90,11 @@ TEST(Options, run_takes_logs_and_limits) {
 }
 
 TEST(Options, run_takes_what_models_have) {
-    const Options options =
-        parsed({"run",      "a.cascade",   "--mesh", "sphere",  "--cells",  "500",
-                "-o",       "a.png",       "-o",     "b.PLY",   "--output", "c.cells.vtp",
-                "--retile", "--bake",      "256",    "--bump",  "-0.02",    "--up",
-                "z",        "--turntable", "12",     "--cache", "kept",     "--merge"});
+    const Options options = parsed(
+        {"run",     "a.cascade", "--mesh",  "sphere",   "--cells",     "500",         "-o",
+         "a.png",   "-o",        "b.PLY",   "--output", "c.cells.vtp", "--retile",    "--bake",
+         "256",     "--bump",    "-0.02",   "--up",     "z",           "--turntable", "12",
+         "--cache", "kept",      "--merge", "--facing", "-x"});
     EXPECT_THAT(options.run.outputs, ElementsAre("a.png", "b.PLY", "c.cells.vtp"));
     EXPECT_TRUE(options.run.model_files.retile);
     EXPECT_TRUE(options.run.model_files.merge);
@@ -104,6 +104,7 @@ TEST(Options, run_takes_what_models_have) {
     const PictureRequest picture = apply(options.picture, {});
     EXPECT_EQ(picture.bump, -0.02F);
     EXPECT_EQ(options.overrides.up, Axis::z);
+    EXPECT_EQ(options.overrides.facing, (Heading{Axis::x, true}));
 }
 
 TEST(Options, pictures_of_surfaces_have_a_size_a_quality_and_a_camera) {

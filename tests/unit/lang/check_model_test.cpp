@@ -35,13 +35,18 @@ TEST(CheckModel, DirectionsAndTheirNumbers) {
     EXPECT_EQ(model.stretch, 1.5);
 }
 
-TEST(CheckModel, TheAxisThatPointsUpwards) {
+TEST(CheckModel, HowAModelStands) {
+    const auto stance = [](const std::string& stands) {
+        const auto checked =
+            check_text("domain { surface: box; " + stands + " }\nsystem_name: turing_spots\n");
+        EXPECT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
+        return checked->program ? checked->program->domain.model->stance : Stance();
+    };
     for (const Axis up : {Axis::x, Axis::y, Axis::z}) {
-        const auto checked = check_text("domain { surface: box; up: " + std::string(name_of(up)) +
-                                        " }\nsystem_name: turing_spots\n");
-        ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
-        EXPECT_EQ(checked->program->domain.model->up, up);
+        EXPECT_EQ(stance("up: " + std::string(name_of(up))), usual_stance(up));
     }
+    EXPECT_EQ(stance("facing: -x"), (Stance{Axis::y, {Axis::x, true}}));
+    EXPECT_EQ(stance("facing: y; up: z"), (Stance{Axis::z, {Axis::y, false}}));
 }
 
 }  // namespace

@@ -123,6 +123,8 @@ TEST(ModelInput, TheDumpedProgramHasTheModelAsItWasWritten) {
          {"surface: torus(1, 0.4)\n  cells: 300\n  laplacian: turk\n  unit: 0.125\n  seed: 4\n  "
           "precision: double",
           "mesh: \"horse.ply\"\n  cells: faces\n  up: z\n  seed: 1",
+          "mesh: \"horse.ply\"\n  cells: 90\n  up: z\n  facing: x\n  seed: 1",
+          "surface: creature\n  cells: 90\n  facing: -z\n  seed: 1",
           "surface: sphere\n  cells: 16384\n  directions: axis(0, 1, 0)\n  stretch: 3\n  seed: 1",
           "surface: creature\n  cells: 700\n  directions: curvature_low(0.5)\n  stretch: 2\n  "
           "seed: 1",

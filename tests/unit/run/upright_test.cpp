@@ -1,5 +1,5 @@
-// Models whose upward axis is not y: one model in three positions is one model to scripts and in
-// pictures, and files have the coordinates of the file that was read.
+// Models that do not stand upright or look elsewhere: one model in all positions is one to scripts
+// and in pictures, and files have the coordinates of the file that was read.
 #include "mesh/model_file.h"
 #include "mesh/shapes.h"
 #include "picture/grey_picture.h"
@@ -22,18 +22,20 @@ class Upright : public RunTest {
 protected:
     void SetUp() override {
         RunTest::SetUp();
-        for (const Axis up : {Axis::x, Axis::y, Axis::z}) write_lopsided(up);
+        for (const Axis up : {Axis::x, Axis::y, Axis::z}) {
+            write_lopsided(std::string(name_of(up)), usual_stance(up));
+        }
     }
 
-    /// A bent ring without any symmetry, with a texture, in which this axis points upwards.
-    void write_lopsided(Axis up) const {
+    /// A bent ring without any symmetry, with a texture, that stands like this.
+    void write_lopsided(const std::string& name, const Stance& stance) const {
         const auto mesh = torus_mesh(1, 0.4, 0.25);
         ASSERT_TRUE(mesh);
         std::string text;
         for (const Vector3d& p : mesh->points) {
             const Vector3d bent{1.3 * p.x + 0.2 * p.y, p.y + 0.4 * p.x * p.x + 0.1 * p.z,
                                 0.8 * p.z + 0.3 * p.x};
-            const Vector3d v = turned_from_upright(bent, up);
+            const Vector3d v = turned_from_upright(bent, stance);
             text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
         }
         for (const auto& corners : mesh->texture) {
@@ -45,14 +47,18 @@ protected:
             text += fmt::format("f {}/{} {}/{} {}/{}\n", a + 1, 3 * t + 1, b + 1, 3 * t + 2, c + 1,
                                 3 * t + 3);
         }
-        ASSERT_TRUE(write_file(path(fmt::format("{}.obj", name_of(up))), text));
+        ASSERT_TRUE(write_file(path(name + ".obj"), text));
     }
 
     /// The script's only stage at its end.
     std::unique_ptr<Simulation> grown(Axis file, const std::string& domain,
                                       const std::string& stage, const Overrides& overrides = {}) {
-        script_ = load(fmt::format("domain {{ mesh: \"{}.obj\"; cells: 300; {} }}\n{}",
-                                   name_of(file), domain, stage),
+        return grown(std::string(name_of(file)), domain, stage, overrides);
+    }
+    std::unique_ptr<Simulation> grown(const std::string& file, const std::string& domain,
+                                      const std::string& stage, const Overrides& overrides = {}) {
+        script_ = load(fmt::format("domain {{ mesh: \"{}.obj\"; cells: 300; {} }}\n{}", file,
+                                   domain, stage),
                        overrides);
         EXPECT_TRUE(script_.program) << script_.messages(false);
         if (!script_.program) return nullptr;
@@ -108,6 +114,21 @@ TEST_F(Upright, ScriptsSeeTheSameModelBitForBit) {
               first_species(grown(Axis::y, "", all_of_space)));
 }
 
+TEST_F(Upright, ScriptsSeeTheSameModelWhereverItLooks) {
+    const auto expected = first_species(grown(Axis::y, "", all_of_space));
+    for (const char* up : {"x", "y", "z"}) {
+        for (const std::string_view facing : heading_names) {
+            const Heading heading = *heading_of_name(facing);
+            if (name_of(heading.axis) == up) continue;
+            write_lopsided("turned", {*axis_of_name(up), heading});
+            const std::string stands = fmt::format("up: {}; facing: {}", up, facing);
+            EXPECT_EQ(first_species(grown("turned", stands, all_of_space)), expected) << stands;
+        }
+    }
+    EXPECT_NE(first_species(grown(Axis::y, "facing: -z", all_of_space)), expected);
+    EXPECT_NE(first_species(grown(Axis::y, "facing: x", all_of_space)), expected);
+}
+
 TEST_F(Upright, TheOptionIsTheStatement) {
     Overrides overrides;
     overrides.up = Axis::z;
@@ -121,6 +142,10 @@ TEST_F(Upright, TheOptionIsTheStatement) {
     overrides.model = path("y.obj").string();
     overrides.up.reset();
     EXPECT_EQ(first_species(grown(Axis::x, "up: x", all_of_space, overrides)), expected);
+    EXPECT_EQ(first_species(grown(Axis::x, "facing: y", all_of_space, overrides)), expected);
+    overrides.facing = Heading{Axis::z, true};
+    EXPECT_EQ(first_species(grown(Axis::x, "facing: x", all_of_space, overrides)),
+              first_species(grown(Axis::y, "facing: -z", all_of_space)));
 }
 
 TEST_F(Upright, ItIsRefusedOnPlanesAndTravelsInPictures) {
@@ -132,13 +157,19 @@ TEST_F(Upright, ItIsRefusedOnPlanesAndTravelsInPictures) {
     const auto back = overrides_from_json(overrides_to_json(overrides));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->up, Axis::z);
-    for (const char* wrong : {R"({"up": "w"})", R"({"up": ""})", R"({"up": 2})"}) {
+    EXPECT_FALSE(back->facing);
+    overrides.facing = Heading{Axis::x, true};
+    EXPECT_EQ(overrides_from_json(overrides_to_json(overrides))->facing, overrides.facing);
+    for (const char* wrong : {R"({"up": "w"})", R"({"up": ""})", R"({"up": 2})",
+                              R"({"facing": "+x"})", R"({"facing": 1})"}) {
         EXPECT_FALSE(overrides_from_json(wrong)) << wrong;
     }
     Overrides changes;
     EXPECT_EQ(merge(overrides, changes).up, Axis::z);
+    EXPECT_EQ(merge(overrides, changes).facing, overrides.facing);
     changes.model = "other.ply";
     EXPECT_FALSE(merge(overrides, changes).up);
+    EXPECT_FALSE(merge(overrides, changes).facing);
     changes.up = Axis::x;
     EXPECT_EQ(merge(overrides, changes).up, Axis::x);
     changes = {};
@@ -162,16 +193,17 @@ TEST_F(Upright, PicturesShowItUpright) {
     ASSERT_GT(expected.width, 0);
     EXPECT_EQ(picture(Axis::x, "up: x").pixels, expected.pixels);
     EXPECT_EQ(picture(Axis::z, "up: z").pixels, expected.pixels);
+    EXPECT_NE(picture(Axis::z, "up: z; facing: y").pixels, expected.pixels);
 }
 
 TEST_F(Upright, FilesHaveTheCoordinatesOfTheModelsOwn) {
     const auto original = read_model(path("z.obj"));
     ASSERT_TRUE(original);
     // Cells that are points do not depend on the axis, so that the two runs differ in nothing else.
-    for (const char* up : {"y", "z"}) {
-        Script script =
-            load(fmt::format("domain {{ mesh: \"z.obj\"; cells: vertices; up: {} }}\n{}", up,
-                             few_spots));
+    for (const auto& [up, stands] :
+         {std::pair("y", "up: y"), std::pair("z", "up: z"), std::pair("x", "up: x; facing: -z")}) {
+        Script script = load(fmt::format("domain {{ mesh: \"z.obj\"; cells: vertices; {} }}\n{}",
+                                         stands, few_spots));
         RunRequest all = request();
         all.outputs.clear();
         for (const char* name : {"{}.ply", "{}.glb", "{}.vtp", "{}.cells.vtp"}) {
