@@ -64,7 +64,7 @@ void add_overrides(CLI::App& app, Overrides& overrides) {
         ->group(group);
     add_value(app, "--mesh", "MODEL",
               "Grow on this model: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box, "
-              "knot or creature",
+              "knot, creature,\nleopard, giraffe, zebra, fish or frog",
               any_text,
               [&](const std::string& model) {
                   overrides.model = model;

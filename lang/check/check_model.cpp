@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 namespace cascade::checking {
@@ -20,29 +21,30 @@ constexpr double most_stretched = 100;
 constexpr double most_model_cells =
     268435456;  // 2^28: elements of a plane are indexed by 32-bit words.
 
-struct ShapeName {
-    std::string_view word;
+/// What a surface takes in brackets; the others stand alone.
+struct ShapeSizes {
     ModelShape shape;
-    std::size_t sizes;           ///< The most numbers in brackets.
+    std::size_t most;
     std::string_view arguments;  ///< In messages.
     std::string_view example;
 };
-constexpr std::array<ShapeName, 6> shape_names{{
-    {"sphere", ModelShape::sphere, 0, "", "sphere"},
-    {"torus", ModelShape::torus, 2, "its two radii", "torus(1, 0.4)"},
-    {"box", ModelShape::box, 3, "its three sides", "box(1, 1, 2)"},
-    {"knot", ModelShape::knot, 1, "the radius of its tube", "knot(0.4)"},
-    {"creature", ModelShape::creature, 0, "", "creature"},
-    {"implicit", ModelShape::implicit, 1,
-     "an expression of x, y and z, and perhaps half the side of its box",
+constexpr std::array<ShapeSizes, 4> shape_sizes{{
+    {ModelShape::torus, 2, "its two radii", "torus(1, 0.4)"},
+    {ModelShape::box, 3, "its three sides", "box(1, 1, 2)"},
+    {ModelShape::knot, 1, "the radius of its tube", "knot(0.4)"},
+    {ModelShape::implicit, 1, "an expression of x, y and z, and perhaps half the side of its box",
      "implicit(1 - x^2 - y^2 - z^2)"},
 }};
 
-const ShapeName* shape_of(std::string_view word) {
-    for (const ShapeName& name : shape_names) {
-        if (name.word == word) return &name;
+const ShapeSizes* sizes_of(ModelShape shape) {
+    for (const ShapeSizes& sizes : shape_sizes) {
+        if (sizes.shape == shape) return &sizes;
     }
     return nullptr;
+}
+
+std::optional<ModelShape> shape_of(std::string_view word) {
+    return word == word_of(ModelShape::implicit) ? ModelShape::implicit : shape_named(word);
 }
 
 /// The statement of a block that names a model; null if there is none.
@@ -163,7 +165,7 @@ private:
         const auto* text = std::get_if<ast::Text>(&value.node);
         if (text == nullptr || text->value.empty()) {
             work_.diagnostics.error(value.span, "a mesh is the name of a file in quotes",
-                                    shape_of(word_of(value)) != nullptr
+                                    shape_of(word_of(value))
                                         ? fmt::format("write surface: {}", word_of(value))
                                         : "mesh: \"horse.ply\"");
             return;
@@ -175,20 +177,27 @@ private:
 
     void check_shape(const ast::Statement& statement) {
         const ast::Expr& value = value_of(script_, statement);
-        const ShapeName& name = *shape_of(word_of(value));
+        const ModelShape shape = *shape_of(word_of(value));
+        const ShapeSizes* sizes = sizes_of(shape);
         const std::vector<ast::Expression> arguments = arguments_of(script_, statement.values[0]);
-        const bool is_implicit = name.shape == ModelShape::implicit;
+        const bool is_implicit = shape == ModelShape::implicit;
         const bool has_box = is_implicit && arguments.size() == 2;
-        if (arguments.size() != name.sizes && !has_box && (is_implicit || !arguments.empty())) {
-            work_.diagnostics.error(value.span,
-                                    name.sizes == 0 ? fmt::format("'{}' stands alone", name.word)
-                                                    : fmt::format("{} takes {} in brackets",
-                                                                  name.word, name.arguments),
-                                    fmt::format("surface: {}", name.example));
+        const bool fits = sizes != nullptr && arguments.size() == sizes->most;
+        if (!fits && !has_box && (is_implicit || !arguments.empty())) {
+            if (sizes == nullptr) {
+                work_.diagnostics.error(value.span,
+                                        fmt::format("'{}' stands alone", word_of(shape)),
+                                        fmt::format("surface: {}", word_of(shape)));
+            } else {
+                work_.diagnostics.error(value.span,
+                                        fmt::format("{} takes {} in brackets", word_of(shape),
+                                                    sizes->arguments),
+                                        fmt::format("surface: {}", sizes->example));
+            }
             return;
         }
         ModelSettings model;
-        model.shape = name.shape;
+        model.shape = shape;
         model.span = value.span;
         if (is_implicit) {
             Scope scope;
@@ -338,7 +347,7 @@ bool is_model_setting(std::string_view name) {
 }
 
 bool is_model_surface(const ast::Script& script, const ast::Statement& surface) {
-    return surface.values.size() == 1 && shape_of(word_of(value_of(script, surface))) != nullptr;
+    return surface.values.size() == 1 && shape_of(word_of(value_of(script, surface)));
 }
 
 bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain) {

@@ -1,6 +1,9 @@
 // The settings of a domain whose grid lies on a surface: surface, metric, unit.
 #include "lang/check/check_blocks.h"
 #include "lang/check/setting_words.h"
+#include "lang/vocabulary/settings.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -9,6 +12,17 @@ namespace cascade::checking {
 namespace {
 
 void check_position(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() == 1 &&
+        std::holds_alternative<ast::Name>(value_of(script, statement).node)) {
+        const std::string_view word = word_of(value_of(script, statement));
+        const std::vector<std::string> shapes = words_taken_by(Setting::surface);
+        const std::string near = did_you_mean(work, word, shapes);
+        work.diagnostics.error(value_of(script, statement).span,
+                               fmt::format("there is no surface '{}'", word),
+                               near.empty() ? fmt::format("there are {}", fmt::join(shapes, ", "))
+                                            : near);
+        return;
+    }
     if (statement.values.size() != 3) {
         const bool is_file = statement.values.size() == 1 &&
                              std::holds_alternative<ast::Text>(value_of(script, statement).node);

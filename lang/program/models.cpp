@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 namespace cascade {
@@ -156,6 +157,19 @@ void for_each_formula(const Program& program, const Take& take) {
     }
 }
 
+struct NamedShape {
+    ModelShape shape;
+    std::string_view word;
+};
+/// But files, and formulas, which stand in brackets.
+constexpr std::array named_shapes{
+    NamedShape{ModelShape::sphere, "sphere"},     NamedShape{ModelShape::torus, "torus"},
+    NamedShape{ModelShape::box, "box"},           NamedShape{ModelShape::knot, "knot"},
+    NamedShape{ModelShape::creature, "creature"}, NamedShape{ModelShape::leopard, "leopard"},
+    NamedShape{ModelShape::giraffe, "giraffe"},   NamedShape{ModelShape::zebra, "zebra"},
+    NamedShape{ModelShape::fish, "fish"},         NamedShape{ModelShape::frog, "frog"},
+};
+
 }  // namespace
 
 Grid rows_of_cells(std::int64_t cells) {
@@ -168,22 +182,16 @@ Grid rows_of_cells(std::int64_t cells) {
 }
 
 std::optional<ModelShape> shape_named(std::string_view word) {
-    for (const ModelShape shape : {ModelShape::sphere, ModelShape::torus, ModelShape::box,
-                                   ModelShape::knot, ModelShape::creature}) {
-        if (word == word_of(shape)) return shape;
+    for (const NamedShape& named : named_shapes) {
+        if (named.word == word) return named.shape;
     }
     return std::nullopt;
 }
 
 std::string_view word_of(ModelShape shape) {
-    switch (shape) {
-        case ModelShape::file: return "";
-        case ModelShape::sphere: return "sphere";
-        case ModelShape::torus: return "torus";
-        case ModelShape::box: return "box";
-        case ModelShape::knot: return "knot";
-        case ModelShape::creature: return "creature";
-        case ModelShape::implicit: return "implicit";
+    if (shape == ModelShape::implicit) return "implicit";
+    for (const NamedShape& named : named_shapes) {
+        if (named.shape == shape) return named.word;
     }
     return "";
 }

@@ -438,7 +438,20 @@ struct MaskSettings {
 };
 
 /// The source of a surface over which cells are spread.
-enum class ModelShape : std::uint8_t { file, sphere, torus, box, knot, creature, implicit };
+enum class ModelShape : std::uint8_t {
+    file,
+    sphere,
+    torus,
+    box,
+    knot,
+    creature,
+    leopard,
+    giraffe,
+    zebra,
+    fish,
+    frog,
+    implicit
+};
 
 /// What the cells are.
 enum class ModelCellKind : std::uint8_t {

@@ -27,7 +27,7 @@ function run(words, options = {}) {
 const empty = mkdtempSync(join(tmpdir(), "cascade-site-"));
 /// Can the engine of live.html grow it? It has no files, makes cells for few models, and no bodies.
 function is_live(script) {
-    if (/\bmesh:|\bbody:|\bsurface: *(creature|implicit)/.test(script)) return false;
+    if (/\bmesh:|\bbody:|\bsurface: *(creature|leopard|giraffe|zebra|fish|frog|implicit)/.test(script)) return false;
     writeFileSync(join(empty, "script.cascade"), script);
     return run([program, "check", "script.cascade"], { cwd: empty }).status === 0;
 }

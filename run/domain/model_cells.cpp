@@ -5,7 +5,7 @@
 #include "core/check.h"
 #include "lang/program/evaluate.h"
 #include "lang/program/models.h"
-#include "mesh/creature.h"
+#include "mesh/animals.h"
 #include "mesh/implicit_surface.h"
 #include "mesh/knot.h"
 #include "mesh/make_mesh.h"
@@ -55,6 +55,10 @@ Result<SurfaceMesh> implicit_mesh(const ModelSettings& settings, const std::atom
     return implicit_surface(function, request, cancel);
 }
 
+Result<SurfaceMesh> mesh_of(const Animal& animal, const std::atomic<bool>& cancel) {
+    return animal.body.mesh(animal.edge, cancel);
+}
+
 Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& access,
                               const std::atomic<bool>& cancel) {
     // Fine enough for the smallest features, whatever the number of cells.
@@ -76,7 +80,12 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& 
         }
         // The knot is 6 long.
         case ModelShape::knot: mesh = knot_mesh(size(0, 0.4), 3 * edge); break;
-        case ModelShape::creature: mesh = creature_mesh(0.025, cancel); break;
+        case ModelShape::creature: mesh = mesh_of(creature(), cancel); break;
+        case ModelShape::leopard: mesh = mesh_of(leopard(), cancel); break;
+        case ModelShape::giraffe: mesh = mesh_of(giraffe(), cancel); break;
+        case ModelShape::zebra: mesh = mesh_of(zebra(), cancel); break;
+        case ModelShape::fish: mesh = mesh_of(fish(), cancel); break;
+        case ModelShape::frog: mesh = mesh_of(frog(), cancel); break;
         case ModelShape::implicit: mesh = implicit_mesh(settings, cancel); break;
     }
     if (!mesh) return tl::unexpected(mesh.error());

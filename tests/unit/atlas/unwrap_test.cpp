@@ -1,5 +1,5 @@
 // Texture coordinates of ours: charts of shapes whose distortion has bounds, and hard surfaces.
-#include "mesh/creature.h"
+#include "mesh/animals.h"
 #include "mesh/edge_pairs.h"
 #include "mesh/knot.h"
 #include "mesh/make_mesh.h"
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Shape{"creature",
                             [] {
                                 const std::atomic<bool> never = false;
-                                return creature_mesh(0.03, never);
+                                return creature().body.mesh(0.03, never);
                             },
                             30, 1.10}),
     [](const auto& shape) { return std::string(shape.param.name); });

@@ -5,7 +5,7 @@
 #include "export/bake.h"
 #include "export/glb.h"
 #include "export/level_samples.h"
-#include "mesh/creature.h"
+#include "mesh/animals.h"
 #include "mesh/model_file.h"
 #include "mesh/shapes.h"
 #include "mesh/simplify.h"
@@ -172,7 +172,7 @@ SurfaceMesh coarse_of(const SurfaceMesh& mesh, std::size_t triangles) {
 
 TEST(LevelMaps, ShowThePatternOfTheFineSurface) {
     Team team(2);
-    const Painted fine(*creature_mesh(0.05, never));
+    const Painted fine(*creature().body.mesh(0.05, never));
     const CellFilter filter(fine.mesh, fine.cells, team);
     const PaintedCells look = fine.look();
     SurfaceMesh coarse = coarse_of(fine.mesh, 600);

@@ -1,7 +1,7 @@
 // Colours of baked maps on both sides of the seams of our own texture coordinates.
 #include "atlas/unwrap.h"
 #include "export/bake.h"
-#include "mesh/creature.h"
+#include "mesh/animals.h"
 #include "mesh/shapes.h"
 #include "unit/surface/even_cells.h"
 
@@ -123,7 +123,7 @@ TEST(Seams, DoNotShowOnASphere) {
 }
 
 TEST(Seams, DoNotShowOnAnAnimal) {
-    const SeamErrors errors = expect_no_seam(*creature_mesh(0.04, never), 2048);
+    const SeamErrors errors = expect_no_seam(*creature().body.mesh(0.04, never), 2048);
     EXPECT_LT(errors.jump, 2.0 / 255) << "two steps of an 8-bit map";
 }
 

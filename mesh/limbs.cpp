@@ -1,0 +1,155 @@
+// Curves become short bones, cones with round ends; what is near several limbs is blended.
+#include "mesh/limbs.h"
+
+#include "mesh/implicit_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace cascade {
+
+namespace {
+
+constexpr int bones_of_span = 4;
+constexpr double steepest = 0.99;  ///< Growth of a radius with length.
+constexpr double softnesses_of_reach = 4;
+
+Joint operator+(const Joint& a, const Joint& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z, a.radius + b.radius};
+}
+Joint operator*(const Joint& a, double s) { return {a.x * s, a.y * s, a.z * s, a.radius * s}; }
+
+Vector3d place_of(const Joint& joint) { return {joint.x, joint.y, joint.z}; }
+
+double chord(const Joint& a, const Joint& b) { return length(place_of(b) - place_of(a)); }
+
+/// The slope of the spline at a joint: of the parabola through it and its neighbours.
+Joint slope_at(const std::vector<Joint>& joints, std::size_t k) {
+    const auto slope = [&](std::size_t a) {
+        return (joints[a + 1] + joints[a] * -1) * (1 / chord(joints[a], joints[a + 1]));
+    };
+    if (k == 0) return slope(0);
+    if (k + 1 == joints.size()) return slope(k - 1);
+    const double before = chord(joints[k - 1], joints[k]), after = chord(joints[k], joints[k + 1]);
+    return (slope(k - 1) * after + slope(k) * before) * (1 / (before + after));
+}
+
+/// Points along the smooth curve, the joints among them.
+std::vector<Joint> curve_through(const std::vector<Joint>& joints) {
+    std::vector<Joint> points{joints[0]};
+    for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
+        const double whole = chord(joints[k], joints[k + 1]);
+        const Joint out = slope_at(joints, k) * whole, in = slope_at(joints, k + 1) * whole;
+        for (int step = 1; step <= bones_of_span; ++step) {
+            const double t = static_cast<double>(step) / bones_of_span;
+            const double rest = 1 - t;
+            points.push_back(joints[k] * (rest * rest * (1 + 2 * t)) + out * (rest * rest * t) +
+                             joints[k + 1] * (t * t * (1 + 2 * rest)) + in * (-t * t * rest));
+        }
+    }
+    return points;
+}
+
+Vector3d divided(Vector3d a, Vector3d b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+
+Vector3d least(Vector3d a, Vector3d b) {
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+Vector3d greatest(Vector3d a, Vector3d b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
+/// A box that contains the flesh around the points.
+SurfaceMesh::Box box_of(const std::vector<Joint>& points) {
+    SurfaceMesh::Box box{place_of(points[0]), place_of(points[0])};
+    for (const Joint& point : points) {
+        const Vector3d around{point.radius, point.radius, point.radius};
+        box.low = least(box.low, place_of(point) - around);
+        box.high = greatest(box.high, place_of(point) + around);
+    }
+    return box;
+}
+
+/// 0 inside.
+double distance_from(const SurfaceMesh::Box& box, Vector3d p) {
+    return length(p - least(greatest(p, box.low), box.high));
+}
+
+}  // namespace
+
+LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_radius)
+    : from(start),
+      direction(unit(to - start)),
+      extent(length(to - start)),
+      radius(from_radius),
+      // Where one ball contains the other there is no cone.
+      growth(extent > 0 ? std::clamp((to_radius - from_radius) / extent, -steepest, steepest) : 0),
+      lean(growth / std::sqrt(1 - growth * growth)) {}
+
+double LimbBody::Bone::distance_to(Vector3d p) const {
+    const Vector3d away = p - from;
+    const double along = dot(away, direction);
+    const double aside = std::sqrt(std::max(0.0, dot(away, away) - along * along));
+    // The ball whose flesh is nearest.
+    const double place = std::clamp(along + lean * aside, 0.0, extent);
+    const double rest = along - place;
+    return std::sqrt(aside * aside + rest * rest) - radius - growth * place;
+}
+
+LimbBody::LimbBody(const std::vector<Limb>& limbs) {
+    for (const Limb& limb : limbs) {
+        add(limb, 1);
+        if (limb.sides == Sides::both) add(limb, -1);
+    }
+}
+
+void LimbBody::add(const Limb& limb, double side) {
+    std::vector<Joint> points = curve_through(limb.joints);
+    for (Joint& point : points) point.x *= side;
+    if (points.size() == 1) points.push_back(points[0]);
+    const auto flattened = [&](const Joint& point) { return divided(place_of(point), limb.flat); };
+    const std::size_t first = bones_.size();
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        bones_.emplace_back(flattened(points[k]), points[k].radius, flattened(points[k + 1]),
+                            points[k + 1].radius);
+    }
+    parts_.push_back({first, bones_.size(), limb.softness, limb.flat, box_of(points)});
+}
+
+double LimbBody::operator()(Vector3d p) const {
+    double sum = -1;
+    for (const Part& part : parts_) {
+        const double reach = softnesses_of_reach * part.softness;
+        if (distance_from(part.box, p) >= reach) continue;
+        const Vector3d q = divided(p, part.flat);
+        double distance = reach;
+        for (std::size_t k = part.first; k < part.last; ++k) {
+            distance = std::min(distance, bones_[k].distance_to(q));
+        }
+        const double term = 1 - distance / reach;
+        sum += term * term * term * term;
+    }
+    return sum;
+}
+
+Result<SurfaceMesh> LimbBody::mesh(double edge, const std::atomic<bool>& cancel) const {
+    const auto function = [this](std::span<const Vector3d> points, std::span<double> values) {
+        std::transform(points.begin(), points.end(), values.begin(),
+                       [this](Vector3d p) { return (*this)(p); });
+    };
+    SurfaceMesh::Box box = parts_[0].box;
+    for (const Part& part : parts_) {
+        const double reach = softnesses_of_reach * part.softness;
+        const Vector3d around{reach, reach, reach};
+        box.low = least(box.low, part.box.low - around);
+        box.high = greatest(box.high, part.box.high + around);
+    }
+    Result<SurfaceMesh> mesh = implicit_surface(function, {box.low, box.high, edge}, cancel);
+    if (!mesh) return mesh;
+    const double ground = mesh->box().low.y;
+    for (Vector3d& p : mesh->points) p.y -= ground;
+    return mesh;
+}
+
+}  // namespace cascade

@@ -1,0 +1,73 @@
+// Bodies of limbs: flesh around smooth curves, blended into one implicit surface.
+#pragma once
+
+#include "core/result.h"
+#include "core/vector3.h"
+#include "mesh/surface_mesh.h"
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+namespace cascade {
+
+/// A point of the curve in the middle of a limb, and the radius of the flesh there.
+struct Joint {
+    double x = 0, y = 0, z = 0;
+    double radius = 0;
+};
+
+enum class Sides { one, both };  ///< Both: the limb has a mirror image, with x negated.
+
+/// Flesh around the smooth curve through its joints, at least one; it ends in half balls.
+struct Limb {
+    std::vector<Joint> joints;
+    double softness = 0;  ///< The length over which it blends with other limbs.
+    Sides sides = Sides::one;
+    Vector3d flat{1, 1, 1};  ///< Its thickness along x, y and z as parts of the radius, at most 1.
+};
+
+/// An implicit body: the sum over the limbs of (1 − d / 4s)⁴ less 1, with the distance d from a
+/// limb's flesh, negative inside, and its softness s; limbs further away than 4s count for nothing.
+/// These are the soft objects of G. Wyvill, C. McPheeters, B. Wyvill, "Data Structure for Soft
+/// Objects", The Visual Computer 2, 1986, around cones in place of points. Curves are splines of
+/// Catmull and Rom whose parameter is the length of chords.
+class LimbBody {
+public:
+    explicit LimbBody(const std::vector<Limb>& limbs);
+
+    /// Positive inside, −1 far outside.
+    double operator()(Vector3d p) const;
+
+    /// The surface, moved so that it stands on y = 0. `edge` and failures are those of
+    /// implicit_surface().
+    Result<SurfaceMesh> mesh(double edge, const std::atomic<bool>& cancel) const;
+
+private:
+    /// A cone between two balls, in coordinates divided by `flat`.
+    struct Bone {
+        Bone(Vector3d from, double from_radius, Vector3d to, double to_radius);
+
+        /// From its flesh to a point; negative inside.
+        double distance_to(Vector3d p) const;
+
+        Vector3d from, direction;
+        double extent = 0;
+        double radius = 0, growth = 0;  ///< At its start; with each length along it.
+        double lean = 0;  ///< Of normals along the bone, for each length away from it.
+    };
+    /// One limb on one side, with a box that contains its flesh.
+    struct Part {
+        std::size_t first = 0, last = 0;  ///< Its bones.
+        double softness = 0;
+        Vector3d flat;
+        SurfaceMesh::Box box;
+    };
+
+    void add(const Limb& limb, double side);
+
+    std::vector<Bone> bones_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace cascade
