@@ -12,12 +12,17 @@ draw() {
     "$program" run -q "examples/$1.cascade" -o "examples/$1.png" "${@:2}"
 }
 
+draw_recipe() { draw "$1" --grid 128x128 --scale 3 --palette "$2"; }
+
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
         witkin_kass/* | surfaces/* | materials/* | bodies/*) draw "$1" ;;
         on_models/torus) draw "$1" --view 30,40 ;;
-        on_models/fingerprint | on_models/dart_frog) draw "$1" ;;
+        on_models/fingerprint | on_models/lobes) draw "$1" ;;
+        on_models/giraffe) draw "$1" --view 60,10 --size 720x800 ;;
+        on_models/leopard | on_models/cheetah | on_models/genet) draw "$1" --view 60,12 --size 960x560 ;;
+        on_models/angelfish) draw "$1" --view 70,10 ;;
         on_models/*) draw "$1" --view 55,15 ;;  # Animals, from the side.
         cells/fur | cells/leopard_thorns) draw "$1" --view 55,15 ;;
         cells/bear) draw "$1" --view 20,10 ;;
@@ -28,6 +33,18 @@ draw_one() {
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
+        # The recipes of Appendix C, on four times the cells of the thesis and in colours. Two want its grid.
+        squirrel) draw "$1" --scale 6 --palette tan ;;
+        mixed_spots) draw "$1" --scale 6 --palette viridis ;;
+        cheetah | small_spots) draw_recipe "$1" cheetah ;;
+        leopard | lionfish) draw_recipe "$1" "$1" ;;
+        plates | thin_lines) draw_recipe "$1" tan ;;
+        wide_spots) draw_recipe "$1" giraffe ;;
+        eroded_stripes) draw_recipe "$1" zebra ;;
+        bumpy_stripes) draw_recipe "$1" coral ;;
+        broken_lines) draw_recipe "$1" dart_frog ;;
+        honeycomb) draw_recipe "$1" inferno ;;
+        autocatalytic_spots | vary_spots) draw_recipe "$1" magma ;;
         # Grids of 128 cells and more.
         automatic_cascade | butterfly | fish | brusselator | fitzhugh_nagumo | gray_scott_* | figure_3_3_cheetah | \
             figure_3_3_leopard | figure_3_4_mixed_stripes | figure_3_4_reticulation) draw "$1" --scale 2 ;;

@@ -46,7 +46,7 @@ int main(int argc, char **argv) {
     for (int j = 0; j < height; ++j) {
         for (int i = 0; i < width; ++i) {
             spots.planes[SPOTS_STAGE1_PLANE_KA][spots_stage1_at(i, j, 0)] =
-                (0.5f + (float)i / width) / 60;
+                (0.5f + (float)i / width) / 135;
         }
     }
     spots_stage1_run(&spots, SPOTS_STAGE1_ITERATIONS);

@@ -46,10 +46,10 @@ constexpr auto looks = std::to_array<Look>({
     {"thin_lines", 2, "b", area_below, 4, {.24, .28}, {.24, .28}},
     {"thin_lines", 2, "b", regions_below, 4, {1, 6}, {4, 22}},
 
-    // Reticulation: white patches in a dark net that covers half of the plane.
-    {"figure_3_4_reticulation", 2, "a", area_below, .75, {.46, .58}, {.46, .56}},
-    {"figure_3_4_reticulation", 2, "a", regions_below, .75, {1, 1}, {1, 1}},
-    {"figure_3_4_reticulation", 2, "a", regions_above, .75, {7, 14}, {27, 41}},
+    // Reticulation: a spot with a seam around it is a plate, and a web keeps most plates apart.
+    {"figure_3_4_reticulation", 2, "a", area_below, .75, {.45, .49}, {.45, .49}},
+    {"figure_3_4_reticulation", 2, "a", regions_below, .75, {2, 8}, {16, 23}},
+    {"figure_3_4_reticulation", 2, "a", regions_above, .75, {6, 10}, {21, 28}},
 
     // Autocatalysis: bright dots.
     {"autocatalytic_spots", 1, "a", regions_above, 3, {17, 22}, {76, 88}},
