@@ -11,6 +11,30 @@ std::string class_name(const std::optional<Stability>& stability) {
     return stability ? std::string(name_of(*stability)) : "no flat state";
 }
 
+namespace {
+
+/// "spots high in u, stripes from 6.9".
+std::string pattern_words(const System& system, const ParameterScan& scan,
+                          const CriticalValue& change) {
+    if (!change.amplitudes) return "";
+    const AmplitudeEquations& by = *change.amplitudes;
+    // What is so large that terms of third order do not limit it is not known from these.
+    if (!by.is_supercritical()) return "begins by a jump";
+    if (!by.has_plane()) return "grows smoothly";
+    if (by.quadratic == 0) {
+        return by.ends_in_stripes() ? "stripes, grow smoothly" : "spots or squares";
+    }
+    const bool is_high = (by.quadratic > 0) == (by.wave[0] > 0);
+    std::string text =
+        fmt::format("spots {} in {}", is_high ? "high" : "low", system.quantities[ItemId(0)].name);
+    if (change.stripes >= scan.span.low && change.stripes <= scan.span.high) {
+        text += fmt::format(", stripes from {:.4g}", change.stripes);
+    }
+    return text;
+}
+
+}  // namespace
+
 std::string describe(const Program& program, std::uint32_t stage, const ParameterScan& scan) {
     const System& system = program.system_of(stage);
     std::string text =
@@ -20,7 +44,10 @@ std::string describe(const Program& program, std::uint32_t stage, const Paramete
     if (scan.changes.empty()) return text + " all the way";
     for (const CriticalValue& change : scan.changes) {
         text += fmt::format(", {} above {:.5g}", class_name(change.above), change.value);
-        if (std::isfinite(change.cells)) text += fmt::format(" ({:.4g} cells)", change.cells);
+        if (!std::isfinite(change.cells)) continue;
+        const std::string pattern = pattern_words(system, scan, change);
+        text +=
+            fmt::format(" ({:.4g} cells{}{})", change.cells, pattern.empty() ? "" : ": ", pattern);
     }
     return text;
 }

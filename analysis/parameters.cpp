@@ -48,6 +48,32 @@ public:
         return place;
     }
 
+    /// Adds what grows where standing waves begin to, at a critical value of the only parameter.
+    /// `step` is a small change of it.
+    void add_amplitudes(CriticalValue& change, const Place& beside, double step) {
+        const auto at_value = [&](double value) {
+            const Place place = at({value}, beside.state);
+            return place.state;
+        };
+        const auto state = at_value(change.value);
+        if (!state) return;
+        const Dispersion relation = dispersion(model_, rates_.matrices(*state));
+        change.amplitudes = amplitude_equations(rates_, *state, relation);
+        if (!change.amplitudes || !change.amplitudes->ends_in_stripes()) return;
+        const Lattice lattice = lattice_of(*model_.program);
+        Phases phases{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            phases[axis] = relation.fastest.phase * relation.fastest.direction[axis];
+        }
+        const auto rate = [&](double value) {
+            const auto there = at_value(value);
+            return there ? eigenvalues(model_, rates_.matrices(*there), lattice, phases)[0].real()
+                         : std::numeric_limits<double>::quiet_NaN();
+        };
+        const double slope = (rate(change.value + step) - rate(change.value - step)) / (2 * step);
+        change.stripes = change.value + change.amplitudes->rate_of_stripes() / slope;
+    }
+
 private:
     /// Is it another state, which Newton's method has found by accident? A state that moves far is
     /// the same one if it goes where its slope by the parameter says.
@@ -80,8 +106,9 @@ Result<double> present_value(const Program& program, std::uint32_t stage, ItemId
     return *number;
 }
 
+/// Where the class changes between two values; `step` is a small change of them.
 CriticalValue bisected(Follower& follower, double low, double high, const Place& at_low,
-                       const Place& at_high) {
+                       const Place& at_high, double step) {
     Place below = at_low, above = at_high;
     const Place* known = below.state ? &below : &above;
     for (int round = 0; round < 24; ++round) {
@@ -96,7 +123,7 @@ CriticalValue bisected(Follower& follower, double low, double high, const Place&
             high = middle;
         }
     }
-    CriticalValue change{(low + high) / 2, below.stability, above.stability, 0};
+    CriticalValue change{(low + high) / 2, below.stability, above.stability, 0, {}};
     const auto has_waves = [](const Place& place) {
         return place.stability == Stability::turing || place.stability == Stability::wave ||
                place.stability == Stability::both;
@@ -104,6 +131,12 @@ CriticalValue bisected(Follower& follower, double low, double high, const Place&
     change.cells = has_waves(above)   ? above.cells
                    : has_waves(below) ? below.cells
                                       : std::numeric_limits<double>::quiet_NaN();
+    const auto is_onset = [](const Place& a, const Place& b) {
+        return a.stability == Stability::stable && b.stability == Stability::turing;
+    };
+    if (is_onset(below, above) || is_onset(above, below)) {
+        follower.add_amplitudes(change, below, step);
+    }
     return change;
 }
 
@@ -122,6 +155,7 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
     const double middle = std::clamp(*present, span.low, span.high);
     // At an end of its range a parameter may be 0 and leave nothing to divide by.
     const double inwards = 1e-6 * (span.high - span.low);
+    const double small = 1e-4 * (span.high - span.low);
     const auto walk = [&](double end) {
         double last = *present;
         Place before = follower.at({last}, state);
@@ -137,8 +171,8 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
             Place here = follower.at({value}, before.state);
             if (here.stability != before.stability) {
                 scan.changes.push_back(value > last
-                                           ? bisected(follower, last, value, before, here)
-                                           : bisected(follower, value, last, here, before));
+                                           ? bisected(follower, last, value, before, here, small)
+                                           : bisected(follower, value, last, here, before, small));
             }
             if (!here.state) return std::optional<Stability>();
             last = value;

@@ -1,9 +1,11 @@
 // How the class of a flat state changes with parameters: critical values of one, a map over two.
 #pragma once
 
+#include "analysis/amplitudes.h"
 #include "analysis/stage_analysis.h"
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +23,10 @@ struct CriticalValue {
     double value = 0;
     std::optional<Stability> below, above;  ///< Empty: the flat state does not exist there.
     double cells = 0;                       ///< The length of the fastest wave there; NaN without.
+    /// Where standing waves begin to grow, if they are known (amplitude_equations()).
+    std::optional<AmplitudeEquations> amplitudes = {};
+    /// The value beyond which stripes replace spots, by these; NaN if they do not.
+    double stripes = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct ParameterScan {

@@ -64,13 +64,25 @@ Json class_of(const std::optional<Stability>& stability) {
     return stability ? Json(class_name(stability)) : Json(nullptr);
 }
 
+/// Of an onset; null if they are not known.
+Json amplitudes_of(const CriticalValue& change) {
+    if (!change.amplitudes) return nullptr;
+    const AmplitudeEquations& by = *change.amplitudes;
+    return {{"wave", std::vector<double>(by.wave.begin(), by.wave.end())},
+            {"quadratic", number(by.quadratic)},
+            {"self", number(by.self)},
+            {"cross", number(by.cross)},
+            {"stripes_from", number(change.stripes)}};
+}
+
 Json scan_as_json(const System& system, const ParameterScan& scan) {
     Json changes = Json::array();
     for (const CriticalValue& change : scan.changes) {
         changes.push_back({{"value", number(change.value)},
                            {"below", class_of(change.below)},
                            {"above", class_of(change.above)},
-                           {"cells", number(change.cells)}});
+                           {"cells", number(change.cells)},
+                           {"amplitudes", amplitudes_of(change)}});
     }
     return {{"name", std::string(system.item_name(scan.span.item))},
             {"low", number(scan.span.low)},

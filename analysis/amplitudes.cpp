@@ -1,0 +1,176 @@
+// Second and third derivatives are differences of the Jacobian, which is exact, extrapolated to
+// steps of 0.
+#include "analysis/amplitudes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace cascade::analysis {
+
+namespace {
+
+/// Below these parts of what they are made of, numbers are errors of the differences.
+constexpr double no_change = 1e-6, no_product = 1e-6;
+
+/// The rates as a polynomial of the change of the state: f(u) = J u + ½ Q(u, u) + ⅙ C(u, u, u).
+class Polynomial {
+public:
+    Polynomial(const LocalRates& rates, const Vector& state)
+        : rates_(rates), state_(state), size_(std::max(state.cwiseAbs().maxCoeff(), 0.01)) {}
+
+    /// Q(a, b).
+    Vector second(const Vector& a, const Vector& b) const {
+        const auto change = [&](double step) {
+            return Vector((local(a * step) - local(a * -step)) * b / (2 * step));
+        };
+        return extrapolated(change, a);
+    }
+    /// C(a, a, b).
+    Vector third(const Vector& a, const Vector& b) const {
+        const Vector middle = local(Vector::Zero(state_.size())) * b;
+        const auto change = [&](double step) {
+            return Vector(((local(a * step) + local(a * -step)) * b - 2 * middle) / (step * step));
+        };
+        return extrapolated(change, a);
+    }
+    /// Do the parts of the Jacobian that reach other cells stay as they are?
+    bool is_local(const Vector& direction) const {
+        const double step = 0.01 * size_ / direction.cwiseAbs().maxCoeff();
+        const Matrices here = rates_.matrices(state_),
+                       there = rates_.matrices(state_ + direction * step);
+        for (std::size_t k = 1; k < here.terms.size(); ++k) {
+            const double size = here.terms[k].cwiseAbs().maxCoeff();
+            const double moved = (there.terms[k] - here.terms[k]).cwiseAbs().maxCoeff();
+            if (!(moved <= no_change * size)) return false;
+        }
+        return true;
+    }
+
+private:
+    Matrix local(const Vector& change) const { return rates_.matrices(state_ + change).terms[0]; }
+
+    /// Of differences of second order, to sixth order.
+    template <typename Change>
+    Vector extrapolated(const Change& change, const Vector& direction) const {
+        const double step = 0.02 * size_ / direction.cwiseAbs().maxCoeff();
+        const Vector whole = change(step), half = change(step / 2), quarter = change(step / 4);
+        const Vector first = (4 * half - whole) / 3, second = (4 * quarter - half) / 3;
+        return (16 * second - first) / 15;
+    }
+
+    const LocalRates& rates_;
+    const Vector& state_;
+    double size_;
+};
+
+/// The critical wave and its adjoint, with ψ · φ = 1.
+struct Critical {
+    Vector wave, adjoint;
+};
+
+std::optional<Critical> critical_wave(const Matrix& jacobian, double resolution) {
+    const auto null_vector = [&](const Matrix& matrix) -> std::optional<Vector> {
+        const Eigen::EigenSolver<Matrix> solver(matrix);
+        Eigen::Index nearest = 0;
+        solver.eigenvalues().cwiseAbs().minCoeff(&nearest);
+        const Complex rate = solver.eigenvalues()[nearest];
+        if (std::abs(rate.imag()) > resolution) return std::nullopt;
+        return Vector(solver.eigenvectors().col(nearest).real());
+    };
+    const auto wave = null_vector(jacobian), adjoint = null_vector(jacobian.transpose());
+    if (!wave || !adjoint) return std::nullopt;
+    Eigen::Index largest = 0;
+    wave->cwiseAbs().maxCoeff(&largest);
+    const Vector scaled = *wave / (*wave)[largest];
+    const double product = adjoint->dot(scaled);
+    if (!(std::abs(product) > 0)) return std::nullopt;
+    return Critical{scaled, *adjoint / product};
+}
+
+}  // namespace
+
+bool AmplitudeEquations::has_plane() const { return !std::isnan(cross); }
+
+double AmplitudeEquations::rate_of_stripes() const {
+    return quadratic * quadratic * self / ((cross - self) * (cross - self));
+}
+
+std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, const Vector& state,
+                                                      const Dispersion& relation) {
+    const LinearModel& model = rates.model();
+    const Lattice lattice = lattice_of(*model.program);
+    const Matrices matrices = rates.matrices(state);
+    if (!model.unknowns.empty() || relation.depends_on_direction || !matrices.are_finite()) {
+        return std::nullopt;
+    }
+    const double phase = relation.fastest.phase;
+    const std::size_t axes = static_cast<std::size_t>(
+        std::count(lattice.has_axis.begin(), lattice.has_axis.end(), true));
+    const bool has_plane = lattice.is_continuous || axes >= 2;
+    // The first axes that there are; a continuous lattice has one for all directions.
+    const auto complex_at = [&](double across, double up) {
+        Phases phases{};
+        if (lattice.is_continuous) {
+            phases[0] = std::hypot(across, up);
+        } else {
+            std::size_t next = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                if (!lattice.has_axis[axis]) continue;
+                phases[axis] = next == 0 ? across : next == 1 ? up : 0;
+                ++next;
+            }
+        }
+        return jacobian_of(model, matrices, lattice, phases);
+    };
+    const auto at = [&](double across, double up) { return Matrix(complex_at(across, up).real()); };
+    const Matrix at_wave = at(phase, 0), at_rest = at(0, 0);
+    const double size = at_wave.cwiseAbs().maxCoeff();
+    const auto critical = critical_wave(at_wave, 1e-6 * size);
+    // Waves that travel have complex amplitudes.
+    const double travels = complex_at(phase, 0).imag().cwiseAbs().maxCoeff();
+    if (!critical || travels > 1e-9 * size) return std::nullopt;
+    const auto& [wave, adjoint] = *critical;
+    const Polynomial polynomial(rates, state);
+    if (!polynomial.is_local(wave)) return std::nullopt;
+    const Eigen::FullPivLU<Matrix> rest(at_rest);
+    if (std::abs(rest.matrixLU().diagonal().cwiseAbs().minCoeff()) <= 1e-9 * size) {
+        return std::nullopt;
+    }
+
+    const Vector square = polynomial.second(wave, wave), cube = polynomial.third(wave, wave);
+    const double largest =
+        (adjoint.cwiseAbs().array() * square.cwiseAbs().array()).sum() + no_product * size;
+    AmplitudeEquations result;
+    result.wave = wave;
+    result.quadratic = adjoint.dot(square);
+    if (std::abs(result.quadratic) <= no_product * largest) result.quadratic = 0;
+    const auto by = [&](const Vector& mode) { return adjoint.dot(polynomial.second(wave, mode)); };
+    const auto answer = [](const Matrix& matrix, const Vector& forcing) {
+        return Vector(-matrix.fullPivLu().solve(forcing));
+    };
+    const Vector mean = answer(at_rest, square);
+    const double from_mean = by(mean);
+    result.self = -(from_mean + by(answer(at(2 * phase, 0), square / 2)) + adjoint.dot(cube) / 2);
+    result.cross = std::numeric_limits<double>::quiet_NaN();
+    if (!has_plane) return result;
+    // k₁ − k₂ is √3 as long. k₁ + k₂ is −k₃: what it forces in φ is v, and the rest answers.
+    const double root = std::numbers::sqrt3;
+    const Vector other = square - wave * adjoint.dot(square);
+    Matrix bordered = Matrix::Zero(wave.size() + 1, wave.size() + 1);
+    bordered.topLeftCorner(wave.size(), wave.size()) = at_wave;
+    bordered.topRightCorner(wave.size(), 1) = wave;
+    bordered.bottomLeftCorner(1, wave.size()) = adjoint.transpose();
+    Vector forcing = Vector::Zero(wave.size() + 1);
+    forcing.head(wave.size()) = other;
+    const Vector resonant = answer(bordered, forcing).head(wave.size());
+    result.cross = -(from_mean + by(answer(at(1.5 * phase, root / 2 * phase), square)) +
+                     by(resonant) + adjoint.dot(cube));
+    return result;
+}
+
+}  // namespace cascade::analysis

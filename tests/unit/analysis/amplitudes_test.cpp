@@ -1,0 +1,110 @@
+// Amplitude equations whose coefficients are known in closed form.
+#include "tests/unit/analysis/closed_forms.h"
+
+#include <cmath>
+
+namespace cascade::testing {
+namespace {
+
+using analysis::AmplitudeEquations;
+
+/// At the one onset of a parameter between two values.
+AmplitudeEquations onset(const std::string& text, const std::string& parameter, double low,
+                         double high) {
+    const auto analysed = analyse(text);
+    for (const auto& change : critical(analysed, parameter, low, high)) {
+        if (change.amplitudes) return *change.amplitudes;
+    }
+    ADD_FAILURE() << "no amplitude equations";
+    return {};
+}
+
+std::string swift_hohenberg(double b, const std::string& grid = "64, 64") {
+    return fmt::format(
+        "system sh {{ u: 0; r: -0.1; u' = r*u - (u + 2*lap(u) + lap(lap(u))) + {} * u^2 - u^3 }}\n"
+        "domain {{ grid: {}; spacing: 0.1; precision: double }}\nstage s: sh {{ iterations: 1 }}\n",
+        b, grid);
+}
+
+TEST(Amplitudes, SwiftHohenbergHasItsCoefficients) {
+    for (const double b : {0.0, 0.5, 0.8, 1.2}) {
+        const AmplitudeEquations by = onset(swift_hohenberg(b), "r", -0.5, 0.5);
+        EXPECT_NEAR(by.quadratic, 2 * b, 1e-6);
+        // J(0) = −1, J(2k) = −9 and J(√3 k) = −4, up to what the grid does to short waves.
+        EXPECT_NEAR(by.self, 3 - 38.0 / 9 * b * b, 0.005);
+        EXPECT_NEAR(by.cross, 6 - 5 * b * b, 0.005);
+        // Subcritical above b² = 27/38 (J. Burke and E. Knobloch, Physical Review E 73, 2006).
+        EXPECT_EQ(by.is_supercritical(), b * b < 27.0 / 38);
+    }
+    EXPECT_EQ(onset(swift_hohenberg(0), "r", -0.5, 0.5).quadratic, 0);
+}
+
+TEST(Amplitudes, ARowHasStripesOnly) {
+    const AmplitudeEquations by = onset(swift_hohenberg(1, "64"), "r", -0.5, 0.5);
+    EXPECT_FALSE(by.has_plane());
+    EXPECT_NEAR(by.self, 3 - 38.0 / 9, 0.005);
+}
+
+/// x = A η with η = √(Du / Dv): J. Verdasca, A. De Wit, G. Dewel and P. Borckmans, Physics Letters
+/// A 168 (1992). Their h leaves out what v forces in the critical wave, which is small where v is.
+TEST(Amplitudes, BrusselatorHasItsCoefficients) {
+    const double feed = 3;
+    const auto at = [&](double x) {
+        const double eta = x / feed;
+        return onset(fmt::format("system b {{ u: {0}; v: 1; decay: 1\n"
+                                 "u' = {0} - (decay + 1) * u + u^2*v + {1} * lap(u)\n"
+                                 "v' = decay*u - u^2*v + {2} * lap(v) }}\n"
+                                 "domain {{ grid: 64, 64; spacing: 0.1; precision: double }}\n"
+                                 "stage s: b {{ v: [decay] / {0} }}\n",
+                                 feed, eta, 1 / eta),
+                     "decay", 0.5, 0.9 * (1 + feed * feed));
+    };
+    const auto quadratic = [&](double x) { return 2 / feed * (1 - x) / (1 + x); };
+    const auto self = [&](double x) {
+        return (-8 + 38 * x + 5 * x * x - 8 * x * x * x) / (9 * feed * feed * x * (1 + x));
+    };
+    const auto cross = [&](double x) {
+        return (-3 + 5 * x + 7 * x * x - 3 * x * x * x) / (feed * feed * x * (1 + x));
+    };
+    for (const double x : {0.6, 0.8, 1.2, 1.5}) {
+        const AmplitudeEquations by = at(x);
+        const double expected = quadratic(x) / self(x);
+        EXPECT_NEAR(by.quadratic / by.self, expected, 0.01 * std::abs(expected)) << x;
+    }
+    for (const double x : {0.98, 1.0, 1.02}) {
+        const AmplitudeEquations by = at(x);
+        EXPECT_NEAR(by.cross / by.self, cross(x) / self(x), 0.02) << x;
+        EXPECT_TRUE(by.ends_in_stripes());
+    }
+}
+
+TEST(Amplitudes, KnowWhereTheyDoNotApply) {
+    const auto none = [](const std::string& text, const std::string& parameter, double low,
+                         double high) {
+        const auto analysed = analyse(text);
+        for (const auto& change : critical(analysed, parameter, low, high)) {
+            if (change.amplitudes) return false;
+        }
+        return true;
+    };
+    // The diffusion depends on the state.
+    EXPECT_TRUE(
+        none("system s { u: 1; r: -0.1\nu' = r*(u-1) - (u - 1 + 2*lap(u^2)/2 + "
+             "lap(lap(u))) - (u-1)^3 }\ndomain { grid: 64, 64; spacing: 0.2 }\n"
+             "stage a: s { }\n",
+             "r", -0.5, 0.5));
+    // A total is kept, which answers a pattern without end.
+    EXPECT_TRUE(
+        none("system s { u: 0; w: 1; r: -0.1\nu' = r*u - (u + 2*lap(u) + lap(lap(u))) + "
+             "u*(w - 1) - u^3\nw' = lap(w) }\n"
+             "domain { grid: 64, 64; spacing: 0.2 }\nstage a: s { }\n",
+             "r", -0.5, 0.5));
+    // Waves that travel.
+    EXPECT_TRUE(
+        none("system s { u: 0; r: -0.1\nu' = r*u - (u + 2*dxx(u) + dxx(dxx(u))) - dx(u) - "
+             "u^3 }\ndomain { grid: 64; spacing: 0.2 }\nstage a: s { }\n",
+             "r", -0.5, 0.5));
+}
+
+}  // namespace
+}  // namespace cascade::testing
