@@ -41,6 +41,9 @@ struct DrawOptions {
     std::optional<Colour> background = pure_white;
     bool ground = true;
     bool round_shadows = false;  ///< Smooths shadows on large facets.
+    /// How opaque the body is where it is hit, 0 … 1; empty: opaque. What is behind shows through,
+    /// and light passes. Called from several threads at once.
+    std::function<float(const Hit&)> opacity = {};
     /// Told now and then, in the calling thread, what part is done, 0 … 1; may be empty.
     std::function<void(double)> report = {};
 };

@@ -39,10 +39,14 @@ PixelLight light_of_ray(const Seen& seen, float sun, float sky) {
     return result;
 }
 
+void add(const PixelLight& light, float part, PixelLight& sum) {
+    add(light.light, part, sum.light);
+    sum.open += light.open * part;
+    sum.behind += light.behind * part;
+}
+
 void MeanLight::add(const PixelLight& ray) {
-    cascade::add(ray.light, 1, sum_.light);
-    sum_.open += ray.open;
-    sum_.behind += ray.behind;
+    cascade::add(ray, 1, sum_);
     const Colour tone = tone_of(ray.light);
     for (std::size_t c = 0; c < 3; ++c) {
         tones_[c] += tone[c];
@@ -53,8 +57,8 @@ void MeanLight::add(const PixelLight& ray) {
 
 PixelLight MeanLight::light() const {
     const float part = 1 / static_cast<float>(count_);
-    PixelLight mean{{}, sum_.open * part, sum_.behind * part};
-    cascade::add(sum_.light, part, mean.light);
+    PixelLight mean;
+    cascade::add(sum_, part, mean);
     return mean;
 }
 

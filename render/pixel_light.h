@@ -20,6 +20,9 @@ struct PixelLight {
     float behind = 0;  ///< What it adds to each channel of `light` if the background is white.
 };
 
+/// Adds a part of a light to a sum.
+void add(const PixelLight& light, float part, PixelLight& sum);
+
 /// The light of a pixel with a single ray.
 PixelLight light_of_ray(const Seen& seen, float sun, float sky);
 

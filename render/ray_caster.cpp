@@ -165,11 +165,12 @@ RTCRay ray_of(const Ray& ray, float reach) {
 
 }  // namespace
 
-std::optional<Hit> RayCaster::nearest(const Ray& ray) const {
+std::optional<Hit> RayCaster::nearest(const Ray& ray, float beyond) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
     query.ray = ray_of(ray, INFINITY);
+    query.ray.tnear = beyond;
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree().intersect(tree_->root.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;

@@ -20,7 +20,8 @@ public:
 
     const Scene& scene() const { return scene_; }
 
-    std::optional<Hit> nearest(const Ray& ray) const;
+    /// The nearest hit that is farther away than `beyond`.
+    std::optional<Hit> nearest(const Ray& ray, float beyond = 0) const;
     /// Whether anything blocks the ray at a distance below `reach`.
     bool is_blocked(const Ray& ray, float reach) const;
 

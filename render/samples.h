@@ -21,15 +21,17 @@ inline float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
 }
 
-/// A point of the unit square.
+/// A point of the unit square, and another number from 0 to 1.
 struct Point {
-    float x = 0, y = 0;
+    float x = 0, y = 0, part = 0;
 };
 
 /// Point `k` of a low-discrepancy sequence in the square, shifted by two hashed words: multiples of
-/// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32.
+/// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32. Its third number is that of the golden
+/// section.
 inline Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
-    return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u)};
+    return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u),
+            to_fraction((a ^ b) + k * 2654435769u)};
 }
 
 /// Where the first rays of a pixel that has several go: a turned grid. Their mean place is the
@@ -47,13 +49,13 @@ inline DiscPoint on_disc(Point square) {
     const float a = 2 * square.x - 1, b = 2 * square.y - 1;
     const bool is_wide = std::abs(a) > std::abs(b);
     const float radius = is_wide ? a : b;
-    if (radius == 0) return {};
+    if (radius == 0) return {0, 0, square.part};
     const float t = std::numbers::pi_v<float> / 4 * ((is_wide ? b : a) / radius);
     const float s = t * t;
     const float sine = t * (1 - s / 6 * (1 - s / 20 * (1 - s / 42)));
     const float cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30));
-    return is_wide ? DiscPoint{radius * cosine, radius * sine}
-                   : DiscPoint{radius * sine, radius * cosine};
+    return is_wide ? DiscPoint{radius * cosine, radius * sine, square.part}
+                   : DiscPoint{radius * sine, radius * cosine, square.part};
 }
 
 /// The hashed words that shift the sample positions of a pixel.

@@ -9,6 +9,7 @@
 // - Where a light is partly hidden around a pixel, it is tested more often.
 // - The visible part of a light varies slowly along a surface. Pixels use the mean over their
 //   neighbours on the same piece: of the sun, which throws outlines, only over the nearest.
+// - Where a surface is translucent, a pixel does as at edges, and each ray goes on through it.
 // - Where there are copies and edges all around, as in fur, no outline stands out: a pixel keeps to
 //   four rays, and takes the visible parts of the lights from the pixels around, too.
 #include "render/tile_drawer.h"
@@ -148,6 +149,7 @@ void TileDrawer::look_beside(Pixel& pixel) {
         return other.first.sun.seen == pixel.first.sun.seen &&
                other.first.sky.seen == pixel.first.sky.seen;
     };
+    if (pixel.seen.is_translucent) pixel.is_edge = true;
     visit_sides(pixel, [&](const Pixel& other) {
         if (pixel.seen.kind != other.seen.kind) {
             pixel.is_edge = true;
@@ -199,7 +201,7 @@ PixelLight TileDrawer::light_of_pixel(Pixel& pixel) {
     if (effort_.one_is_enough && is_in_thicket(pixel, rays)) return light_in_thicket(pixel, rays);
     const bool is_torn =
         pixel.is_edge && !std::all_of(rays.begin(), rays.end(), [&](const Seen& each) {
-            return is_one_piece(pixel.seen, each);
+            return !each.is_translucent && is_one_piece(pixel.seen, each);
         });
     if (pixel.is_edge && !is_torn) shares = shares_around();
     const bool is_at_outline = !is_torn && is_at_outline_of_shadow(pixel, shares.sun);
@@ -299,11 +301,22 @@ PixelLight TileDrawer::light_of_rays(const Pixel& pixel, const Rays& first, std:
     for (std::uint32_t k = 0; k < effort_.most_rays; ++k) {
         const bool is_doubled = k >= least && std::has_single_bit(k);
         if (is_doubled && is_known()) break;
-        const Seen seen =
-            k < first_rays ? first[k]
-                           : trace(pixel, even_point(k, shift.of_rays[0], shift.of_rays[1]), width);
-        const OfLights<float> parts = shares(seen, k);
-        mean.add(light_of_ray(seen, parts.sun, parts.sky));
+        const bool is_first = k < first_rays;
+        const Point place =
+            is_first ? first_point(k) : even_point(k, shift.of_rays[0], shift.of_rays[1]);
+        const float sampled = is_first ? 0.5F : width;
+        PixelLight light;
+        const auto see = [&](const Seen& seen, float part) {
+            const OfLights<float> parts = shares(seen, k);
+            add(light_of_ray(seen, parts.sun, parts.sky), part, light);
+        };
+        const Seen seen = is_first ? first[k] : trace(pixel, place, sampled);
+        if (!seen.is_translucent) see(seen, 1);
+        else {
+            tracer_.trace_through(static_cast<float>(left_ + pixel.x) + place.x,
+                                  static_cast<float>(top_ + pixel.y) + place.y, sampled, see);
+        }
+        mean.add(light);
     }
     return mean.light();
 }

@@ -46,7 +46,23 @@ Tracer::Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptio
 
 Seen Tracer::trace(float x, float y, float width) const {
     const Ray ray = camera_.ray(x, y);
-    if (const auto hit = caster_.nearest(ray)) return surface(ray, *hit, width);
+    float beyond = 0;
+    while (const auto hit = caster_.nearest(ray, beyond)) {
+        const float opacity = opacity_of(*hit);
+        beyond = past(*hit);
+        if (opacity == 0) continue;
+        Seen seen = surface(ray, *hit, width);
+        seen.is_translucent = opacity < 1;
+        return seen;
+    }
+    return behind(ray);
+}
+
+float Tracer::opacity_of(const Hit& hit) const {
+    return options_.opacity && hit.copy == Hit::body ? options_.opacity(hit) : 1;
+}
+
+Seen Tracer::behind(const Ray& ray) const {
     if (options_.ground) return ground(ray);
     Seen nothing;
     nothing.always = background_;
@@ -125,14 +141,27 @@ Seen Tracer::ground(const Ray& ray) const {
 bool Tracer::sees_sun(const Seen& from, DiscPoint disc) const {
     const Vector3 to_sun = unit(sun_ + sun_frame_.tangent * (sun_radius * disc.x) +
                                 sun_frame_.bitangent * (sun_radius * disc.y));
-    return dot(from.normal, to_sun) > 0 && !caster_.is_blocked({from.place, to_sun}, INFINITY);
+    return dot(from.normal, to_sun) > 0 && !is_blocked({from.place, to_sun}, INFINITY, disc.part);
 }
 
 bool Tracer::sees_sky(const Seen& from, DiscPoint disc) const {
     const Frame frame = frame_of(from.normal);
     const float height = std::sqrt(std::max(0.0F, 1 - disc.x * disc.x - disc.y * disc.y));
     const Vector3 to_sky = frame.tangent * disc.x + frame.bitangent * disc.y + from.normal * height;
-    return !caster_.is_blocked({from.place, to_sky}, size_);
+    return !is_blocked({from.place, to_sky}, size_, disc.part);
+}
+
+/// Translucent surfaces block as many tests as the light that they take away.
+bool Tracer::is_blocked(const Ray& ray, float reach, float part) const {
+    if (!options_.opacity) return caster_.is_blocked(ray, reach);
+    float passing = 1, beyond = 0;
+    while (const auto hit = caster_.nearest(ray, beyond)) {
+        if (hit->distance >= reach) return false;
+        passing *= 1 - opacity_of(*hit);
+        if (passing <= part) return true;
+        beyond = past(*hit);
+    }
+    return false;
 }
 
 }  // namespace cascade

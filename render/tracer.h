@@ -13,6 +13,8 @@ namespace cascade {
 /// A point of the unit disc.
 struct DiscPoint {
     float x = 0, y = 0;
+    /// 0 … 1, below 1: a test passes through a surface if this is below the light that passes.
+    float part = 0;
 };
 
 /// The hit of a ray: its light is `always` plus the visible contributions of the sun and the sky.
@@ -20,6 +22,7 @@ struct Seen {
     enum class Kind : std::uint8_t { background, ground, surface };
     Kind kind = Kind::background;  ///< The other two are lit by the sun and the sky.
     bool is_copy = false;          ///< Of a small mesh.
+    bool is_translucent = false;   ///< What is behind shows through.
     Colour always{0, 0, 0};
     Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
     Vector3 place, normal;
@@ -32,7 +35,26 @@ public:
 
     /// Traces a ray through a point of the picture, in pixels from its upper left corner. The ray
     /// samples a square of `width` pixels.
+    /// Sees the first surface that is not invisible.
     Seen trace(float x, float y, float width) const;
+
+    /// Visits all that the same ray sees, from the front to the back: use(seen, weight) with
+    /// weights that sum to 1.
+    template <typename Use>
+    void trace_through(float x, float y, float width, const Use& use) const {
+        const Ray ray = camera_.ray(x, y);
+        float rest = 1, beyond = 0;
+        while (const auto hit = caster_.nearest(ray, beyond)) {
+            float opacity = opacity_of(*hit);
+            beyond = past(*hit);
+            if (opacity == 0) continue;
+            if (rest * (1 - opacity) < least_rest) opacity = 1;
+            use(surface(ray, *hit, width), rest * opacity);
+            if (opacity == 1) return;
+            rest *= 1 - opacity;
+        }
+        use(behind(ray), rest);
+    }
 
     /// Whether a point of the sun's disc is visible.
     bool sees_sun(const Seen& from, DiscPoint disc) const;
@@ -47,8 +69,15 @@ public:
     }
 
 private:
+    static constexpr float least_rest = 1.0F / 512;  ///< Of the light from behind.
+
     Seen surface(const Ray& ray, const Hit& hit, float width) const;
+    Seen behind(const Ray& ray) const;
     Seen ground(const Ray& ray) const;
+    float opacity_of(const Hit& hit) const;
+    /// A distance beyond a hit, so that it is not found again.
+    static float past(const Hit& hit) { return hit.distance * (1 + 1e-6F); }
+    bool is_blocked(const Ray& ray, float reach, float part) const;
     Look look_at(const Ray& ray, const Hit& hit, float width) const;
 
     const RayCaster& caster_;

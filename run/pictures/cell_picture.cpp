@@ -91,6 +91,11 @@ void add_levels(const SurfaceCells& cells, const CellState& parts, float highest
     }
 }
 
+SurfacePlace place_of(const Hit& hit) {
+    const auto u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
+    return {hit.triangle, {1 - u - v, u, v}};
+}
+
 class Shader {
 public:
     Shader(const PaintedCells& look, const CellFilter& filter, const TriangleMesh& mesh,
@@ -110,10 +115,7 @@ public:
     }
 
     Look operator()(const Sight& sight) const {
-        const SurfacePlace place = {
-            sight.hit.triangle,
-            {1 - static_cast<double>(sight.hit.u) - static_cast<double>(sight.hit.v),
-             static_cast<double>(sight.hit.u), static_cast<double>(sight.hit.v)}};
+        const SurfacePlace place = place_of(sight.hit);
         const float level =
             std::min(level_of(side_of(sight)), static_cast<float>(levels_.size() - 1));
         Look look;
@@ -224,6 +226,30 @@ private:
     float spacing_;
 };
 
+/// The opacity at a hit, which is that of near places, however far the camera is. Holes have sharp
+/// edges, as in GLB files.
+class Opacity {
+public:
+    Opacity(std::span<const float> of_cells, const CellFilter& filter)
+        : of_cells_(of_cells), filter_(filter), is_cut_(is_cut(of_cells)) {}
+
+    float operator()(const Hit& hit) const {
+        std::vector<CellShare> shares;
+        filter_.shares(place_of(hit), shares);
+        float sum = 0;
+        for (const CellShare& share : shares) sum += share.weight * of_cells_[share.cell];
+        if (is_cut_) return sum < 0.5F ? 0 : 1;
+        // The weights sum to 1 up to rounding.
+        constexpr float little = 1e-3F;
+        return sum < little ? 0 : sum > 1 - little ? 1 : sum;
+    }
+
+private:
+    std::span<const float> of_cells_;
+    const CellFilter& filter_;
+    bool is_cut_;
+};
+
 /// The widest footprint of a sample in the picture, in units of the mesh.
 float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
     const Camera camera(mesh, options.view, options.width, options.height);
@@ -246,6 +272,10 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
     CHECK(look.values.size() == count * look.channels, "each cell has values of all channels");
     CHECK(look.heights.empty() || look.heights.size() == count, "each cell has a height");
     options.round_shadows = true;
+    const auto opacities = look.material[MaterialPart::opacity];
+    if (std::any_of(opacities.begin(), opacities.end(), [](float each) { return each < 1; })) {
+        options.opacity = Opacity(opacities, filter_);
+    }
     const float highest = level_of(widest_side(drawn_.mesh, options) / spacing_);
     Levels levels(1);
     const Shader shader(look, filter_, drawn_.mesh, levels, spacing_);

@@ -39,7 +39,7 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene) {
 }
 RayCaster::~RayCaster() = default;
 bool RayCaster::is_available() { return false; }
-std::optional<Hit> RayCaster::nearest(const Ray&) const { return std::nullopt; }
+std::optional<Hit> RayCaster::nearest(const Ray&, float) const { return std::nullopt; }
 bool RayCaster::is_blocked(const Ray&, float) const { return false; }
 
 }  // namespace cascade

@@ -310,6 +310,90 @@ TEST(Draw, WithoutABackgroundTheShadowIsBlackAndOverWhiteTheSame) {
     EXPECT_GT(in_shadow, 500);
 }
 
+/// A wall that fills most of the picture, seen head on; walls further back look alike.
+TriangleMesh walls(int count) {
+    TriangleMesh all;
+    for (int wall = 0; wall < count; ++wall) {
+        const float depth = 0.02F * static_cast<float>(wall);
+        const TriangleMesh one = sheet(1, 1, [&](float u, float v) {
+            return Vector3{u - 0.5F, depth, 0.75F * (0.5F - v)};
+        });
+        const auto before = static_cast<std::uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), one.positions.begin(), one.positions.end());
+        for (const auto& [a, b, c] : one.triangles) {
+            all.triangles.push_back({before + a, before + b, before + c});
+        }
+    }
+    smooth_normals(all);
+    return all;
+}
+
+TEST(Draw, WhatIsBehindShowsThrough) {
+    DrawOptions options = small_picture();
+    options.view = {0, 0, {0, 0, 1}};
+    options.background = std::nullopt;
+    options.opacity = [](const Hit&) { return 0.5F; };
+    for (int count = 1; count <= 3; ++count) {
+        const Image image = picture_of(walls(count), options, red);
+        EXPECT_NEAR(image.opacity(80, 60), 1 - std::pow(0.5F, static_cast<float>(count)), 1e-4F);
+        EXPECT_TRUE(is_red(image.at(80, 60)));
+    }
+    // From opaque to invisible in many steps, the same as the part that is covered.
+    options.opacity = [](const Hit& hit) { return hit.triangle == 0 ? hit.u + hit.v : 1 - hit.u; };
+    const Image slope = picture_of(walls(1), options, red, 2);
+    EXPECT_TRUE(picture_of(walls(1), options, red, 1).alpha == slope.alpha);
+    EXPECT_GT(*std::max_element(slope.alpha.begin(), slope.alpha.end()), 0.95F);
+}
+
+TEST(Draw, HolesAreSeenThrough) {
+    DrawOptions options = small_picture();
+    options.view = {0, 0, {0, 0, 1}};
+    const auto colour = [](const Hit& hit) {
+        return hit.triangle < 2 ? Colour{0.8F, 0, 0} : Colour{0, 0, 0.8F};
+    };
+    // The front wall is there above its diagonal alone.
+    options.opacity = [](const Hit& hit) { return hit.triangle == 1 ? 0.0F : 1.0F; };
+    Team team(1);
+    const Image image = draw(walls(2), colour, options, team);
+    std::int64_t reds = 0, blues = 0;
+    for (const Colour& pixel : image.pixels) {
+        if (pixel[0] > 0.3F && pixel[2] < 0.3F) ++reds;
+        if (pixel[2] > 0.3F && pixel[0] < 0.3F) ++blues;
+    }
+    EXPECT_GT(reds, 3000);
+    EXPECT_NEAR(static_cast<double>(blues), static_cast<double>(reds),
+                0.1 * static_cast<double>(reds));
+    options.opacity = [](const Hit&) { return 0.0F; };
+    options.ground = true;
+    for (const Colour& pixel : picture_of(walls(2), options, red).pixels) {
+        ASSERT_GT(pixel[1], 0.999F) << "neither a wall nor its shadow";
+    }
+}
+
+TEST(Draw, ShadowsOfTranslucentSurfacesAreLighter) {
+    DrawOptions options = small_picture();
+    options.ground = true;
+    options.quality = Quality::fine;
+    // How much of the light of the ground is missing, in all pixels that do not show the sphere.
+    const auto missing = [&](float opacity) {
+        options.opacity = [=](const Hit&) { return opacity; };
+        const Image image = picture_of(sphere(1), options, [](const Hit&) { return pure_white; });
+        double sum = 0;
+        for (std::int64_t y = 0; y < 120; ++y) {
+            for (std::int64_t x = 0; x < 160; ++x) {
+                const double from_middle =
+                    std::hypot(static_cast<double>(x) - 80, static_cast<double>(y) - 60);
+                if (from_middle > 60) sum += 1 - static_cast<double>(light_of(image.at(x, y)[0]));
+            }
+        }
+        return sum;
+    };
+    const double opaque = missing(1);
+    // A ray crosses the sphere's wall twice: a quarter passes where each takes half.
+    EXPECT_NEAR(missing(0.5F) / opaque, 0.75, 0.04);
+    EXPECT_NEAR(missing(0.1F) / opaque, 0.19, 0.04);
+}
+
 TEST(Draw, ATiltTurnsTheLightAndFlipsOnTheBack) {
     // A wall seen head on; the sun stands to the left of the viewer and above him.
     const auto place = [](float u, float v) { return Vector3{u - 0.5F, 0, 0.75F * (0.5F - v)}; };
