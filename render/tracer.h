@@ -33,9 +33,8 @@ class Tracer {
 public:
     Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options);
 
-    /// Traces a ray through a point of the picture, in pixels from its upper left corner. The ray
-    /// samples a square of `width` pixels.
-    /// Sees the first surface that is not invisible.
+    /// Traces a ray through a point of the picture, in pixels from its upper left corner, to the
+    /// first surface that is not invisible. The ray samples a square of `width` pixels.
     Seen trace(float x, float y, float width) const;
 
     /// Visits all that the same ray sees, from the front to the back: use(seen, weight) with
@@ -76,7 +75,7 @@ private:
     Seen ground(const Ray& ray) const;
     float opacity_of(const Hit& hit) const;
     /// A distance beyond a hit, so that it is not found again.
-    static float past(const Hit& hit) { return hit.distance * (1 + 1e-6F); }
+    static float past(const Hit& hit) { return hit.distance * (1 + 1e-6F) + 1e-7F; }
     bool is_blocked(const Ray& ray, float reach, float part) const;
     Look look_at(const Ray& ray, const Hit& hit, float width) const;
 
