@@ -77,7 +77,7 @@ try {
     await browser.until(`/^step [\\d,]+ · [\\d,]+ cells/.test(document.getElementById("place").textContent)`);
     writeFileSync("cells.png", await browser.screenshot());
     await open("animal.html");
-    await expect_growth("creature");
+    await expect_growth("surface: leopard");
     await end();
 } catch (error) {
     await end(error);
