@@ -113,7 +113,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
         std::count(lattice.has_axis.begin(), lattice.has_axis.end(), true));
     const bool has_plane = lattice.is_continuous || axes >= 2;
     // The first axes that there are; a continuous lattice has one for all directions.
-    const auto complex_at = [&](double across, double up) {
+    const auto wave_at = [&](double across, double up) {
         Phases phases{};
         if (lattice.is_continuous) {
             phases[0] = std::hypot(across, up);
@@ -127,17 +127,18 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
         }
         return jacobian_of(model, matrices, lattice, phases);
     };
-    const auto at = [&](double across, double up) { return Matrix(complex_at(across, up).real()); };
-    const Matrix at_wave = at(phase, 0), at_rest = at(0, 0);
+    const auto at = [&](double across, double up) { return Matrix(wave_at(across, up).real()); };
+    const Eigen::MatrixXcd critical_jacobian = wave_at(phase, 0);
+    const Matrix at_wave = critical_jacobian.real();
     const double size = at_wave.cwiseAbs().maxCoeff();
     const auto critical = critical_wave(at_wave, 1e-6 * size);
     // Waves that travel have complex amplitudes.
-    const double travels = complex_at(phase, 0).imag().cwiseAbs().maxCoeff();
+    const double travels = critical_jacobian.imag().cwiseAbs().maxCoeff();
     if (!critical || travels > 1e-9 * size) return std::nullopt;
     const auto& [wave, adjoint] = *critical;
     const Polynomial polynomial(rates, state);
     if (!polynomial.is_local(wave)) return std::nullopt;
-    const Eigen::FullPivLU<Matrix> rest(at_rest);
+    const Eigen::FullPivLU<Matrix> rest(at(0, 0));
     if (std::abs(rest.matrixLU().diagonal().cwiseAbs().minCoeff()) <= 1e-9 * size) {
         return std::nullopt;
     }
@@ -153,8 +154,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const auto answer = [](const Matrix& matrix, const Vector& forcing) {
         return Vector(-matrix.fullPivLu().solve(forcing));
     };
-    const Vector mean = answer(at_rest, square);
-    const double from_mean = by(mean);
+    const double from_mean = by(-rest.solve(square));
     result.self = -(from_mean + by(answer(at(2 * phase, 0), square / 2)) + adjoint.dot(cube) / 2);
     result.cross = std::numeric_limits<double>::quiet_NaN();
     if (!has_plane) return result;

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace cascade::bench {
@@ -23,7 +24,7 @@ namespace {
 constexpr std::size_t part_left = 20;
 
 SurfaceMesh ball(const benchmark::State& state) {
-    const double area = 4 * 3.14159265 / static_cast<double>(state.range(0));
+    const double area = 4 * std::numbers::pi / static_cast<double>(state.range(0));
     return *sphere_mesh(1, std::sqrt(4 * area / std::sqrt(3.0)));
 }
 

@@ -67,15 +67,15 @@ public:
         start.user_data = &bytes_;
         start.write_fn = &write_bytes;
         start.error_handler_fn = &say_nothing;
-        const bool is_written = exr_.start_write(&context_, "memory", EXR_WRITE_FILE_DIRECTLY,
-                                                 &start) == EXR_ERR_SUCCESS &&
-                                write_header() && write_blocks() && finish();
+        const bool is_written =
+            is_good(exr_.start_write(&context_, "memory", EXR_WRITE_FILE_DIRECTLY, &start)) &&
+            write_header() && write_blocks() && finish();
         if (!is_written) return failure("the OpenEXR file could not be encoded");
         return std::move(bytes_);
     }
 
 private:
-    bool is_good(exr_result_t result) const { return result == EXR_ERR_SUCCESS; }
+    static bool is_good(exr_result_t result) { return result == EXR_ERR_SUCCESS; }
 
     bool write_header() {
         int part = 0;

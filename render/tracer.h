@@ -22,7 +22,7 @@ struct Seen {
     enum class Kind : std::uint8_t { background, ground, surface };
     Kind kind = Kind::background;  ///< The other two are lit by the sun and the sky.
     bool is_copy = false;          ///< Of a small mesh.
-    bool is_translucent = false;   ///< What is behind shows through.
+    bool is_translucent = false;   ///< The ray continues through it.
     Colour always{0, 0, 0};
     Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
     Vector3 place, normal;

@@ -1,6 +1,8 @@
 // The grid is known when expressions of systems, stages and pictures are checked.
 #include "lang/check/domain_lengths.h"
 
+#include "lang/program/scaled_lengths.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,22 +68,21 @@ std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
 double content_of_cell(const Program& program) {
     const DomainSettings& domain = program.domain;
     if (domain.model || domain.surface) return 1;
-    const Grid& grid = domain.grid;
-    const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
-    return std::pow(grid.spacing, axes);
+    return std::pow(domain.grid.spacing, axes_of(domain));
 }
 
-bool has_domain_length(const ast::Script& script, const ast::Expr& expr) {
+const ast::Word* name_of_length(const ast::Script& script, const ast::Expr& expr) {
     if (const auto* qualified = std::get_if<ast::Qualified>(&expr.node)) {
-        return qualified->stage.text == domain_word;
-    }
-    if (const auto* over = std::get_if<ast::Over>(&expr.node)) {
-        return over->function.text == integral_word;
+        return qualified->stage.text == domain_word ? &qualified->name : nullptr;
     }
     const auto* component = std::get_if<ast::Component>(&expr.node);
-    if (component == nullptr) return false;
+    if (component == nullptr) return nullptr;
     const auto* name = std::get_if<ast::Name>(&script.expressions[component->operand].node);
-    return name != nullptr && name->name == domain_word;
+    return name != nullptr && name->name == domain_word ? &component->name : nullptr;
+}
+
+bool is_integral(const ast::Over& over) {
+    return over.function.text == integral_word && over.index.text == domain_word;
 }
 
 }  // namespace cascade::checking

@@ -31,7 +31,9 @@ std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
 /// models and surfaces.
 double content_of_cell(const Program& program);
 
-/// Does an expression hold one of these?
-bool has_domain_length(const ast::Script& script, const ast::Expr& expr);
+/// The name after `domain.`; null for other expressions.
+const ast::Word* name_of_length(const ast::Script& script, const ast::Expr& expr);
+/// Is it integral(e over domain)?
+bool is_integral(const ast::Over& over);
 
 }  // namespace cascade::checking

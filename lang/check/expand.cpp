@@ -149,16 +149,10 @@ ast::ExprId Expander::append(Span span, decltype(ast::Expr::node) node) {
 
 void Expander::visit(ast::ExprId part) {
     const ast::Expr& here = expr(part);
-    const auto* component = std::get_if<ast::Component>(&here.node);
-    if (has_domain_length(script(), here)) {
-        if (component != nullptr) return emit_length(here.span, component->name);
-        if (const auto* qualified = std::get_if<ast::Qualified>(&here.node)) {
-            return emit_length(here.span, qualified->name);
-        }
-    }
+    if (const auto* length = name_of_length(script(), here)) return emit_length(here.span, *length);
     if (const auto* name = std::get_if<ast::Name>(&here.node)) return visit_name(part, *name);
     if (const auto* call = std::get_if<ast::Call>(&here.node)) return visit_call(part, *call);
-    if (component != nullptr) {
+    if (const auto* component = std::get_if<ast::Component>(&here.node)) {
         push(TaskKind::finish, part);
         return push(TaskKind::visit, component->operand);
     }
@@ -320,7 +314,7 @@ void Expander::finish(const Task& task) {
     }
     if (const auto* over = std::get_if<ast::Over>(&here.node)) {
         const auto distance = over->distance ? std::optional(take()) : std::nullopt;
-        if (over->function.text != integral_word || over->index.text != domain_word) {
+        if (!is_integral(*over)) {
             return emit(here.span, ast::Over{over->function, take(), over->index, distance});
         }
         const ast::Word sum{over->function.span, "sum"};
@@ -411,9 +405,9 @@ bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression
     for (ast::ExprId id = expression.first; id <= expression.root; ++id) {
         const auto& node = script.expressions[id].node;
         if (std::holds_alternative<ast::Indexed>(node)) return true;
-        if (has_domain_length(script, script.expressions[id])) return true;
+        if (name_of_length(script, script.expressions[id]) != nullptr) return true;
         if (const auto* over = std::get_if<ast::Over>(&node)) {
-            if (over->index.text != "domain") return true;
+            if (over->index.text != domain_word || is_integral(*over)) return true;
         } else if (const auto* name = std::get_if<ast::Name>(&node)) {
             if (scope.index && scope.index->name == name->name) return true;
             if (has_functions && functions_of(work, script).find_constant(name->name)) return true;

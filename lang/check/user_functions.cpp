@@ -134,10 +134,8 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
     }
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const ast::Expr& part = script_.expressions[id];
-        if (is_family[id - body.first]) continue;  // Reported with its index.
-        if (has_domain_length(script_, part) && !std::holds_alternative<ast::Over>(part.node)) {
-            continue;  // Checked where the function is called.
-        }
+        if (is_family[id - body.first]) continue;                // Reported with its index.
+        if (name_of_length(script_, part) != nullptr) continue;  // Checked where it is called.
         if (const auto* name = std::get_if<ast::Name>(&part.node)) {
             check_name(index, name->name, part.span);
         } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {

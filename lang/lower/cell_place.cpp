@@ -3,6 +3,7 @@
 #include "lang/lower/cell_place.h"
 
 #include "core/check.h"
+#include "lang/program/scaled_lengths.h"
 
 #include <cmath>
 
@@ -101,9 +102,8 @@ Space CellPlace::space() {
 ValueId CellPlace::content() {
     if (assembly_.context().is_tissue()) return builder_.number(1);
     if (assembly_.program().domain.model) return of_model(ModelPlane::area);
-    const Grid& grid = assembly_.program().domain.grid;
-    const int axes = int{grid.width > 1} + int{grid.height > 1} + int{grid.depth > 1};
-    return builder_.number(std::pow(grid.spacing, axes));
+    const DomainSettings& domain = assembly_.program().domain;
+    return builder_.number(std::pow(domain.grid.spacing, axes_of(domain)));
 }
 
 /// The hash of a draw takes column and row; slices other than the first modify the result.

@@ -64,11 +64,10 @@ void check_without_surface(OptionRefuser& options, const RunRequest& request) {
 void check_model_files(OptionRefuser& options, const RunRequest& request) {
     const ModelFileOptions& files = request.model_files;
     bool has_picture = request.outputs.empty();
-    bool is_baked = false, is_tiled = false, has_texture = false, has_model = false;
+    bool is_baked = false, is_tiled = false, has_texture = false;
     for (const auto& output : request.outputs) {
         has_picture = has_picture || output_kind(output) == OutputKind::picture || is_film(output);
         is_baked = is_baked || files.is_baked(output);
-        has_model = has_model || output_kind(output) == OutputKind::model;
         is_tiled =
             is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
         has_texture =
@@ -78,7 +77,8 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
                       "no model is written that it could tile", how_to_write_one);
     for (const auto& [option, is_given] :
          {std::pair("--lods", files.levels > 1), std::pair("--displace", files.displace)}) {
-        options.refuse_if(is_given && !has_model, option, "no model is written", how_to_write_one);
+        options.refuse_if(is_given && !writes_model(request), option, "no model is written",
+                          how_to_write_one);
     }
     options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
                       "-o NAME.glb writes one");

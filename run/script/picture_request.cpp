@@ -126,9 +126,9 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     const auto named = quality_named(quality);
     if (!named) return tl::unexpected(senseless);
     request.quality = *named;
-    const auto behind = background_named(background);
-    if (!behind) return tl::unexpected(senseless);
-    request.background = *behind;
+    const auto known_background = background_named(background);
+    if (!known_background) return tl::unexpected(senseless);
+    request.background = *known_background;
     if (!range.empty()) request.range = ValueRange{range[0], range[1]};
     if (!makes_sense(request)) return tl::unexpected(senseless);
     return request;

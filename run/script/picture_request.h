@@ -39,7 +39,7 @@ struct PictureRequest {
     /// Of a surface: the field of view along the shorter side of the picture, in degrees.
     std::optional<float> fov;
     bool ground = true;  ///< Of a surface: a plane below it that receives shadows.
-    /// Of a surface: what is behind it; nothing if the picture is to be transparent there.
+    /// The background of pictures of surfaces; empty: transparent.
     std::optional<Colour> background = pure_white;
     /// Of a model: height of the largest number above the smallest one, in sides of the model, −1 …
     /// 1.
