@@ -165,6 +165,10 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
               one_of({quality_names.begin(), quality_names.end()}),
               [&](const auto& quality) { picture.quality = quality_named(quality); })
         ->group(group);
+    add_value(app, "--light", "WHICH", "On a surface: sun, studio (three lights) or outdoors",
+              one_of({lighting_names.begin(), lighting_names.end()}),
+              [&](const auto& light) { picture.lighting = lighting_named(light); })
+        ->group(group);
     add_value(app, "--fov", "DEGREES",
               "On a surface: the field of view, from 1 (far away) to\n120 (near); without it 25",
               parse_fov, [&](float fov) { picture.fov = fov; })

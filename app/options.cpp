@@ -340,6 +340,7 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.view) request.view = *changes.view;
     if (changes.size) request.size = *changes.size;
     if (changes.quality) request.quality = *changes.quality;
+    if (changes.lighting) request.lighting = *changes.lighting;
     if (changes.fov) request.fov = changes.fov;
     if (changes.ground) request.ground = *changes.ground;
     if (changes.background) request.background = *changes.background;

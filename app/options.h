@@ -53,6 +53,7 @@ struct PictureChanges {
     std::optional<View> view;
     std::optional<PictureSize> size;
     std::optional<Quality> quality;
+    std::optional<Lighting> lighting;
     std::optional<float> fov;
     std::optional<bool> ground;
     std::optional<std::optional<Colour>> background;

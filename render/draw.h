@@ -5,6 +5,7 @@
 #include "picture/image.h"
 #include "render/camera.h"
 #include "render/gloss.h"
+#include "render/lighting.h"
 #include "render/quality.h"
 #include "render/ray_caster.h"
 
@@ -37,6 +38,7 @@ struct DrawOptions {
     std::int64_t width = 800, height = 600;  ///< Pixels, at least 1.
     Quality quality = Quality::normal;
     View view;
+    Lighting lighting = Lighting::sun;
     /// What is behind the scene; nothing: the picture has `alpha`.
     std::optional<Colour> background = pure_white;
     bool ground = true;

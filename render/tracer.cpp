@@ -11,9 +11,7 @@ namespace cascade {
 
 namespace {
 
-constexpr float sun_light = 0.72F;
-constexpr float sky_light = 0.42F;
-constexpr float sun_radius = 0.12F;    ///< Tangent of the sun's half width.
+constexpr float usual_sun = 0.72F;     ///< The light for which strengths of gloss are.
 constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's shadow takes away.
 
 /// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
@@ -38,9 +36,9 @@ Tracer::Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptio
       camera_(caster.scene(), options.view, options.width, options.height),
       background_(light_of(options.background.value_or(pure_white))),
       box_(bounds(caster.scene())),
-      size_(length(box_.high - box_.low)) {
-    sun_ = unit(camera_.backward() + camera_.up() * 0.9F - camera_.right() * 0.7F);
-    sun_frame_ = frame_of(sun_);
+      size_(length(box_.high - box_.low)),
+      lights_(options.lighting, camera_, options.view.up),
+      sun_frame_(frame_of(lights_.sun)) {
     ground_ = dot(box_.low, options.view.up);
 }
 
@@ -94,17 +92,25 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     if (side < 0) normal = -normal;
     Vector3 place = ray.origin + ray.direction * hit.distance + facet * (size_ * 1e-4F);
     if (options_.round_shadows) place = place + rounding(corners, weights, side);
-    const Vector3 half = unit(sun_ - ray.direction);
+    const Vector3& sun = lights_.sun;
+    const Vector3 half = unit(sun - ray.direction);
     const Gloss& gloss = look.gloss;
     const float gleam = gloss.strength * steady_power(std::max(0.0F, dot(normal, half)),
                                                       static_cast<double>(gloss.power));
-    const float bright = sun_light * std::max(0.0F, dot(normal, sun_));
+    const float facing = dot(normal, ray.direction);
+    const Colour soft = lights_.soft(normal);
+    const Colour mirrored = lights_.mirrored(ray.direction - normal * (2 * facing), gloss);
+    const float reflected = reflectance(-facing, gloss);
+    const float metal = gloss.metalness, dull = 1 - metal;
+    const float lit = std::max(0.0F, dot(normal, sun));
     Seen seen;
     for (std::size_t k = 0; k < 3; ++k) {
-        const float tint = 1 + gloss.metalness * (look.light[k] - 1);
-        seen.of_sun[k] = look.light[k] * bright * (1 - gloss.metalness) + gleam * tint;
+        const float tint = 1 + metal * (look.light[k] - 1);
+        seen.of_sun[k] = look.light[k] * (lights_.sunlight[k] * lit) * dull +
+                         gleam * tint * (lights_.sunlight[k] / usual_sun);
         seen.always[k] = look.glow[k];
-        seen.of_sky[k] = look.light[k] * sky_light;
+        seen.of_sky[k] = look.light[k] * (lights_.even[k] + soft[k] * dull) +
+                         mirrored[k] * (reflected * dull + look.light[k] * metal);
     }
     seen.kind = Seen::Kind::surface;
     seen.is_copy = hit.copy != Hit::body;
@@ -113,7 +119,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     return seen;
 }
 
-/// The background, darkened by the surface's shadow.
+/// The background, darkened by the surface's shadow, which is grey in coloured lights, too.
 Seen Tracer::ground(const Ray& ray) const {
     Seen seen;
     seen.always = background_;
@@ -125,12 +131,14 @@ Seen Tracer::ground(const Ray& ray) const {
     const Vector3 place = ray.origin + ray.direction * distance;
     // Far from the surface there is no shadow to test.
     if (length(place - box_.centre()) > 1.5F * size_) return seen;
-    const float sun = sun_light * std::max(0.0F, dot(up, sun_));
-    const float full = sun + sky_light;
+    constexpr std::size_t green = 1;
+    const float sun = lights_.sunlight[green] * std::max(0.0F, dot(up, lights_.sun));
+    const float sky = lights_.even[green] + lights_.soft(up)[green];
+    const float full = sun + sky;
     for (std::size_t k = 0; k < 3; ++k) {
         seen.always[k] = background_[k] * (1 - ground_shade);
         seen.of_sun[k] = background_[k] * ground_shade * (sun / full);
-        seen.of_sky[k] = background_[k] * ground_shade * (sky_light / full);
+        seen.of_sky[k] = background_[k] * ground_shade * (sky / full);
     }
     seen.kind = Seen::Kind::ground;
     seen.place = place + up * (size_ * 1e-4F);
@@ -139,8 +147,8 @@ Seen Tracer::ground(const Ray& ray) const {
 }
 
 bool Tracer::sees_sun(const Seen& from, DiscPoint disc) const {
-    const Vector3 to_sun = unit(sun_ + sun_frame_.tangent * (sun_radius * disc.x) +
-                                sun_frame_.bitangent * (sun_radius * disc.y));
+    const Vector3 to_sun = unit(lights_.sun + sun_frame_.tangent * (lights_.sun_radius * disc.x) +
+                                sun_frame_.bitangent * (lights_.sun_radius * disc.y));
     return dot(from.normal, to_sun) > 0 && !is_blocked({from.place, to_sun}, INFINITY, disc.part);
 }
 

@@ -1,11 +1,12 @@
 // The hit of a ray from the camera, and the light that reaches it.
 //
-// Lighting: a sun behind the viewer's left shoulder, a disc instead of a point for soft shadows,
-// and a uniform sky, which darkens hollows.
+// The sun is a disc instead of a point, for soft shadows. The sky is all other light; the part of
+// it that a place sees darkens hollows.
 #pragma once
 
 #include "render/camera.h"
 #include "render/draw.h"
+#include "render/lighting.h"
 #include "render/ray_caster.h"
 
 namespace cascade {
@@ -87,7 +88,7 @@ private:
     Box box_;
     float size_;
     float ground_ = 0;
-    Vector3 sun_;
+    Lights lights_;
     Frame sun_frame_;
 };
 

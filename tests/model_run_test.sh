@@ -193,7 +193,7 @@ run 0 $model -o wide.png --size 210x90 --quality draft --fov 60 --ground no --ba
 [ "$(od -An -t x1 -j 16 -N 8 wide.png | tr -d ' ')" = 000000d20000005a ] || fail "--size 210x90 draws another size"
 run 0 run -q wide.png -o again.png
 cmp -s wide.png again.png || fail "a picture with a size of its own is not drawn again byte for byte"
-for other in '--quality fine' '--fov 20' '--ground yes' '--background none'; do
+for other in '--quality fine' '--light outdoors' '--fov 20' '--ground yes' '--background none'; do
     run 0 run -q wide.png -o other.png $other
     cmp -s wide.png other.png && fail "$other changes nothing"
 done

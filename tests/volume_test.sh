@@ -88,7 +88,7 @@ grep -q "the body of the picture is empty" out || fail "an empty body is not not
 
 # Options that mean nothing for a plane.
 echo 'system_name: turing_spots' > plane.cascade
-for option in '--slice z=0.2' --flat '--view 10,20' '--size 90x60' '--quality fine' '--fov 40' '--ground no' '--background none'; do
+for option in '--slice z=0.2' --flat '--view 10,20' '--size 90x60' '--quality fine' '--light studio' '--fov 40' '--ground no' '--background none'; do
     # shellcheck disable=SC2086
     "$CASCADE" run -q plane.cascade $option 2>err && fail "$option is taken for a plane"
     grep -qE "a plane has no slices|the domain is not a surface" err || fail "$option: $(cat err)"

@@ -219,6 +219,7 @@ void check_on_plane(OptionRefuser& options, const RunRequest& request, bool has_
     options.refuse_if(!request.picture.ground, "--ground", message, hint);
     options.refuse_if(request.picture.background != pure_white, "--background", message, hint);
     options.refuse_if(request.picture.quality != Quality::normal, "--quality", message, hint);
+    options.refuse_if(request.picture.lighting != Lighting::sun, "--light", message, hint);
     options.refuse_if(request.turntable > 0 || request.picture.view.is_turning, "--turntable",
                       message, hint);
 }

@@ -217,6 +217,7 @@ DrawOptions Painter::draw_options() const {
     options.width = request_.size.width;
     options.height = request_.size.height;
     options.quality = request_.quality;
+    options.lighting = request_.lighting;
     options.ground = request_.ground;
     options.background = request_.background;
     options.report = report_;

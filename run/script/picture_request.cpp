@@ -64,6 +64,7 @@ std::string to_json(const PictureRequest& request) {
     if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
     if (request.size != usual_size) json["size"] = {request.size.width, request.size.height};
     if (request.quality != Quality::normal) json["quality"] = name_of(request.quality);
+    if (request.lighting != Lighting::sun) json["light"] = name_of(request.lighting);
     if (request.fov) json["fov"] = *request.fov;
     if (!request.ground) json["ground"] = false;
     if (request.background != pure_white) json["background"] = name_of(request.background);
@@ -86,7 +87,8 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     PictureRequest request;
     std::vector<float> view, range;
     std::vector<std::int64_t> size;
-    std::string quality(name_of(Quality::normal)), background = name_of(request.background);
+    std::string quality(name_of(Quality::normal)), light(name_of(Lighting::sun));
+    std::string background = name_of(request.background);
     fields.read("palette", request.palette);
     fields.read("scale", request.scale);
     fields.read("depth", request.depth);
@@ -96,6 +98,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     fields.read("view", view);
     fields.read("size", size);
     fields.read("quality", quality);
+    fields.read("light", light);
     if (json.contains("fov")) fields.read("fov", request.fov.emplace());
     fields.read("ground", request.ground);
     fields.read("background", background);
@@ -124,8 +127,10 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     }
     if (!size.empty()) request.size = {size[0], size[1]};
     const auto named = quality_named(quality);
-    if (!named) return tl::unexpected(senseless);
+    const auto lighting = lighting_named(light);
+    if (!named || !lighting) return tl::unexpected(senseless);
     request.quality = *named;
+    request.lighting = *lighting;
     const auto known_background = background_named(background);
     if (!known_background) return tl::unexpected(senseless);
     request.background = *known_background;

@@ -5,6 +5,7 @@
 #include "picture/image.h"
 #include "picture/slice.h"
 #include "render/camera.h"
+#include "render/lighting.h"
 #include "render/quality.h"
 
 #include <cstdint>
@@ -36,6 +37,7 @@ struct PictureRequest {
     /// Of a surface, in pixels that `scale` multiplies.
     PictureSize size = usual_size;
     Quality quality = Quality::normal;  ///< Of a surface.
+    Lighting lighting = Lighting::sun;  ///< Of a surface.
     /// Of a surface: the field of view along the shorter side of the picture, in degrees.
     std::optional<float> fov;
     bool ground = true;  ///< Of a surface: a plane below it that receives shadows.

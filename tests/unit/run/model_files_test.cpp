@@ -50,6 +50,7 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     request.view = {200, -10, {0, 0, 1}, true};
     request.size = {1920, 1080};
     request.quality = Quality::fine;
+    request.lighting = Lighting::outdoors;
     request.fov = 62.5F;
     request.ground = false;
     const auto back = picture_request_from_json(to_json(request));
@@ -59,6 +60,7 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     EXPECT_EQ(back->view.azimuth, 200.0F);
     EXPECT_EQ(back->size, request.size);
     EXPECT_EQ(back->quality, Quality::fine);
+    EXPECT_EQ(back->lighting, Lighting::outdoors);
     EXPECT_EQ(back->fov, 62.5F);
     EXPECT_FALSE(back->ground);
     EXPECT_EQ(to_json({}).find("fov"), std::string::npos);
@@ -72,8 +74,8 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     for (const char* wrong :
          {R"({"bump": 2})", R"({"bump": "a"})", R"({"turning": 3})", R"({"size": [0, 9]})",
           R"({"size": [9]})", R"({"size": 9})", R"({"quality": "best"})", R"({"quality": 1})",
-          R"({"fov": 0})", R"({"fov": "a"})", R"({"ground": 2})", R"({"background": "blue"})",
-          R"({"background": null})"}) {
+          R"({"light": "moon"})", R"({"fov": 0})", R"({"fov": "a"})", R"({"ground": 2})",
+          R"({"background": "blue"})", R"({"background": null})"}) {
         EXPECT_FALSE(picture_request_from_json(wrong)) << wrong;
     }
 }

@@ -1,0 +1,75 @@
+// What light falls on a scene: a sun that throws shadows, and an environment all around.
+#pragma once
+
+#include "core/vector3.h"
+#include "picture/image.h"
+#include "render/gloss.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace cascade {
+
+class Camera;
+
+enum class Lighting : std::uint8_t { sun, studio, outdoors };
+
+inline constexpr std::array<std::string_view, 3> lighting_names{"sun", "studio", "outdoors"};
+
+constexpr std::string_view name_of(Lighting lighting) {
+    return lighting_names[static_cast<std::size_t>(lighting)];
+}
+
+constexpr std::optional<Lighting> lighting_named(std::string_view name) {
+    for (std::size_t k = 0; k < lighting_names.size(); ++k) {
+        if (lighting_names[k] == name) return static_cast<Lighting>(k);
+    }
+    return std::nullopt;
+}
+
+/// A soft light far away. Its radiance in the direction ω is colour · ((1 + ω·d)/2)^power, so that
+/// a large power makes it small, and the power 1 lights everything but what turns away.
+struct SoftLight {
+    Vector3 direction;  ///< d, of length 1.
+    Colour colour{};    ///< Some channels may be negative, to take light away from that side.
+    double power = 1;   ///< At least 0.
+};
+
+/// All lights of a scene. Radiances are in units in which a white surface that faces a uniform
+/// environment of radiance 1 has the light 1.
+class Lights {
+public:
+    /// Lights are placed relative to the camera, and the sky and the ground relative to `up`.
+    Lights(Lighting lighting, const Camera& camera, const Vector3& up);
+
+    Vector3 sun;               ///< The direction to its centre, of length 1.
+    Colour sunlight{};         ///< The light of a white surface that faces it.
+    float sun_radius = 0.12F;  ///< The tangent of its half width.
+    Colour even{};             ///< The radiance from all directions.
+
+    /// The light of the soft lights on a white surface with this normal if nothing is hidden: their
+    /// convolution with the cosine up to the second order of spherical harmonics (R. Ramamoorthi
+    /// and P. Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001).
+    Colour soft(const Vector3& normal) const;
+
+    /// The soft lights in a mirror, in this direction, widened by the lobe of the gloss.
+    Colour mirrored(const Vector3& direction, const Gloss& gloss) const;
+
+private:
+    void add(const Vector3& towards, const Colour& colour, double power);
+
+    std::vector<SoftLight> soft_;
+    /// Of each soft light: the factors of the three orders of its convolution with the cosine.
+    std::vector<std::array<float, 3>> orders_;
+};
+
+/// The part of the light that a surface reflects from the direction of the viewer's mirror image:
+/// C. Schlick's approximation (1994), and less at grazing angles where it is rough (S. Lagarde,
+/// 2011). `facing` is the cosine between the normal and the direction to the viewer.
+float reflectance(float facing, const Gloss& gloss);
+
+}  // namespace cascade
