@@ -17,17 +17,18 @@ Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& 
     if (!options.background) image.alpha.resize(image.pixels.size());
     const std::int64_t columns = (options.width + TileDrawer::side - 1) / TileDrawer::side;
     const std::int64_t rows = (options.height + TileDrawer::side - 1) / TileDrawer::side;
+    const std::int64_t tiles = columns * rows;
     std::atomic<std::int64_t> next{0};
     team.run([&](int thread) {
         TileDrawer drawer(tracer, options);
-        for (std::int64_t tile = next++; tile < columns * rows; tile = next++) {
+        for (std::int64_t tile = next++; tile < tiles; tile = next++) {
             drawer.draw(tile % columns * TileDrawer::side, tile / columns * TileDrawer::side,
                         image);
+            if (thread != 0 || !options.report) continue;
             // The tiles of other threads that have begun count as done.
-            if (thread == 0 && options.report) {
-                options.report(static_cast<double>(std::min(next.load(), columns * rows)) /
-                               static_cast<double>(columns * rows));
-            }
+            const double part =
+                static_cast<double>(std::min(next.load(), tiles)) / static_cast<double>(tiles);
+            if (!options.report(part)) next = tiles;
         }
     });
     return image;

@@ -46,8 +46,9 @@ struct DrawOptions {
     /// How opaque the body is where it is hit, 0 … 1; empty: opaque. What is behind shows through,
     /// and light passes. Called from several threads at once.
     std::function<float(const Hit&)> opacity = {};
-    /// Told now and then, in the calling thread, what part is done, 0 … 1; may be empty.
-    std::function<void(double)> report = {};
+    /// Told now and then, in the calling thread, what part is done, 0 … 1; may be empty. If it
+    /// returns false, drawing stops, and the picture is useless.
+    std::function<bool(double)> report = {};
 };
 
 /// Renders by ray tracing. The picture is the same on any number of threads and on every processor.

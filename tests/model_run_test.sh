@@ -313,6 +313,19 @@ says err "nothing has been written"
 run 124 run many.cascade --mesh creature --cells 3000000 -o many.png --limit-time 1s
 says err "the limit of 1 s is reached at the making of the model's cells; nothing has been written"
 
+# Ctrl-C while a picture is drawn: it is left out, and the other outputs are written.
+cat > ball.cascade <<'END'
+stage spots: gray_scott { iterations: 10 }
+domain { grid: 64, 32; surface: (2 + cos(2 * pi * sy)) * cos(2 * pi * sx), (2 + cos(2 * pi * sy)) * sin(2 * pi * sx), sin(2 * pi * sy) }
+END
+timeout --preserve-status -s INT 5 "$CASCADE" run ball.cascade --size 12000x9000 --quality fine -o ball.png \
+    --save ball_run >out 2>err </dev/null
+got=$?
+[ $got = 130 ] || fail "Ctrl-C while a picture is drawn gave $got"
+says err "interrupted at the drawing of ball.png; the results so far have been written"
+[ ! -e ball.png ] || fail "a picture that was not finished is written"
+[ -e ball_run/run.json ] || fail "Ctrl-C in a picture prevents the saved run"
+
 # The prompt.
 printf '%s\n' 'domain { surface: sphere; cells: 300 }' 'stage spots: gray_scott { iterations: 40 }' ':run 10' \
     ':set spots.feed=0.03' ':run 5' ':show v' ':save kept_run' > lines

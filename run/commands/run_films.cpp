@@ -16,15 +16,6 @@ bool films_steps(const RunRequest& request) {
            std::any_of(request.outputs.begin(), request.outputs.end(), is_film);
 }
 
-namespace {
-
-/// Set by a Ctrl-C that has not ended the run before.
-const std::atomic<bool>& stop_of(const RunControl& control, const RunReport& report) {
-    return report.status == RunStatus::cancelled ? never_cancelled : control.cancel;
-}
-
-}  // namespace
-
 /// Ctrl-C while frames are drawn ends the films there. After one that has ended the run, all frames
 /// of the run are drawn.
 Result<void> RunResults::write_films(const Canvas& canvas) {
@@ -45,10 +36,8 @@ Result<void> RunResults::write_films(const Canvas& canvas) {
 
 /// Notes where Ctrl-C has ended the films, if so.
 void RunResults::note_end_of_films(const FilmCrew& crew, std::size_t count) {
-    if (crew.frames() < count && stop_of(control, report)) {
-        report.status = RunStatus::cancelled;
-        report.where =
-            fmt::format("frame {} of {} of {}", crew.frames(), count, crew.first().string());
+    if (crew.frames() < count && stop()) {
+        note_stop(fmt::format("frame {} of {} of {}", crew.frames(), count, crew.first().string()));
     }
 }
 
@@ -77,8 +66,7 @@ Result<void> RunResults::film_frames(FilmCrew& crew) {
             return crew.add(frame);
         };
     };
-    auto drawn =
-        frames->draw(painter, plan.frames, drawing_threads(), stop_of(control, report), add);
+    auto drawn = frames->draw(painter, plan.frames, drawing_threads(), stop(), add);
     if (drawn) note_end_of_films(crew, plan.frames.size());
     return drawn;
 }
@@ -88,7 +76,7 @@ Result<void> RunResults::film_end(FilmCrew& crew, int count, const FilmCrew::Dra
     const FilmPlan plan = film_plan(request.film, static_cast<std::size_t>(count), crew.has_gif());
     Result<void> done = crew.begin(plan, draw);
     for (const std::size_t number : plan.frames) {
-        if (!done || stop_of(control, report)) break;
+        if (!done || stop()) break;
         say(fmt::format("drawing {} of {}", crew.frames() + 1, plan.frames.size()));
         if (const FilmFrame* frame = crew.drawn(number)) {
             done = crew.add(*frame);

@@ -51,23 +51,35 @@ void RunResults::say(std::string what) const {
     control.report(progress);
 }
 
-Image RunResults::drawn(const Canvas& canvas, const std::string& what) {
+void RunResults::note_stop(std::string where) {
+    report.status = RunStatus::cancelled;
+    report.where = std::move(where);
+}
+
+std::optional<Image> RunResults::drawn(const Canvas& canvas, const std::string& what,
+                                       const std::filesystem::path& path) {
     say(what);
     int last = 0;
+    bool is_whole = true;
     painter.set_report([&](double part) {
         const int percent = static_cast<int>(100 * part);
         if (percent != std::exchange(last, percent)) say(fmt::format("{}, {} %", what, percent));
+        is_whole = part == 1 || !stop();
+        return is_whole;
     });
     Image image = painter.image(canvas);
     painter.set_report({});
-    return image;
+    if (is_whole) return image;
+    note_stop(fmt::format("the drawing of {}", path.string()));
+    return std::nullopt;
 }
 
 Result<void> RunResults::write_final_picture(const std::filesystem::path& path,
                                              const Canvas& canvas) {
     if (request.turntable > 0) return write_turntable(path, canvas);
-    return write_picture(path, request.picture.space_time ? frames->space_time(painter)
-                                                          : drawn(canvas, "drawing the picture"));
+    if (request.picture.space_time) return write_picture(path, frames->space_time(painter));
+    const auto image = drawn(canvas, "drawing the picture", path);
+    return image ? write_picture(path, *image) : Result<void>();
 }
 
 /// The view of a picture of a turntable.
@@ -85,8 +97,10 @@ Result<void> RunResults::write_turntable(const std::filesystem::path& path, cons
     const auto paths = turntable_paths(path, request.turntable);
     for (std::size_t k = 0; k < paths.size() && done; ++k) {
         painter.set_view(turned_view(k, paths.size()));
-        done = write_picture(paths[k],
-                             drawn(canvas, fmt::format("drawing {} of {}", k + 1, paths.size())));
+        const auto image =
+            drawn(canvas, fmt::format("drawing {} of {}", k + 1, paths.size()), paths[k]);
+        if (!image) break;
+        done = write_picture(paths[k], *image);
     }
     painter.set_view(request.picture.view);
     return done;

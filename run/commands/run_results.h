@@ -41,8 +41,15 @@ struct RunResults {
 private:
     Result<void> write_outputs();
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
-    /// The picture of a canvas; `what` is said with the part that is drawn.
-    Image drawn(const Canvas& canvas, const std::string& what);
+    /// The picture of a canvas for a file; `what` is said with the part that is drawn. Nothing,
+    /// with a note in the report, if Ctrl-C stops it.
+    std::optional<Image> drawn(const Canvas& canvas, const std::string& what,
+                               const std::filesystem::path& path);
+    /// Set by a Ctrl-C that has not ended the run before.
+    const std::atomic<bool>& stop() const {
+        return report.status == RunStatus::cancelled ? never_cancelled : control.cancel;
+    }
+    void note_stop(std::string where);
     Result<void> write_turntable(const std::filesystem::path& path, const Canvas& canvas);
     View turned_view(std::size_t number, std::size_t count) const;
     void warn_of(const std::vector<std::string>& warnings) const;

@@ -87,8 +87,9 @@ public:
     void set_view(const View& view) { request_.view = view; }
     /// Later pictures of surfaces and of cells that crawl are this wide, in pixels.
     void set_width(std::int64_t width) { width_ = width; }
-    /// Called while later pictures of surfaces are drawn with the part that is done, 0 … 1.
-    void set_report(std::function<void(double)> report) { report_ = std::move(report); }
+    /// Called while later pictures of surfaces are drawn with the part that is done, 0 … 1. If it
+    /// returns false, the picture stays unfinished.
+    void set_report(std::function<bool(double)> report) { report_ = std::move(report); }
     /// Sets the slice of later canvases.
     void set_slice(const Slice& slice) { request_.slice = slice; }
     /// The colours of a canvas of cells that crawl, in the order of their numbers, or of a body at
@@ -123,7 +124,7 @@ private:
     std::shared_ptr<const ModelCells> model_;      ///< Of the last canvas; null on grids.
     std::shared_ptr<ModelDrawer> drawer_;          ///< Made with the first picture.
     std::optional<std::int64_t> width_;            ///< Else the usual one.
-    std::function<void(double)> report_;
+    std::function<bool(double)> report_;
     bool shows_cells_ = false;  ///< The last canvas was of cells that crawl.
     bool shows_body_ = false;   ///< Volumes are drawn as bodies.
     Field outside_;  ///< Of the last canvas: NaN outside of the domain; empty without a mask.

@@ -228,11 +228,26 @@ TEST(Draw, ReportsHowFarItIs) {
     DrawOptions options = small_picture();
     options.width = 500;
     std::vector<double> parts;
-    options.report = [&](double part) { parts.push_back(part); };
+    options.report = [&](double part) {
+        parts.push_back(part);
+        return true;
+    };
     picture_of(sphere(1), options, red);
     EXPECT_GT(parts.size(), 4u);
     EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
     EXPECT_EQ(parts.back(), 1.0);
+}
+
+TEST(Draw, StopsWhenItIsTold) {
+    DrawOptions options = small_picture();
+    options.width = 1000;
+    options.background = Colour{0, 0, 1};
+    int reports = 0;
+    options.report = [&](double) { return ++reports < 2; };
+    const Image image = picture_of(sphere(1), options, red);
+    EXPECT_EQ(reports, 2);
+    EXPECT_EQ(image.pixels.front(), (Colour{0, 0, 1}));
+    EXPECT_EQ(image.pixels.back(), pure_white);
 }
 
 TEST(Draw, ThreadsDoNotMatter) {
