@@ -50,7 +50,7 @@ private:
         if (!reshaped) return tl::unexpected(reshaped.error());
         lines.insert(lines.end(), reshaped->begin(), reshaped->end());
         if (options_.mesh_files.unwrap && !cancel_) {
-            auto texture = made_texture(mesh, options_.mesh_files, team_, cancel_);
+            auto texture = made_texture(mesh, usual_texels, team_, cancel_);
             if (!texture) return tl::unexpected(texture.error());
             mesh.texture = *std::move(texture);
             if (!cancel_) lines.push_back("made " + describe_texture(mesh));

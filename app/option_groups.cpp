@@ -287,12 +287,18 @@ void add_files(CLI::App& app, RunRequest& run) {
     app.add_flag("--merge", run.model_files.merge,
                  "Cells that crawl as plain triangles, for programs that\nknow no instances")
         ->group(group);
-    add_value(
-        app, "--bake", "N",
-        "A model .glb with maps of N x N texels (colour, height,\nroughness, …), which are "
-        "written beside it too; by the\nmodel's texture coordinates, or new ones if it has none.\nA plane's maps repeat",
-        whole_number(1, ModelFileOptions::most_texels),
-        [&](auto texels) { run.model_files.bake = texels; })
+    CLI::Option* const bake =
+        add_value(
+            app, "--bake", "N",
+            "A model .glb with maps of N x N texels (colour, height,\nroughness, …), which are "
+            "written beside it too; by the\nmodel's texture coordinates, or new ones if it has none.\nA plane's maps repeat",
+            whole_number(1, ModelFileOptions::most_texels),
+            [&](auto texels) { run.model_files.bake = texels; })
+            ->group(group);
+    add_value(app, "--texels-per-cell", "N",
+              "Instead of --bake: maps so large that cells are N texels\nwide, such as 4",
+              parse_texels, [&](double texels) { run.model_files.texels_per_cell = texels; })
+        ->excludes(bake)
         ->group(group);
     add_value(app, "--cache", "FOLDER", "Keep the cells of models there, for the next run",
               any_text, [&](auto path) { run.simulation.cell_cache = path; })

@@ -119,6 +119,13 @@ Result<float> parse_fov(std::string_view text) {
                    "write degrees from 1 to 120, as in --fov 40");
 }
 
+Result<double> parse_texels(std::string_view text) {
+    double texels = 0;
+    if (read_all(text, texels) && texels >= 0.1 && texels <= 100) return texels;
+    return failure(fmt::format("'{}' is not a number of texels along a cell", text),
+                   "write a number from 0.1 to 100, as in --texels-per-cell 4");
+}
+
 Result<Tiling> parse_tiling(std::string_view text) {
     constexpr std::int64_t most = 1000;
     const std::size_t comma = std::min(text.find(','), text.size());

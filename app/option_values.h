@@ -37,6 +37,7 @@ Result<View> parse_view(std::string_view text);
 Result<PictureSize> parse_picture_size(std::string_view text);
 /// Degrees, 1 … 120.
 Result<float> parse_fov(std::string_view text);
+Result<double> parse_texels(std::string_view text);
 
 /// "large:12000": a stage and a number of steps.
 Result<StopAt> parse_stop_at(std::string_view text);

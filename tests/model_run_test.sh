@@ -162,6 +162,11 @@ done
 [ ! -e lengths_color.png ] || fail "maps in two formats"
 run 2 $model --exr -o lengths.glb
 says err "no maps are written"
+# Maps as large as the cells ask for.
+run 0 run spots.cascade --mesh square.obj --cells 300 --texels-per-cell 2 -o fitting.glb
+says err "maps of 64 texels: a cell is 3.7 texels wide"
+run 2 $model --texels-per-cell 2 -o fitting.png
+says err "no model is written with its maps"
 # The surface moves by its heights, and only then.
 run 0 $model -o level.ply
 run 0 $model --bump 0.1 -o level_too.ply

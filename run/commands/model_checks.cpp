@@ -13,6 +13,11 @@ constexpr std::string_view not_a_model = "the domain is not a model";
 constexpr std::string_view how_to_get_a_model =
     "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
 constexpr const char* how_to_write_maps = "-o NAME.glb --bake 2048 writes them";
+
+/// The option that asks for maps, if one does.
+const char* option_of_maps(const RunRequest& request) {
+    return request.model_files.texels_per_cell > 0 ? "--texels-per-cell" : "--bake";
+}
 constexpr const char* how_to_write_one = "-o NAME.ply, .obj, .glb, .vtp or .stl writes one";
 
 bool writes_exr(const RunRequest& request) {
@@ -50,12 +55,15 @@ void check_levels_of_cells(OptionRefuser& options, const RunRequest& request) {
                       "'detail' in the picture block says how fine the shapes are");
     options.refuse_if(request.model_files.displace, "--displace", message,
                       "--bake writes their heights as a map");
+    options.refuse_if(request.model_files.texels_per_cell > 0, "--texels-per-cell",
+                      "cells that crawl have sizes of their own", "--bake N says how many texels");
 }
 
 void check_without_surface(OptionRefuser& options, const RunRequest& request) {
-    for (const auto& [option, is_given] : {std::pair("--bake", request.model_files.bake > 0),
-                                           std::pair("--exr", writes_exr(request)),
-                                           std::pair("--unwrap", request.model_files.unwrap)}) {
+    for (const auto& [option, is_given] :
+         {std::pair(option_of_maps(request), request.model_files.has_maps()),
+          std::pair("--exr", writes_exr(request)),
+          std::pair("--unwrap", request.model_files.unwrap)}) {
         options.refuse_if(is_given, option, std::string(not_a_model),
                           std::string(how_to_get_a_model));
     }
@@ -80,8 +88,8 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
         options.refuse_if(is_given && !writes_model(request), option, "no model is written",
                           how_to_write_one);
     }
-    options.refuse_if(files.bake > 0 && !is_baked, "--bake", "no model is written with its maps",
-                      "-o NAME.glb writes one");
+    options.refuse_if(files.has_maps() && !is_baked, option_of_maps(request),
+                      "no model is written with its maps", "-o NAME.glb writes one");
     options.refuse_if(writes_exr(request) && !is_baked, "--exr", "no maps are written",
                       how_to_write_maps);
     options.refuse_if(files.unwrap && !has_texture, "--unwrap",
@@ -113,7 +121,7 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
         if (kind != OutputKind::model && kind != OutputKind::cells) continue;
         has_model = true;
         const bool has_maps = is_plane && ModelFileOptions{.bake = 1}.is_baked(output);
-        if (has_maps && request.model_files.bake > 0) continue;
+        if (has_maps && request.model_files.has_maps()) continue;
         options.refuse("-o", output.string(),
                        "only what grows on a model is written so, and " + message,
                        has_maps ? "--bake N writes a rectangle with maps of N texels" : hint);
@@ -122,9 +130,9 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
     options.refuse_if(request.model_files.levels > 1, "--lods", message, hint);
     if (!is_plane) return check_without_surface(options, request);
     options.refuse_if(request.model_files.unwrap, "--unwrap", message, hint);
-    options.refuse_if(writes_exr(request) && request.model_files.bake == 0, "--exr",
+    options.refuse_if(writes_exr(request) && !request.model_files.has_maps(), "--exr",
                       "no maps are written", how_to_write_maps);
-    options.refuse_if(request.model_files.bake > 0 && !has_model, "--bake",
+    options.refuse_if(request.model_files.has_maps() && !has_model, option_of_maps(request),
                       "no model is written with its maps",
                       "-o NAME.glb writes a rectangle with them");
 }

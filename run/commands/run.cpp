@@ -8,6 +8,7 @@
 #include "run/commands/frame_labels.h"
 #include "run/commands/run_checks.h"
 #include "run/commands/run_results.h"
+#include "run/pictures/map_size.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/measured.h"
@@ -46,6 +47,7 @@ private:
     Result<void> check_places(Folders folders);
     Result<void> make_simulation();
     Result<void> find_texture(const SurfaceMesh& mesh);
+    void choose_map_size();
     Result<std::unique_ptr<LiveRun>> play_session();
     bool has_cancelled(std::string what);
     Result<void> run_stages();
@@ -62,7 +64,7 @@ private:
     RunResults results();
 
     Script& script_;
-    const RunRequest& request_;
+    RunRequest request_;
     RunControl& control_;
     RunReport report_;
     std::vector<std::filesystem::path> outputs_;
@@ -191,7 +193,7 @@ Result<std::unique_ptr<LiveRun>> Runner::play_session() {
 Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
     const ModelFileOptions& files = request_.model_files;
     if (!needs_texture(mesh, files)) {
-        return files.bake > 0 ? check_bakeable(mesh) : Result<void>();
+        return files.has_maps() ? check_bakeable(mesh) : Result<void>();
     }
     if (control_.report) {
         Progress progress;
@@ -200,10 +202,22 @@ Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
     }
     const int threads = request_.simulation.threads;
     Team team(threads > 0 ? threads : hardware_threads());
-    auto made = made_texture(mesh, files, team, control_.cancel);
+    const auto& model = script_.program->domain.model;
+    const std::int64_t side = texture_side(files, model ? model->count : 0);
+    auto made = made_texture(mesh, side, team, control_.cancel);
     if (!made) return tl::unexpected(made.error());
     texture_ = *std::move(made);
     return {};
+}
+
+/// Chooses the size of maps where it follows from the cells.
+void Runner::choose_map_size() {
+    ModelFileOptions& files = request_.model_files;
+    if (!(files.texels_per_cell > 0)) return;
+    const MapSize size = map_size_for(files.texels_per_cell, *simulation_, texture_);
+    files.bake = size.side;
+    const auto& say = size.is_short ? control_.warn : control_.note;
+    if (say) say(size.remark);
 }
 
 /// There is no simulation if the user has cancelled it.
@@ -235,6 +249,7 @@ Result<void> Runner::make_simulation() {
             go_on(*simulation_, nullptr, played->values(), Continuation::same, control_.cancel);
         if (!restored) return tl::unexpected(restored.error());
     }
+    choose_map_size();
     auto fits = check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
                                    request_.simulation.memory_limit);
     return fits ? check_film_sizes(script_, request_) : fits;

@@ -9,6 +9,7 @@
 #include "export/refine.h"
 #include "film/film.h"
 #include "mesh/normals.h"
+#include "run/pictures/map_size.h"
 #include "run/pictures/model_maps.h"
 #include "run/pictures/model_picture.h"
 #include "surface/blur_cells.h"
@@ -30,6 +31,7 @@ namespace {
 // whose radius is two.
 constexpr double colour_distance = 0.75;
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
+constexpr double usual_cover = 0.6;  ///< The part of a map that an atlas of ours covers.
 
 }  // namespace
 
@@ -56,14 +58,21 @@ RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cel
 }
 
 bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
-    return bake > 0 && lower_ending(path) == ".glb";
+    return has_maps() && lower_ending(path) == ".glb";
 }
 
-Result<MeshTexture> made_texture(const SurfaceMesh& mesh, const ModelFileOptions& options,
-                                 Team& team, const std::atomic<bool>& cancel) {
-    return enough_memory_for(
-        [&] { return unwrap(mesh, options.bake > 0 ? options.bake : usual_texels, team, cancel); },
-        "there is not enough memory to make texture coordinates of the model");
+std::int64_t texture_side(const ModelFileOptions& options, std::int64_t cells) {
+    if (options.texels_per_cell > 0) {
+        return std::min(map_side(options.texels_per_cell, cells, usual_cover),
+                        ModelFileOptions::most_texels);
+    }
+    return options.bake > 0 ? options.bake : usual_texels;
+}
+
+Result<MeshTexture> made_texture(const SurfaceMesh& mesh, std::int64_t side, Team& team,
+                                 const std::atomic<bool>& cancel) {
+    return enough_memory_for([&] { return unwrap(mesh, side, team, cancel); },
+                             "there is not enough memory to make texture coordinates of the model");
 }
 
 namespace {

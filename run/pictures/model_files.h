@@ -38,25 +38,30 @@ bool holds_texture(const std::filesystem::path& path);
 /// How to write models.
 struct ModelFileOptions {
     bool retile = false;    ///< Triangulate the cells instead of refining the model's triangles.
-    std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 for none.
-    bool merge = false;     ///< Of cells that crawl: plain triangles instead of instances.
+    std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 if not known yet.
+    double texels_per_cell = 0;  ///< Along a cell, to choose `bake` by; 0 if it is given.
+    bool merge = false;          ///< Of cells that crawl: plain triangles instead of instances.
     bool unwrap = false;    ///< With texture coordinates of our own, even if the model has some.
     bool displace = false;  ///< Raise the surface by its heights.
     MapFormat map_format = MapFormat::png;  ///< Of the maps beside GLB files.
     int levels = 1;  ///< Of detail, each with a quarter of the triangles of the one before.
     static constexpr int most_levels = 8;
     static constexpr std::int64_t most_texels = 8192;
+    bool has_maps() const { return bake > 0 || texels_per_cell > 0; }
     /// True if this file gets maps.
     bool is_baked(const std::filesystem::path& path) const;
 };
 
 /// Whether files of a model need texture coordinates that are still to be made.
 inline bool needs_texture(const SurfaceMesh& mesh, const ModelFileOptions& options) {
-    return options.unwrap || (options.bake > 0 && mesh.texture.empty());
+    return options.unwrap || (options.has_maps() && mesh.texture.empty());
 }
-/// Makes them, as unwrap() does, for the size of the maps. Fails if memory is short, too.
-Result<MeshTexture> made_texture(const SurfaceMesh& mesh, const ModelFileOptions& options,
-                                 Team& team, const std::atomic<bool>& cancel);
+/// The side of the maps that they are made for, estimated for this number of cells if it is not
+/// known yet.
+std::int64_t texture_side(const ModelFileOptions& options, std::int64_t cells);
+/// Makes them, as unwrap() does, for maps with this side in texels. Fails if memory is short, too.
+Result<MeshTexture> made_texture(const SurfaceMesh& mesh, std::int64_t side, Team& team,
+                                 const std::atomic<bool>& cancel);
 
 /// The mesh in the coordinates of the model's file, with this texture unless it is empty.
 SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture);
