@@ -188,6 +188,10 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
               "to S times the model's longest side, such as 0.02",
               parse_bump, [&](float bump) { picture.bump = bump; })
         ->group(group);
+    app.add_flag(
+           "--displace", picture.displace,
+           "On a model: the heights of the picture block or of --bump\nmove the surface, in files, too")
+        ->group(group);
     app.add_flag("--space-time", picture.space_time,
                  "A line of cells over time: a row of pixels for each\ninterval")
         ->group(group);
@@ -280,9 +284,6 @@ void add_files(CLI::App& app, RunRequest& run) {
         "Models of N levels of detail, each with a quarter of the\ntriangles of the one before",
         whole_number(2, ModelFileOptions::most_levels),
         [&](auto levels) { run.model_files.levels = static_cast<int>(levels); })
-        ->group(group);
-    app.add_flag("--displace", run.model_files.displace,
-                 "Models raised by the heights of the picture block or of\n--bump")
         ->group(group);
     app.add_flag("--merge", run.model_files.merge,
                  "Cells that crawl as plain triangles, for programs that\nknow no instances")

@@ -345,6 +345,7 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.ground) request.ground = *changes.ground;
     if (changes.background) request.background = *changes.background;
     if (changes.bump) request.bump = *changes.bump;
+    if (changes.displace) request.displace = true;
     return request;
 }
 

@@ -58,6 +58,7 @@ struct PictureChanges {
     std::optional<bool> ground;
     std::optional<std::optional<Colour>> background;
     std::optional<float> bump;
+    bool displace = false;
 };
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request);

@@ -17,7 +17,8 @@ draw_recipe() { draw "$1" --grid 128x128 --scale 3 --palette "$2"; }
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
-        witkin_kass/* | surfaces/* | materials/* | bodies/*) draw "$1" ;;
+        materials/lava) draw "$1" --displace --light studio ;;
+        witkin_kass/* | surfaces/* | bodies/*) draw "$1" ;;
         on_models/torus) draw "$1" --view 30,40 ;;
         on_models/fingerprint | on_models/lobes) draw "$1" ;;
         on_models/giraffe) draw "$1" --view 60,10 --size 720x800 ;;

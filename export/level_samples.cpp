@@ -12,19 +12,11 @@ FineSurface::FineSurface(const SurfaceMesh& mesh, const CellFilter& filter,
       cells_(cells),
       displaced_(displaced),
       on_shape_(shape()),
-      normals_(corner_normals(shape())) {
-    if (displaced) on_mesh_.emplace(mesh);
-}
+      normals_(corner_normals(shape())) {}
 
 SurfacePlace FineSurface::place_near(Vector3d point) const {
     const SurfacePlace place = shape_near(point);
-    if (!displaced_) return place;
-    Vector3d below;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t corner = displaced_->mesh.triangles[place.triangle][k];
-        below = below + position_of(mesh_, displaced_->places[corner]) * place.weights[k];
-    }
-    return on_mesh_->find(below).value_or(SurfacePlace{});
+    return displaced_ ? displaced_->origins[place.triangle].at(place.weights) : place;
 }
 
 Vector3d FineSurface::normal_near(Vector3d point, PlacePainter& painter) const {

@@ -7,8 +7,6 @@
 #include "mesh/normals.h"
 #include "surface/nearest_place.h"
 
-#include <optional>
-
 namespace cascade {
 
 /// The surface that simplified ones stand for. What it is made from must outlive it. Thread-safe.
@@ -37,8 +35,7 @@ private:
     const PaintedCells& cells_;
     const RefinedMesh* displaced_;
     NearestPlace on_shape_;
-    std::optional<NearestPlace> on_mesh_;  ///< If another one than the shape.
-    CornerNormals normals_;                ///< Of the shape.
+    CornerNormals normals_;  ///< Of the shape.
 };
 
 /// Paints each sample as the place of the fine surface that is nearest to it, with its colour, its

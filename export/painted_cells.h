@@ -25,6 +25,7 @@ struct PaintedCells {
     /// One per cell: its height above the surface, in the unit of the mesh. Empty: no heights.
     std::span<const float> heights;
     MaterialCells material = {};
+    bool displaces = false;  ///< In pictures heights move the surface.
 };
 
 /// Paints places. Not thread-safe.

@@ -44,7 +44,7 @@ public:
           places_(mesh.points.size()) {
         constexpr Weights corners[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-            sources_.push_back({t, {corners[0], corners[1], corners[2]}});
+            origins_.push_back({t, {corners[0], corners[1], corners[2]}});
             for (std::size_t k = 0; k < 3; ++k) places_[triangles_[t][k]] = {t, corners[k]};
         }
     }
@@ -72,7 +72,8 @@ public:
         mesh.triangles = std::move(triangles_);
         mesh.across = std::move(across_);
         if (!first_.texture.empty()) {
-            for (const Source& source : sources_) mesh.texture.push_back(texture_of(source));
+            for (const TriangleOrigin& origin : origins_)
+                mesh.texture.push_back(texture_of(origin));
         }
         for (const PointAttribute& attribute : first_.attributes) {
             PointAttribute taken{attribute.name, {}};
@@ -82,17 +83,12 @@ public:
             mesh.attributes.push_back(std::move(taken));
         }
         result.places = std::move(places_);
+        result.origins = std::move(origins_);
         return result;
     }
 
 private:
     static constexpr std::uint32_t none = TriangleEdge::none;
-
-    /// A triangle of the first mesh, and the corners of this one in it.
-    struct Source {
-        std::uint32_t triangle = 0;
-        std::array<Weights, 3> corners;
-    };
 
     double length_between(std::uint32_t a, std::uint32_t b) const {
         return length(points_[a] - points_[b]);
@@ -122,16 +118,16 @@ private:
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 if (middles_[t][k] == none) continue;
-                places_[middles_[t][k]] = {sources_[t].triangle,
-                                           between(sources_[t].corners[k],
-                                                   sources_[t].corners[corner_after(k)])};
+                places_[middles_[t][k]] = {origins_[t].triangle,
+                                           between(origins_[t].corners[k],
+                                                   origins_[t].corners[corner_after(k)])};
             }
         }
     }
 
     void split() {
         std::vector<Triangle> triangles;
-        std::vector<Source> sources;
+        std::vector<TriangleOrigin> origins;
         std::vector<std::array<TriangleEdge, 3>> across;
         // The successors of each edge: itself, or its first and second half.
         std::vector<std::array<std::array<TriangleEdge, 2>, 3>> pieces(triangles_.size());
@@ -140,17 +136,17 @@ private:
             const std::vector<Part> parts = parts_of_triangle(t);
             for (const Part& part : parts) {
                 Triangle corners{};
-                Source source{sources_[t].triangle, {}};
+                TriangleOrigin origin{origins_[t].triangle, {}};
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t label = part[k], edge = label % 3;
                     corners[k] = label < 3 ? triangles_[t][label] : middles_[t][edge];
-                    source.corners[k] = label < 3
-                                            ? sources_[t].corners[label]
-                                            : between(sources_[t].corners[edge],
-                                                      sources_[t].corners[corner_after(edge)]);
+                    origin.corners[k] = label < 3
+                                            ? origins_[t].corners[label]
+                                            : between(origins_[t].corners[edge],
+                                                      origins_[t].corners[corner_after(edge)]);
                 }
                 triangles.push_back(corners);
-                sources.push_back(source);
+                origins.push_back(origin);
             }
             across.resize(triangles.size());
             link_parts(parts, first, across, pieces[t]);
@@ -168,7 +164,7 @@ private:
             }
         }
         triangles_ = std::move(triangles);
-        sources_ = std::move(sources);
+        origins_ = std::move(origins);
         across_ = std::move(across);
     }
 
@@ -209,14 +205,14 @@ private:
         }
     }
 
-    std::array<TexturePlace, 3> texture_of(const Source& source) const {
+    std::array<TexturePlace, 3> texture_of(const TriangleOrigin& origin) const {
         std::array<TexturePlace, 3> places;
-        const auto& corners = first_.texture[source.triangle];
+        const auto& corners = first_.texture[origin.triangle];
         for (std::size_t k = 0; k < 3; ++k) {
             for (std::size_t c = 0; c < 2; ++c) {
                 double sum = 0;
                 for (std::size_t corner = 0; corner < 3; ++corner) {
-                    sum += source.corners[k][corner] * static_cast<double>(corners[corner][c]);
+                    sum += origin.corners[k][corner] * static_cast<double>(corners[corner][c]);
                 }
                 places[k][c] = static_cast<float>(sum);
             }
@@ -239,9 +235,9 @@ private:
     std::vector<Vector3d> points_;
     std::vector<Triangle> triangles_;
     std::vector<std::array<TriangleEdge, 3>> across_;
-    std::vector<SurfacePlace> places_;  ///< Of the points.
-    std::vector<Source> sources_;       ///< Of the triangles.
-    std::vector<Triangle> middles_;     ///< The new points on their edges, or none.
+    std::vector<SurfacePlace> places_;     ///< Of the points.
+    std::vector<TriangleOrigin> origins_;  ///< Of the triangles.
+    std::vector<Triangle> middles_;        ///< The new points on their edges, or none.
 };
 
 }  // namespace

@@ -3,15 +3,33 @@
 
 #include "mesh/flat.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cascade {
 
+/// Where a triangle of a refined mesh lies in a triangle of the original one.
+struct TriangleOrigin {
+    std::uint32_t triangle = 0;
+    std::array<std::array<double, 3>, 3> corners;  ///< The weights of each corner.
+
+    /// The place in the original mesh with these weights of the part's corners.
+    SurfacePlace at(const std::array<double, 3>& weights) const {
+        SurfacePlace place{triangle, {}};
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t c = 0; c < 3; ++c) place.weights[c] += weights[k] * corners[k][c];
+        }
+        return place;
+    }
+};
+
 struct RefinedMesh {
     SurfaceMesh mesh;
-    std::vector<SurfacePlace> places;  ///< The place of each point in the original mesh.
+    std::vector<SurfacePlace> places;     ///< The place of each point in the original mesh.
+    std::vector<TriangleOrigin> origins;  ///< One for each triangle.
 };
 
 /// Halves edges longer than `longest_edge` (positive), splitting the triangles at them, until none

@@ -99,7 +99,10 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
                                                       static_cast<double>(gloss.power));
     const float facing = dot(normal, ray.direction);
     const Colour soft = lights_.soft(normal);
-    const Colour mirrored = lights_.mirrored(ray.direction - normal * (2 * facing), gloss);
+    const Vector3 onwards = ray.direction - normal * (2 * facing);
+    const Colour mirrored = lights_.mirrored(onwards, gloss);
+    // Tilted normals mirror what is below the surface, which hides it.
+    const float above = std::clamp(1 + dot(onwards, facet), 0.0F, 1.0F);
     const float reflected = reflectance(-facing, gloss);
     const float metal = gloss.metalness, dull = 1 - metal;
     const float lit = std::max(0.0F, dot(normal, sun));
@@ -110,7 +113,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
                          gleam * tint * (lights_.sunlight[k] / usual_sun);
         seen.always[k] = look.glow[k];
         seen.of_sky[k] = look.light[k] * (lights_.even[k] + soft[k] * dull) +
-                         mirrored[k] * (reflected * dull + look.light[k] * metal);
+                         mirrored[k] * above * above * (reflected * dull + look.light[k] * metal);
     }
     seen.kind = Seen::Kind::surface;
     seen.is_copy = hit.copy != Hit::body;

@@ -174,6 +174,11 @@ cmp -s level.ply level_too.ply || fail "--bump moves a model"
 run 0 $model --bump 0.1 --displace --bake 64 -o raised.glb -o raised.ply
 cmp -s level.ply raised.ply && fail "--displace moves nothing"
 [ ! -e raised_height.png ] && [ ! -e raised_normal.png ] || fail "heights twice"
+run 0 $model --bump 0.1 -o bumpy.png
+run 0 $model --bump 0.1 --displace -o raised.png
+cmp -s bumpy.png raised.png && fail "--displace changes no picture"
+run 0 run -q raised.png -o again.png
+cmp -s raised.png again.png || fail "a displaced picture is not drawn again byte for byte"
 run 2 $model --displace -o raised.ply
 says err "the surface has no heights"
 run 2 $model --lods 3 -o lods.png

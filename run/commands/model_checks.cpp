@@ -33,7 +33,7 @@ bool writes_model(const RunRequest& request) {
 void check_cells_of_model(OptionRefuser& options, const RunRequest& request) {
     for (const auto& [option, is_given] :
          {std::pair("--retile", request.model_files.retile),
-          std::pair("--displace", request.model_files.displace),
+          std::pair("--displace", request.picture.displace),
           std::pair("--bump", request.picture.bump != 0),
           std::pair("--cache", !request.simulation.cell_cache.empty())}) {
         options.refuse_if(is_given, option, std::string(not_a_model),
@@ -44,7 +44,7 @@ void check_cells_of_model(OptionRefuser& options, const RunRequest& request) {
 }  // namespace
 
 void check_heights(OptionRefuser& options, const RunRequest& request, bool has_heights) {
-    options.refuse_if(request.model_files.displace && !has_heights, "--displace",
+    options.refuse_if(request.picture.displace && !has_heights, "--displace",
                       "the surface has no heights",
                       "height: e in the picture block gives them, or --bump");
 }
@@ -53,7 +53,7 @@ void check_levels_of_cells(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "cells that crawl are written as copies of shapes";
     options.refuse_if(request.model_files.levels > 1, "--lods", message,
                       "'detail' in the picture block says how fine the shapes are");
-    options.refuse_if(request.model_files.displace, "--displace", message,
+    options.refuse_if(request.picture.displace, "--displace", message,
                       "--bake writes their heights as a map");
     options.refuse_if(request.model_files.texels_per_cell > 0, "--texels-per-cell",
                       "cells that crawl have sizes of their own", "--bake N says how many texels");
@@ -83,11 +83,8 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
     }
     options.refuse_if(files.retile && !is_tiled, "--retile",
                       "no model is written that it could tile", how_to_write_one);
-    for (const auto& [option, is_given] :
-         {std::pair("--lods", files.levels > 1), std::pair("--displace", files.displace)}) {
-        options.refuse_if(is_given && !writes_model(request), option, "no model is written",
-                          how_to_write_one);
-    }
+    options.refuse_if(files.levels > 1 && !writes_model(request), "--lods", "no model is written",
+                      how_to_write_one);
     options.refuse_if(files.has_maps() && !is_baked, option_of_maps(request),
                       "no model is written with its maps", "-o NAME.glb writes one");
     options.refuse_if(writes_exr(request) && !is_baked, "--exr", "no maps are written",

@@ -91,7 +91,9 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
             add(turntable_paths(output, request.turntable), "the picture");
         } else if (request.model_files.is_baked(output)) {
             for (std::size_t k = 0; k < levels; ++k) {
-                add(map_paths_of_level(output, k, maps, request.model_files), "the baked model");
+                add(map_paths_of_level(output, k, maps, request.picture.displace,
+                                       request.model_files.map_format),
+                    "the baked model");
             }
         } else if (kind == OutputKind::model) {
             for (std::size_t k = 0; k < levels; ++k) {

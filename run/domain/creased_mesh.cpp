@@ -16,22 +16,27 @@ Vector3 single(const Vector3d& a) {
 
 }  // namespace
 
-DrawnMesh creased_mesh(const SurfaceMesh& surface) {
+TriangleMesh creased_mesh(const SurfaceMesh& surface, const Vector3d& middle, double scale) {
     CornerNormals corners = corner_normals(surface);
+    TriangleMesh mesh;
+    // A point becomes one position for each of its normals.
+    mesh.positions.reserve(corners.points.size());
+    mesh.normals.reserve(corners.points.size());
+    for (std::size_t k = 0; k < corners.points.size(); ++k) {
+        mesh.positions.push_back(single((surface.points[corners.points[k]] - middle) * scale));
+        mesh.normals.push_back(single(corners.normals[k]));
+    }
+    mesh.triangles = std::move(corners.numbers);
+    return mesh;
+}
+
+DrawnMesh creased_mesh(const SurfaceMesh& surface) {
     const MeshFacts facts = facts_of(surface);
     const Vector3d box = facts.high - facts.low;
     DrawnMesh drawn;
     drawn.middle = (facts.low + facts.high) * 0.5;
     drawn.scale = 1 / std::max({box.x, box.y, box.z});
-    // A point becomes one position for each of its normals.
-    drawn.mesh.positions.reserve(corners.points.size());
-    drawn.mesh.normals.reserve(corners.points.size());
-    for (std::size_t k = 0; k < corners.points.size(); ++k) {
-        const Vector3d place = surface.points[corners.points[k]] - drawn.middle;
-        drawn.mesh.positions.push_back(single(place * drawn.scale));
-        drawn.mesh.normals.push_back(single(corners.normals[k]));
-    }
-    drawn.mesh.triangles = std::move(corners.numbers);
+    drawn.mesh = creased_mesh(surface, drawn.middle, drawn.scale);
     return drawn;
 }
 

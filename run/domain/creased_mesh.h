@@ -16,5 +16,7 @@ struct DrawnMesh {
 /// Normals are averages over the triangles around a point, but not across edges at which these meet
 /// at more than 60°. Throws std::bad_alloc.
 DrawnMesh creased_mesh(const SurfaceMesh& surface);
+/// The same where another one is drawn.
+TriangleMesh creased_mesh(const SurfaceMesh& surface, const Vector3d& middle, double scale);
 
 }  // namespace cascade

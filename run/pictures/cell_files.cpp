@@ -4,7 +4,7 @@
 #include "export/bake.h"
 #include "export/instanced_model.h"
 #include "export/placed_cells.h"
-#include "export/refine.h"
+#include "run/pictures/refined_model.h"
 #include "run/pictures/cells_from_outside.h"
 #include "run/pictures/model_picture.h"
 #include "tissue/tissue.h"

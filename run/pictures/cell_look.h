@@ -20,13 +20,16 @@ struct CellLook {
     PlaceColour colour;
     std::vector<float> heights;  ///< One per cell, in units of the model or plane; empty for none.
     Material material;
+    bool displaces = false;  ///< Heights move the surface; else they only bend its normals.
 
     /// A number for the palette, to which the range applies, or red, green and blue.
     CellLook(const Canvas& canvas, ValueRange range, const Palette& palette,
              const InOrder& in_order);
 
     /// Refers to the look. Without occlusion, which depends on the surface.
-    PaintedCells painted() const { return {channels, values, colour, heights, material.cells()}; }
+    PaintedCells painted() const {
+        return {channels, values, colour, heights, material.cells(), displaces};
+    }
 };
 
 }  // namespace cascade

@@ -4,10 +4,14 @@
 
 #include "core/check.h"
 #include "picture/srgb.h"
+#include "run/pictures/refined_model.h"
 #include "surface/blur_cells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace cascade {
 
@@ -91,19 +95,28 @@ void add_levels(const SurfaceCells& cells, const CellState& parts, float highest
     }
 }
 
-SurfacePlace place_of(const Hit& hit) {
-    const auto u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
-    return {hit.triangle, {1 - u - v, u, v}};
-}
+/// The drawn mesh, which may be a refined copy of that on which cells lie.
+struct Ground {
+    const TriangleMesh& mesh;
+    std::span<const TriangleOrigin> origins;  ///< Of its triangles; empty if it is the same.
+
+    /// Where cells see a hit.
+    SurfacePlace place_of(const Hit& hit) const {
+        const auto u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
+        const std::array<double, 3> weights = {1 - u - v, u, v};
+        return origins.empty() ? SurfacePlace{hit.triangle, weights}
+                               : origins[hit.triangle].at(weights);
+    }
+};
 
 class Shader {
 public:
-    Shader(const PaintedCells& look, const CellFilter& filter, const TriangleMesh& mesh,
+    Shader(const PaintedCells& look, const CellFilter& filter, const Ground& ground,
            const Levels& levels, float spacing)
         : look_(look),
           parts_(look),
           filter_(filter),
-          mesh_(mesh),
+          ground_(ground),
           levels_(levels),
           spacing_(spacing) {}
 
@@ -115,11 +128,11 @@ public:
     }
 
     Look operator()(const Sight& sight) const {
-        const SurfacePlace place = place_of(sight.hit);
+        const SurfacePlace place = ground_.place_of(sight.hit);
         const float level =
             std::min(level_of(side_of(sight)), static_cast<float>(levels_.size() - 1));
         Look look;
-        if (look_.heights.empty()) {
+        if (look_.heights.empty() || look_.displaces) {
             std::vector<CellShare> shares;
             filter_.shares(place, shares);
             look.light = light(shares, place, level);
@@ -137,9 +150,10 @@ public:
 private:
     /// Side of a sample's footprint on the surface, in spacings.
     float side_of(const Sight& sight) const {
-        const auto& [a, b, c] = mesh_.triangles[sight.hit.triangle];
-        const Vector3 facet = unit(cross(mesh_.positions[b] - mesh_.positions[a],
-                                         mesh_.positions[c] - mesh_.positions[a]));
+        const TriangleMesh& mesh = ground_.mesh;
+        const auto& [a, b, c] = mesh.triangles[sight.hit.triangle];
+        const Vector3 facet = unit(
+            cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
         const float cosine = std::max(least_cosine, std::abs(dot(facet, sight.direction)));
         return sight.width / spacing_ / std::sqrt(cosine);
     }
@@ -221,7 +235,7 @@ private:
     const PaintedCells& look_;
     CellState parts_;
     const CellFilter& filter_;
-    const TriangleMesh& mesh_;
+    const Ground& ground_;
     const Levels& levels_;
     float spacing_;
 };
@@ -230,12 +244,12 @@ private:
 /// edges, as in GLB files.
 class Opacity {
 public:
-    Opacity(std::span<const float> of_cells, const CellFilter& filter)
-        : of_cells_(of_cells), filter_(filter), is_cut_(is_cut(of_cells)) {}
+    Opacity(std::span<const float> of_cells, const CellFilter& filter, const Ground& ground)
+        : of_cells_(of_cells), filter_(filter), ground_(ground), is_cut_(is_cut(of_cells)) {}
 
     float operator()(const Hit& hit) const {
         std::vector<CellShare> shares;
-        filter_.shares(place_of(hit), shares);
+        filter_.shares(ground_.place_of(hit), shares);
         float sum = 0;
         for (const CellShare& share : shares) sum += share.weight * of_cells_[share.cell];
         if (is_cut_) return sum < 0.5F ? 0 : 1;
@@ -247,6 +261,7 @@ public:
 private:
     std::span<const float> of_cells_;
     const CellFilter& filter_;
+    const Ground& ground_;
     bool is_cut_;
 };
 
@@ -259,10 +274,23 @@ float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
            std::sqrt(least_cosine);
 }
 
+/// A raised surface, drawn where the surface is.
+struct RaisedMesh {
+    RefinedMesh fine;
+    TriangleMesh drawn;
+
+    RaisedMesh(RefinedMesh raised, const DrawnMesh& at)
+        : fine(std::move(raised)), drawn(creased_mesh(fine.mesh, at.middle, at.scale)) {}
+};
+
 }  // namespace
 
 CellScene::CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team)
-    : cells_(cells), drawn_(creased_mesh(mesh)), caster_(drawn_.mesh), filter_(mesh, cells, team) {
+    : mesh_(mesh),
+      cells_(cells),
+      drawn_(creased_mesh(mesh)),
+      caster_(drawn_.mesh),
+      filter_(mesh, cells, team) {
     spacing_ = static_cast<float>(cell_spacing(cells) * drawn_.scale);
 }
 
@@ -272,13 +300,20 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
     CHECK(look.values.size() == count * look.channels, "each cell has values of all channels");
     CHECK(look.heights.empty() || look.heights.size() == count, "each cell has a height");
     options.round_shadows = true;
+    std::optional<RaisedMesh> raised;
+    if (look.displaces && !look.heights.empty()) {
+        raised.emplace(raised_model(mesh_, cells_, filter_, look.heights, team), drawn_);
+    }
+    const Ground ground{raised ? raised->drawn : drawn_.mesh,
+                        raised ? std::span<const TriangleOrigin>(raised->fine.origins)
+                               : std::span<const TriangleOrigin>()};
     const auto opacities = look.material[MaterialPart::opacity];
     if (std::any_of(opacities.begin(), opacities.end(), [](float each) { return each < 1; })) {
-        options.opacity = Opacity(opacities, filter_);
+        options.opacity = Opacity(opacities, filter_, ground);
     }
-    const float highest = level_of(widest_side(drawn_.mesh, options) / spacing_);
+    const float highest = level_of(widest_side(ground.mesh, options) / spacing_);
     Levels levels(1);
-    const Shader shader(look, filter_, drawn_.mesh, levels, spacing_);
+    const Shader shader(look, filter_, ground, levels, spacing_);
     const CellState parts(look);
     if (highest > 0 || !look.heights.empty() || parts.shines || parts.glows) {
         std::vector<float>& states = levels[0];
@@ -300,8 +335,8 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
         });
     }
     add_levels(cells_, parts, highest, levels, team);
-    if (copies == nullptr) return cascade::draw(caster_, shader, options, team);
-    const cascade::Scene all(&drawn_.mesh, copies);
+    if (copies == nullptr && !raised) return cascade::draw(caster_, shader, options, team);
+    const cascade::Scene all(&ground.mesh, copies);
     return cascade::draw(RayCaster(all), shader, options, team);
 }
 

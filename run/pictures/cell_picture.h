@@ -22,6 +22,7 @@ public:
     /// `round_shadows` of the options. Bumps change the shading but not the outline. The picture
     /// does not depend on the number of threads. `copies` stand on the surface, in the coordinates
     /// of drawn(). Throws std::bad_alloc.
+    /// If the look displaces, heights move the surface instead, and copies stay where they are.
     Image draw(const PaintedCells& look, DrawOptions options, Team& team,
                const Instances* copies = nullptr) const;
 
@@ -30,6 +31,7 @@ public:
     const CellFilter& filter() const { return filter_; }
 
 private:
+    const SurfaceMesh& mesh_;
     const SurfaceCells& cells_;
     DrawnMesh drawn_;
     RayCaster caster_;

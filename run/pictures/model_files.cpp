@@ -6,12 +6,12 @@
 #include "export/cell_writer.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
-#include "export/refine.h"
 #include "film/film.h"
 #include "mesh/normals.h"
 #include "run/pictures/map_size.h"
 #include "run/pictures/model_maps.h"
 #include "run/pictures/model_picture.h"
+#include "run/pictures/refined_model.h"
 #include "surface/blur_cells.h"
 #include "surface/retile.h"
 
@@ -27,10 +27,6 @@ namespace cascade {
 
 namespace {
 
-// Between points colours are linear: at this distance, in cell spacings, they follow the filter,
-// whose radius is two.
-constexpr double colour_distance = 0.75;
-constexpr std::size_t most_triangles = std::size_t{1} << 23;
 constexpr double usual_cover = 0.6;  ///< The part of a map that an atlas of ours covers.
 
 }  // namespace
@@ -51,10 +47,6 @@ std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
 bool holds_texture(const std::filesystem::path& path) {
     const std::string ending = lower_ending(path);
     return ending == ".glb" || ending == ".obj" || ending == ".ply";
-}
-
-RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells) {
-    return refined(mesh, colour_distance * cell_spacing(cells), most_triangles);
 }
 
 bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
@@ -113,19 +105,12 @@ const CellFilter& ModelFileWriter::filter() {
     return *filter_;
 }
 
-/// The model with triangles so small that its points show the pattern, and its heights.
 const RefinedMesh& ModelFileWriter::refined() {
     if (refined_) return *refined_;
-    refined_ = std::make_unique<RefinedMesh>(refined_for_colours(mesh_, model_.spread().cells));
-    if (!options_.displace) return *refined_;
-    const Channel heights{"height", look_.heights};
-    std::vector<Vector3d> normals;
-    const std::vector<Vector3d> of_points = point_normals(mesh_);
-    for (const SurfacePlace& place : refined_->places) {
-        normals.push_back(normal_at(mesh_, of_points, place));
-    }
-    displace(refined_->mesh, normals,
-             values_at(refined_->places, filter(), {&heights, 1}, team_).front().values);
+    const SurfaceCells& cells = model_.spread().cells;
+    refined_ = std::make_unique<RefinedMesh>(
+        look_.displaces ? raised_model(mesh_, cells, filter(), look_.heights, team_)
+                        : refined_for_colours(mesh_, cells));
     return *refined_;
 }
 
@@ -141,7 +126,7 @@ Result<WrittenFiles> ModelFileWriter::write_one(const std::filesystem::path& pat
     }
     if (!options_.is_baked(path)) return write_with_levels(path);
     const MappedSurface surface{mesh_, model_.spread().cells, filter(),
-                                options_.displace ? &refined() : nullptr};
+                                look_.displaces ? &refined() : nullptr};
     return write_model_maps(path, surface, look_, options_, texts_, team_);
 }
 
@@ -208,7 +193,7 @@ Result<ModelLevel> ModelFileWriter::retiled() {
     for (const Channel& channel : channels_) {
         level.channels.push_back(attribute_of(*made, channel.name, channel.values));
     }
-    if (options_.displace) {
+    if (look_.displaces) {
         displace(made->mesh, point_normals(made->mesh),
                  attribute_of(*made, "", look_.heights).values);
     }

@@ -41,8 +41,7 @@ struct ModelFileOptions {
     std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 if not known yet.
     double texels_per_cell = 0;  ///< Along a cell, to choose `bake` by; 0 if it is given.
     bool merge = false;          ///< Of cells that crawl: plain triangles instead of instances.
-    bool unwrap = false;    ///< With texture coordinates of our own, even if the model has some.
-    bool displace = false;  ///< Raise the surface by its heights.
+    bool unwrap = false;  ///< With texture coordinates of our own, even if the model has some.
     MapFormat map_format = MapFormat::png;  ///< Of the maps beside GLB files.
     int levels = 1;  ///< Of detail, each with a quarter of the triangles of the one before.
     static constexpr int most_levels = 8;
@@ -65,9 +64,6 @@ Result<MeshTexture> made_texture(const SurfaceMesh& mesh, std::int64_t side, Tea
 
 /// The mesh in the coordinates of the model's file, with this texture unless it is empty.
 SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture);
-
-/// The mesh with triangles so small that colours of cells at its points show their pattern.
-RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
 /// Writes a mesh without colours to a .glb, .obj or .ply, as write_model() of export/ does. Fails
 /// if memory is short, too.
@@ -94,7 +90,7 @@ private:
     Result<void> make_levels();
     Result<ModelLevel> retiled();
     const CellFilter& filter();
-    const RefinedMesh& refined();
+    const RefinedMesh& refined();  ///< Raised by its heights, if the look says so.
 
     const ModelCells& model_;
     SurfaceMesh changed_;      ///< Empty if files have the model as it is.

@@ -107,12 +107,12 @@ private:
 
 std::vector<std::filesystem::path> map_paths_of_level(const std::filesystem::path& path,
                                                       std::size_t level, const MapSet& said,
-                                                      const ModelFileOptions& options) {
+                                                      bool displaces, MapFormat format) {
     MapSet maps = said;
-    if (level > 0 || options.displace) maps.heights = false;
-    if (options.displace) maps.normals = false;
+    if (level > 0 || displaces) maps.heights = false;
+    if (displaces) maps.normals = false;
     if (level > 0) maps.normals = true;
-    return map_paths(path_of_level(path, level), maps, options.map_format);
+    return map_paths(path_of_level(path, level), maps, format);
 }
 
 Result<WrittenFiles> write_model_maps(const std::filesystem::path& path,

@@ -30,9 +30,9 @@ Result<WrittenFiles> write_model_maps(const std::filesystem::path& path,
                                       Team& team);
 
 /// The files that write_model_maps makes for level k, 0 being the model itself; `said` are the
-/// maps that the script asks for.
+/// maps that the script asks for, and `displaces` that heights raise the surface.
 std::vector<std::filesystem::path> map_paths_of_level(const std::filesystem::path& path,
                                                       std::size_t level, const MapSet& said,
-                                                      const ModelFileOptions& options);
+                                                      bool displaces, MapFormat format);
 
 }  // namespace cascade

@@ -3,12 +3,11 @@
 
 #include "core/check.h"
 #include "export/painted_cells.h"
-#include "export/refine.h"
+#include "run/pictures/refined_model.h"
 #include "mesh/normals.h"
 #include "render/ray_caster.h"
 #include "render/samples.h"
 #include "run/domain/creased_mesh.h"
-#include "run/pictures/model_files.h"
 #include "surface/blur_cells.h"
 
 #include <cmath>
@@ -25,21 +24,6 @@ Vector3 in_single(const Vector3d& a) {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// The model as fine as its cells, with its points raised by the filtered heights.
-SurfaceMesh raised(const SurfaceMesh& mesh, const SurfaceCells& cells, const CellFilter& filter,
-                   std::span<const float> heights) {
-    RefinedMesh fine = refined_for_colours(mesh, cells);
-    const std::vector<Vector3d> normals = point_normals(fine.mesh);
-    const PaintedCells painted = {1, heights, {}, {}};
-    PlacePainter painter(filter, painted);
-    std::vector<float> value(painter.number_of_values());
-    for (std::size_t p = 0; p < fine.places.size(); ++p) {
-        painter.filter_at(fine.places[p], value);
-        fine.mesh.points[p] = fine.mesh.points[p] + normals[p] * static_cast<double>(value[0]);
-    }
-    return std::move(fine.mesh);
-}
-
 }  // namespace
 
 std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& cells,
@@ -48,7 +32,7 @@ std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& 
     CHECK(heights.size() == cells.places.size(), "each cell has a height");
     std::vector<float> finite(heights.begin(), heights.end());
     for (float& height : finite) height = std::isfinite(height) ? height : 0;
-    const DrawnMesh drawn = creased_mesh(raised(mesh, cells, filter, finite));
+    const DrawnMesh drawn = creased_mesh(raised_model(mesh, cells, filter, finite, team).mesh);
     const RayCaster caster(drawn.mesh);
     const CornerNormals normals = corner_normals(mesh);
     const auto nearby = static_cast<float>(cell_spacing(cells) * drawn.scale);

@@ -206,6 +206,7 @@ Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) co
 ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) const {
     const ValueRange used = range_of(canvas, range);
     ModelLook look(*model_, canvas, used, *palette_);
+    look.displaces = request_.displace;
     if (request_.bump != 0 && canvas.number() != nullptr) {
         look.raise(*model_, *canvas.number(), used, request_.bump);
     }

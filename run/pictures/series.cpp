@@ -5,7 +5,7 @@
 #include "core/file.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
-#include "export/refine.h"
+#include "run/pictures/refined_model.h"
 #include "picture/vti.h"
 #include "picture/xml_text.h"
 #include "run/pictures/model_files.h"

@@ -69,6 +69,7 @@ std::string to_json(const PictureRequest& request) {
     if (!request.ground) json["ground"] = false;
     if (request.background != pure_white) json["background"] = name_of(request.background);
     if (request.view.is_turning) json["turning"] = true;
+    if (request.displace) json["displace"] = true;
     if (request.bump != 0) json["bump"] = request.bump;
     if (!request.show.empty()) json["show"] = request.show;
     if (request.slice != Slice{}) {
@@ -104,6 +105,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     fields.read("background", background);
     fields.read("turning", request.view.is_turning);
     fields.read("bump", request.bump);
+    fields.read("displace", request.displace);
     fields.read("range", range);
     const auto is_none_or_two = [](std::size_t count) { return count == 0 || count == 2; };
     if (!fields.is_sound() || !is_none_or_two(view.size()) || !is_none_or_two(range.size()) ||

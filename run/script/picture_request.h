@@ -46,6 +46,7 @@ struct PictureRequest {
     /// Of a model: height of the largest number above the smallest one, in sides of the model, −1 …
     /// 1.
     float bump = 0;
+    bool displace = false;  ///< Of a model: heights move the surface, in files, too.
 
     /// True if the view is not the default one.
     bool is_turned() const;

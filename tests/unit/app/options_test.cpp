@@ -110,11 +110,12 @@ TEST(Options, run_takes_what_models_have) {
 TEST(Options, pictures_of_surfaces_have_a_size_a_quality_and_a_camera) {
     const Options options =
         parsed({"run", "a.cascade", "--size", "1920x1080", "--quality", "fine", "--fov", "40",
-                "--ground", "no", "--background", "none", "--light", "studio"});
+                "--ground", "no", "--background", "none", "--light", "studio", "--displace"});
     const PictureRequest picture = apply(options.picture, {});
     EXPECT_EQ(picture.size, (PictureSize{1920, 1080}));
     EXPECT_EQ(picture.quality, Quality::fine);
     EXPECT_EQ(picture.lighting, Lighting::studio);
+    EXPECT_TRUE(picture.displace);
     EXPECT_EQ(picture.fov, 40.0F);
     EXPECT_FALSE(picture.ground);
     EXPECT_FALSE(picture.background);

@@ -32,6 +32,12 @@ void expect_refined(const SurfaceMesh& mesh, const RefinedMesh& fine) {
     for (std::size_t p = 0; p < fine.places.size(); ++p) {
         EXPECT_LT(length(position_of(mesh, fine.places[p]) - fine.mesh.points[p]), 1e-12) << p;
     }
+    ASSERT_EQ(fine.origins.size(), fine.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < fine.origins.size(); ++t) {
+        const std::array<double, 3> weights = {0.5, 0.2, 0.3};
+        const Vector3d here = position_of(fine.mesh, {t, weights});
+        EXPECT_LT(length(position_of(mesh, fine.origins[t].at(weights)) - here), 1e-12) << t;
+    }
     EXPECT_TRUE(std::equal(mesh.points.begin(), mesh.points.end(), fine.mesh.points.begin()));
     EXPECT_EQ(fine.mesh.texture.size(), mesh.texture.empty() ? 0 : fine.mesh.triangles.size());
 }

@@ -51,6 +51,7 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     request.size = {1920, 1080};
     request.quality = Quality::fine;
     request.lighting = Lighting::outdoors;
+    request.displace = true;
     request.fov = 62.5F;
     request.ground = false;
     const auto back = picture_request_from_json(to_json(request));
@@ -61,6 +62,7 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     EXPECT_EQ(back->size, request.size);
     EXPECT_EQ(back->quality, Quality::fine);
     EXPECT_EQ(back->lighting, Lighting::outdoors);
+    EXPECT_TRUE(back->displace);
     EXPECT_EQ(back->fov, 62.5F);
     EXPECT_FALSE(back->ground);
     EXPECT_EQ(to_json({}).find("fov"), std::string::npos);

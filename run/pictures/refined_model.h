@@ -1,0 +1,22 @@
+// Models with triangles as fine as their cells.
+#pragma once
+
+#include "core/parallel.h"
+#include "export/refine.h"
+#include "surface/cell_filter.h"
+#include "surface/surface_cells.h"
+
+#include <span>
+
+namespace cascade {
+
+/// The mesh with triangles so small that colours of cells at its points show their pattern.
+RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cells);
+
+/// The same, raised along the smooth normals of `mesh` by the filtered heights of its cells, one
+/// each, in lengths of the mesh. Places are those on `mesh`. Heights that are not finite count as 0
+/// where a point sees them. The same on any number of threads. Throws std::bad_alloc.
+RefinedMesh raised_model(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                         const CellFilter& filter, std::span<const float> heights, Team& team);
+
+}  // namespace cascade
