@@ -285,6 +285,9 @@ void add_files(CLI::App& app, RunRequest& run) {
         whole_number(2, ModelFileOptions::most_levels),
         [&](auto levels) { run.model_files.levels = static_cast<int>(levels); })
         ->group(group);
+    app.add_flag("--animate", run.model_files.animate,
+                 "A model .glb that shows how the pattern grew, a moment\nfor each interval")
+        ->group(group);
     app.add_flag("--merge", run.model_files.merge,
                  "Cells that crawl as plain triangles, for programs that\nknow no instances")
         ->group(group);

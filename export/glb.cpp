@@ -24,16 +24,23 @@ constexpr double coverage_factor = 4;
 /// Adds the parts of one model to a file.
 class ModelParts {
 public:
-    ModelParts(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file)
+    ModelParts(const SurfaceMesh& mesh, const GlbLook& look, const GlbGrowth& growth, GlbFile& file)
         : mesh_(mesh),
           look_(look),
+          growth_(growth),
           vertices_(render_vertices(mesh, corner_normals(mesh))),
           file_(file) {}
 
     std::size_t add() {
         Json primitive = this->primitive();
         primitive["material"] = file_.add("materials", material());
-        return file_.add("meshes", {{"primitives", Json::array({primitive})}});
+        if (growth_.moments.empty()) {
+            return file_.add("meshes", {{"primitives", Json::array({primitive})}});
+        }
+        primitive["targets"] = targets();
+        const std::vector<float> weights(growth_.moments.size());
+        return file_.add("meshes",
+                         {{"primitives", Json::array({primitive})}, {"weights", weights}});
     }
 
 private:
@@ -70,12 +77,67 @@ private:
     }
 
     std::size_t add_colours() {
-        return file_.add_numbers<std::uint16_t>(
-            GlbFile::vertex_buffer, "VEC4", vertices_.points.size(),
-            [&](std::size_t k, std::size_t c) {
-                if (c == 3) return 65535u;
-                return level_of(light_of(shown(look_.colours[vertices_.points[k]])[c]), 65535);
-            });
+        return file_.add_numbers<std::uint16_t>(GlbFile::vertex_buffer, "VEC4",
+                                                vertices_.points.size(),
+                                                [&](std::size_t k, std::size_t c) {
+                                                    return c == 3 ? 65535u
+                                                                  : level_in(look_.colours, k, c);
+                                                });
+    }
+
+    /// The light of a vertex as a level of 16 bits.
+    std::uint32_t level_in(std::span<const Colour> colours, std::size_t vertex,
+                           std::size_t channel) const {
+        return level_of(light_of(shown(colours[vertices_.points[vertex]])[channel]), 65535);
+    }
+
+    /// What each moment differs by from the mesh.
+    Json targets() {
+        Json targets = Json::array();
+        const std::vector<Vector3d> normals = point_normals(mesh_);
+        std::optional<std::size_t> still;
+        for (const GlbMoment& moment : growth_.moments) {
+            Json target;
+            if (!moment.points.empty()) {
+                add_shape(moment, normals, target);
+            } else {
+                // three.js shows no colours of targets without places.
+                if (!still) still = file_.add_zeros(vertices_.points.size());
+                target["POSITION"] = *still;
+            }
+            target["COLOR_0"] = file_.add_numbers<std::int16_t>(
+                GlbFile::vertex_buffer, "VEC4", vertices_.points.size(),
+                [&](std::size_t k, std::size_t c) {
+                    if (c == 3) return 0;
+                    const auto now = static_cast<int>(level_in(look_.colours, k, c));
+                    // 32767 stands for 1, as 65535 does in the colours.
+                    return (static_cast<int>(level_in(moment.colours, k, c)) - now) / 2;
+                });
+            targets.push_back(std::move(target));
+        }
+        return targets;
+    }
+
+    /// Normals of vertices at creases turn as those of their points do.
+    void add_shape(const GlbMoment& moment, const std::vector<Vector3d>& normals, Json& target) {
+        SurfaceMesh moved;
+        moved.points = moment.points;
+        moved.triangles = mesh_.triangles;
+        const std::vector<Vector3d> turned = point_normals(moved);
+        const auto add = [&](const auto& difference) {
+            return file_.add_bounded(GlbFile::vertex_buffer, "VEC3", vertices_.points.size(),
+                                     [&](std::size_t k, std::size_t c) {
+                                         return GlbFile::component(
+                                             difference(k, vertices_.points[k]), c);
+                                     });
+        };
+        target["POSITION"] = add([&](std::size_t, std::uint32_t point) {
+            return moment.points[point] - mesh_.points[point];
+        });
+        target["NORMAL"] = add([&](std::size_t k, std::uint32_t point) {
+            const Vector3d& own = vertices_.normals[k];
+            return unit(own + turned[point] - normals[point]) - own;
+        });
     }
 
     Json material() {
@@ -137,26 +199,57 @@ private:
 
     const SurfaceMesh& mesh_;
     const GlbLook& look_;
+    const GlbGrowth& growth_;
     RenderVertices vertices_;
     GlbFile& file_;
     std::optional<std::size_t> sampler_;
 };
 
+/// An animation in which one moment after the other has all the weight, and the mesh the rest.
+void animate(std::size_t node, const GlbGrowth& growth, GlbFile& file) {
+    const std::size_t count = growth.moments.size();
+    const std::size_t times =
+        file.add_bounded(0, "SCALAR", count + 1, [&](std::size_t k, std::size_t) {
+            return static_cast<float>(growth.seconds * static_cast<double>(k));
+        });
+    const std::size_t weights =
+        file.add_numbers<float>(0, "SCALAR", (count + 1) * count, [&](std::size_t k, std::size_t) {
+            return k / count == k % count ? 1.0F : 0.0F;
+        });
+    Json animation = {{"name", "growth"}};
+    animation["samplers"] = Json::array({{{"input", times}, {"output", weights}}});
+    animation["channels"] =
+        Json::array({{{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}}});
+    file.add("animations", std::move(animation));
+}
+
 }  // namespace
 
-std::size_t add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file) {
+std::size_t add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file,
+                      const GlbGrowth& growth) {
     CHECK(look.colours.empty() || look.colours.size() == mesh.points.size(),
           "there is a colour for each point");
     CHECK((look.colour_map.empty() && look.normal_map.empty() && look.surface_map.empty() &&
            look.emission_map.empty()) ||
               !mesh.texture.empty(),
           "pictures lie over models with texture coordinates");
-    return ModelParts(mesh, look, file).add();
+    return ModelParts(mesh, look, growth, file).add();
 }
 
 Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look) {
     const GlbLevel only{mesh, look};
     return encode_glb(std::span(&only, 1));
+}
+
+Result<std::string> encode_growing_glb(const SurfaceMesh& mesh, const GlbLook& look,
+                                       const GlbGrowth& growth) {
+    const SurfaceMesh::Box box = mesh.box();
+    const Result<Vector3d> origin = origin_of_glb(mesh.points, box.low, box.high);
+    if (!origin) return tl::unexpected(origin.error());
+    GlbFile file(*origin);
+    const std::size_t node = file.add_node({{"mesh", add_model(mesh, look, file, growth)}});
+    if (!growth.moments.empty()) animate(node, growth, file);
+    return file.pack();
 }
 
 Result<std::string> encode_glb(std::span<const GlbLevel> levels) {

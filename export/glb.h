@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cascade {
 
@@ -33,6 +34,24 @@ struct GlbLook {
 /// centre if they would not be exact otherwise. Fails on models larger than 10³⁰ or smaller than
 /// 10⁻³⁰, which binary32 cannot represent, and above 4 GiB.
 Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look);
+
+/// A moment of the growth of a model: numbers at the points of its mesh.
+struct GlbMoment {
+    std::vector<Colour> colours;   ///< sRGB.
+    std::vector<Vector3d> points;  ///< Where they are; empty: where the mesh has them.
+};
+
+/// How a model became what it is.
+struct GlbGrowth {
+    std::span<const GlbMoment> moments;  ///< Before that of the mesh, the first one first.
+    double seconds = 0;                  ///< From one to the next, above 0.
+};
+
+/// The same with an animation: each moment is a morph target, with the differences of colours,
+/// places and normals, and between two moments they change evenly. Programs that know no colours of
+/// morph targets show the mesh as it is. Meshes with texture coordinates keep their tangents.
+Result<std::string> encode_growing_glb(const SurfaceMesh& mesh, const GlbLook& look,
+                                       const GlbGrowth& growth);
 
 /// A level of detail of a model.
 struct GlbLevel {

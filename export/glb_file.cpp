@@ -60,6 +60,16 @@ void GlbFile::require(const char* extension) {
     file_["extensionsRequired"].push_back(extension);
 }
 
+std::size_t GlbFile::add_zeros(std::size_t count) {
+    const std::array<float, 3> zero{};
+    accessors_.push_back({{"componentType", code_of<float>()},
+                          {"count", count},
+                          {"type", "VEC3"},
+                          {"min", zero},
+                          {"max", zero}});
+    return accessors_.size() - 1;
+}
+
 std::size_t GlbFile::add_corners(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertices, bool is_compact) {
     const auto corner = [&](std::size_t k, std::size_t) { return triangles[k / 3][k % 3]; };

@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace cascade {
 
@@ -32,7 +32,7 @@ public:
     explicit GlbFile(Vector3d origin = {});
 
     /// Appends to a list: "nodes", "meshes", "materials", "images", "textures",
-    /// "samplers".
+    /// "samplers", "animations".
     std::size_t add(const char* list, Json part);
     /// A node, which is moved by the origin. One that is not in the scene belongs to another one.
     std::size_t add_node(Json node, bool is_in_scene = true);
@@ -78,20 +78,34 @@ public:
     /// Positions of vertices relative to the origin, with their bounds; `place(k)` in double.
     template <typename Take>
     std::size_t add_places(std::size_t count, const Take& place) {
-        std::array<float, 3> low, high;
-        low.fill(std::numeric_limits<float>::max());
-        high.fill(std::numeric_limits<float>::lowest());
-        const std::size_t number =
-            add_numbers<float>(vertex_buffer, "VEC3", count, [&](std::size_t k, std::size_t c) {
-                const float part = component(place(k) - origin_, c);
+        return add_bounded(vertex_buffer, "VEC3", count, [&](std::size_t k, std::size_t c) {
+            return component(place(k) - origin_, c);
+        });
+    }
+
+    /// The same as add_numbers() for binary32, with the bounds of each component.
+    template <typename Take>
+    std::size_t add_bounded(int target, std::string_view shape, std::size_t count,
+                            const Take& number) {
+        std::vector<float> low, high;
+        const std::size_t added =
+            add_numbers<float>(target, shape, count, [&](std::size_t k, std::size_t c) {
+                const float part = number(k, c);
+                if (k == 0) {
+                    low.push_back(part);
+                    high.push_back(part);
+                }
                 low[c] = std::min(low[c], part);
                 high[c] = std::max(high[c], part);
                 return part;
             });
-        accessors_[number]["min"] = low;
-        accessors_[number]["max"] = high;
-        return number;
+        accessors_[added]["min"] = low;
+        accessors_[added]["max"] = high;
+        return added;
     }
+
+    /// `count` vectors of zeros, which take no bytes.
+    std::size_t add_zeros(std::size_t count);
 
     /// The corners of triangles between `vertices` vertices, in as few bytes as they need.
     std::size_t add_corners(std::span<const std::array<std::uint32_t, 3>> triangles,
@@ -131,6 +145,7 @@ Result<Vector3d> origin_of_glb(std::span<const Vector3d> points, Vector3d low, V
 GlbFile::Json plain_material(float roughness);
 
 /// Adds a model with its look. Returns the number of its mesh.
-std::size_t add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file);
+std::size_t add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file,
+                      const GlbGrowth& growth = {});
 
 }  // namespace cascade

@@ -162,6 +162,16 @@ done
 [ ! -e lengths_color.png ] || fail "maps in two formats"
 run 2 $model --exr -o lengths.glb
 says err "no maps are written"
+# A model that grows: as many moments as there are intervals, and one for the start.
+run 0 run -q spots.cascade --mesh creature --cells 600 --animate -o grows.glb --fps 5
+grep -qa '"animations"' grows.glb || fail "nothing moves"
+run 0 mesh grows.glb
+run 2 $model --animate -o grows.ply
+says err "no model is written that could move"
+run 2 $model --animate -o grows.glb --bake 64
+says err "maps do not move"
+run 2 run -q spots.cascade --animate -o grows.glb
+says err "the domain is not a model"
 # Maps as large as the cells ask for.
 run 0 run spots.cascade --mesh square.obj --cells 300 --texels-per-cell 2 -o fitting.glb
 says err "maps of 64 texels: a cell is 3.7 texels wide"

@@ -29,12 +29,12 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
 
 }  // namespace
 
-FilmPlan film_plan(const FilmRequest& request, std::size_t count, bool has_gif) {
+FilmPlan film_plan(const FilmRequest& request, std::size_t count, bool has_gif, std::size_t most) {
     FilmPlan plan;
-    std::size_t most = count;
     if (request.seconds > 0) {
         const double fastest = has_gif ? fastest_gif : fastest_film;
-        most = static_cast<std::size_t>(std::max(1.0, std::floor(fastest * request.seconds)));
+        const double followed = std::max(1.0, std::floor(fastest * request.seconds));
+        most = std::min(most, static_cast<std::size_t>(followed));
     }
     plan.frames = evenly(count, most);
     plan.frames_per_second =

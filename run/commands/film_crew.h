@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,9 +23,11 @@ struct FilmPlan {
     double frames_per_second = 10;
 };
 
-/// The plan for `count` frames. Where a film is to last so few seconds that players could not
-/// follow, frames are left out evenly between the first and the last.
-FilmPlan film_plan(const FilmRequest& request, std::size_t count, bool has_gif);
+/// The plan for `count` frames. Where there are more than `most`, or a film is to last so few
+/// seconds that players could not follow, frames are left out evenly between the first and the
+/// last.
+FilmPlan film_plan(const FilmRequest& request, std::size_t count, bool has_gif,
+                   std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// Writes all films. One that fails does not prevent the others.
 class FilmCrew {

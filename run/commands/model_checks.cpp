@@ -34,6 +34,7 @@ void check_cells_of_model(OptionRefuser& options, const RunRequest& request) {
     for (const auto& [option, is_given] :
          {std::pair("--retile", request.model_files.retile),
           std::pair("--displace", request.picture.displace),
+          std::pair("--animate", request.model_files.animate),
           std::pair("--bump", request.picture.bump != 0),
           std::pair("--cache", !request.simulation.cell_cache.empty())}) {
         options.refuse_if(is_given, option, std::string(not_a_model),
@@ -55,6 +56,8 @@ void check_levels_of_cells(OptionRefuser& options, const RunRequest& request) {
                       "'detail' in the picture block says how fine the shapes are");
     options.refuse_if(request.picture.displace, "--displace", message,
                       "--bake writes their heights as a map");
+    options.refuse_if(request.model_files.animate, "--animate", message,
+                      "-o NAME.gif and other films show how they move");
     options.refuse_if(request.model_files.texels_per_cell > 0, "--texels-per-cell",
                       "cells that crawl have sizes of their own", "--bake N says how many texels");
 }
@@ -67,6 +70,27 @@ void check_without_surface(OptionRefuser& options, const RunRequest& request) {
         options.refuse_if(is_given, option, std::string(not_a_model),
                           std::string(how_to_get_a_model));
     }
+}
+
+/// Models that show how they grew.
+void check_animated(OptionRefuser& options, const RunRequest& request) {
+    const ModelFileOptions& files = request.model_files;
+    if (!files.animate) return;
+    const auto& outputs = request.outputs;
+    const bool has_glb = std::any_of(outputs.begin(), outputs.end(),
+                                     [&](const auto& output) { return files.is_animated(output); });
+    options.refuse_if(!has_glb, "--animate", "no model is written that could move",
+                      "-o NAME.glb writes one");
+    options.refuse_if(files.has_maps(), "--animate", "maps do not move",
+                      std::string("leave out ") + option_of_maps(request) +
+                          ": colours of points do");
+    options.refuse_if(files.levels > 1, "--animate", "levels of detail do not move",
+                      "leave out --lods");
+    options.refuse_if(files.retile, "--animate", "the triangles of --retile do not move",
+                      "leave out --retile");
+    options.refuse_if(request.session.has_value(), "--animate",
+                      "a session is played to its end before anything is written",
+                      "a run of its script shows how it grows");
 }
 
 void check_model_files(OptionRefuser& options, const RunRequest& request) {
@@ -94,6 +118,7 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
                           ? "the triangles of --retile have no texture coordinates"
                           : "no model is written that has texture coordinates",
                       "-o NAME.glb, .obj or .ply writes one");
+    check_animated(options, request);
     options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
                       "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
 }

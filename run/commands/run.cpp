@@ -121,7 +121,8 @@ Result<void> Runner::prepare() {
         if (!frames) return tl::unexpected(frames.error());
         earlier_frames_ = std::move(*frames);
     }
-    const bool has_frames = !request_.frames.empty() || films_steps(request_);
+    const bool has_frames =
+        !request_.frames.empty() || films_steps(request_) || request_.model_files.animate;
     if (has_frames || request_.picture.space_time) {
         auto frames = FrameRecorder::create(has_frames, request_.picture.space_time);
         if (!frames) return tl::unexpected(frames.error());

@@ -250,8 +250,9 @@ void check_films(OptionRefuser& options, const RunRequest& request) {
     const FilmRequest& wanted = request.film;
     const std::string message = "no film is written";
     const std::string hint = "-o NAME.gif, .webp, .apng, .mp4 or .webm writes one";
-    options.refuse_if(wanted.frames_per_second > 0 && !has_film, "--fps", message, hint);
-    options.refuse_if(wanted.seconds > 0 && !has_film, "--seconds", message, hint);
+    const bool has_pace = has_film || request.model_files.animate;
+    options.refuse_if(wanted.frames_per_second > 0 && !has_pace, "--fps", message, hint);
+    options.refuse_if(wanted.seconds > 0 && !has_pace, "--seconds", message, hint);
     options.refuse_if(request.slices > 0 && !has_film, "--slices", message, hint);
     options.refuse_if(!request.labels.empty() && request.frames.empty() && !films_steps(request),
                       "--label", "no frames of a run are drawn",

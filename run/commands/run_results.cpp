@@ -2,6 +2,7 @@
 #include "run/commands/run_results.h"
 
 #include "core/counted.h"
+#include "run/commands/film_crew.h"
 #include "run/commands/run_checks.h"
 #include "run/pictures/body_file.h"
 #include "run/pictures/body_picture.h"
@@ -149,7 +150,31 @@ Result<void> RunResults::write_model_files(const Canvas& canvas) {
     const ModelLook look = painter.look(canvas);
     ModelFileWriter writer(*simulation.model(), texture, look, channels(canvas),
                            request.model_files, texts(request.picture));
-    return write_each([&](const std::filesystem::path& path) { return writer.write(path); });
+    return write_each([&](const std::filesystem::path& path) -> Result<WrittenFiles> {
+        if (!request.model_files.is_animated(path)) return writer.write(path);
+        if (auto done = write_growth(path); !done) return tl::unexpected(done.error());
+        return WrittenFiles{{path}, {}};
+    });
+}
+
+/// Of a model, by the frames of the run, in one range.
+Result<void> RunResults::write_growth(const std::filesystem::path& path) {
+    if (auto failed = frames->failure()) return tl::unexpected(*failed);
+    if (frames->count() == 0) {
+        return failure(fmt::format("'{}' has no moments, because the run took no step",
+                                   path.string()),
+                       "there is one at the start of a stage and at each 'interval'");
+    }
+    FilmPlan plan = film_plan(request.film, frames->count(), false, ModelGrowth::most);
+    const auto look_of = [&](std::size_t k) -> Result<ModelLook> {
+        const auto canvas = frames->canvas(plan.frames[k]);
+        if (!canvas) return tl::unexpected(canvas.error());
+        return painter.look(*canvas, frames->range());
+    };
+    const auto last = look_of(plan.frames.size() - 1);
+    if (!last) return tl::unexpected(last.error());
+    return write_growing_model(path, *simulation.model(), texture, *last,
+                               {plan.frames.size(), look_of, 1 / plan.frames_per_second});
 }
 
 /// Of a stage of cells that crawl.

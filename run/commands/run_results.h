@@ -56,6 +56,7 @@ private:
     Result<void> write_each(
         const std::function<Result<WrittenFiles>(const std::filesystem::path&)>& write_one);
     Result<void> write_model_files(const Canvas& canvas);
+    Result<void> write_growth(const std::filesystem::path& path);
     Result<void> write_cell_files(const Canvas& canvas);
     Result<void> write_body_files(const Canvas& canvas);
     Result<void> write_plane_files(const Canvas& canvas);

@@ -174,7 +174,7 @@ int FrameRecorder::threads_for(const Painter& painter, int threads) const {
 Result<void> FrameRecorder::draw(Painter& painter, std::span<const std::size_t> numbers,
                                  int threads, const std::atomic<bool>& cancel,
                                  const UseImage& use) {
-    const ValueRange range = automatic_range(values_);
+    const ValueRange range = this->range();
     std::mutex mutex;  // Of the following, and of the file.
     std::condition_variable is_done;
     std::size_t begun = 0, done = 0;
@@ -238,7 +238,7 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const std::files
 Image FrameRecorder::space_time(Painter& painter) const {
     Image whole(0, 0);
     for (const Canvas& row : rows_) {
-        const Image image = painter.image(row, automatic_range(values_));
+        const Image image = painter.image(row, range());
         whole.width = image.width;
         whole.height += image.height;
         whole.pixels.insert(whole.pixels.end(), image.pixels.begin(), image.pixels.end());

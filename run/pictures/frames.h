@@ -35,6 +35,10 @@ public:
     bool holds_starts_alone() const;
 
     std::size_t count() const { return frames_.size(); }
+    /// The values of a frame. Fails if they cannot be read back.
+    Result<Canvas> canvas(std::size_t number) { return read_back(frames_[number]); }
+    /// The range of all frames.
+    ValueRange range() const { return automatic_range(values_); }
 
     /// What remains to be done with a picture once those before it are done.
     using InOrder = std::function<Result<void>()>;

@@ -53,6 +53,10 @@ bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
     return has_maps() && lower_ending(path) == ".glb";
 }
 
+bool ModelFileOptions::is_animated(const std::filesystem::path& path) const {
+    return animate && lower_ending(path) == ".glb";
+}
+
 std::int64_t texture_side(const ModelFileOptions& options, std::int64_t cells) {
     if (options.texels_per_cell > 0) {
         return std::min(map_side(options.texels_per_cell, cells, usual_cover),

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,7 @@ struct ModelFileOptions {
     bool retile = false;    ///< Triangulate the cells instead of refining the model's triangles.
     std::int64_t bake = 0;  ///< Side of the maps of GLB files in texels; 0 if not known yet.
     double texels_per_cell = 0;  ///< Along a cell, to choose `bake` by; 0 if it is given.
+    bool animate = false;        ///< GLB files show how the model grew.
     bool merge = false;          ///< Of cells that crawl: plain triangles instead of instances.
     bool unwrap = false;  ///< With texture coordinates of our own, even if the model has some.
     MapFormat map_format = MapFormat::png;  ///< Of the maps beside GLB files.
@@ -49,6 +51,8 @@ struct ModelFileOptions {
     bool has_maps() const { return bake > 0 || texels_per_cell > 0; }
     /// True if this file gets maps.
     bool is_baked(const std::filesystem::path& path) const;
+    /// True if this file shows the growth.
+    bool is_animated(const std::filesystem::path& path) const;
 };
 
 /// Whether files of a model need texture coordinates that are still to be made.
@@ -68,6 +72,21 @@ SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture);
 /// Writes a mesh without colours to a .glb, .obj or .ply, as write_model() of export/ does. Fails
 /// if memory is short, too.
 Result<void> write_plain_model(const std::filesystem::path& path, const SurfaceMesh& mesh);
+
+/// How a model looked at moments of a run, the last one last.
+struct ModelGrowth {
+    static constexpr std::size_t most = 64;  ///< Moments.
+    std::size_t count = 0;
+    std::function<Result<ModelLook>(std::size_t number)> look;
+    double seconds = 0;  ///< From one to the next.
+};
+
+/// Writes a GLB file that shows the growth: the mesh, refined as for colours, looks as `last`, and
+/// its animation begins with moment 0 and ends with moment growth.count − 1, which is `last`. Fails
+/// as encode_growing_glb() does, and if memory is short.
+Result<void> write_growing_model(const std::filesystem::path& path, const ModelCells& model,
+                                 const MeshTexture& texture, const ModelLook& last,
+                                 const ModelGrowth& growth);
 
 /// Writes the state at one moment. Objects passed to it must outlive it.
 class ModelFileWriter {
