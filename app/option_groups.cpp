@@ -152,6 +152,13 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
     add_value(app, "--scale", "N", "Pixels for the side of a cell (1 to 64)", whole_number(1, 64),
               [&](auto scale) { picture.scale = static_cast<int>(scale); })
         ->group(group);
+    add_value(
+        app, "--detail", "N",
+        "Carry the end to N x N cells in place of each, in the same\ndomain, and let it settle "
+        "there (1 to 8)",
+        whole_number(1, most_detail),
+        [&](auto detail) { picture.detail = static_cast<int>(detail); })
+        ->group(group);
     app.add_flag("--flat", picture.flat, "On a surface: the texture alone, without the surface")
         ->group(group);
     add_value(app, "--view", "AROUND,ABOVE",

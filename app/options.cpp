@@ -334,6 +334,7 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.range) request.range = *changes.range;
     if (changes.scale) request.scale = *changes.scale;
     if (changes.depth) request.depth = *changes.depth;
+    if (changes.detail) request.detail = *changes.detail;
     if (changes.space_time) request.space_time = true;
     if (changes.slice) request.slice = *changes.slice;
     if (changes.flat) request.flat = true;

@@ -47,6 +47,7 @@ struct PictureChanges {
     std::optional<ValueRange> range;
     std::optional<int> scale;
     std::optional<int> depth;
+    std::optional<int> detail;
     bool space_time = false;
     std::optional<Slice> slice;
     bool flat = false;

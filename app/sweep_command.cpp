@@ -90,6 +90,7 @@ int sweep_command(const Options& options, Console& console) {
     }
     request.picture = apply(options.picture, std::move(request.picture));
     request.picture.scale = 1;
+    request.picture.detail = 1;
     request.picture.space_time = false;
 
     SweepControl control;

@@ -99,10 +99,10 @@ Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid
 }
 
 Grid finer_grid(const Grid& grid, std::int64_t times) {
-    CHECK(grid.depth == 1, "a volume is not divided");
     Grid result = grid;
-    result.width = grid.width * times;
-    if (grid.height > 1) result.height = grid.height * times;
+    for (std::int64_t* const side : {&result.width, &result.height, &result.depth}) {
+        if (*side > 1) *side *= times;
+    }
     result.spacing = grid.spacing / static_cast<double>(times);
     return result;
 }
@@ -141,28 +141,57 @@ std::vector<Around<Number>> around(std::int64_t cells, std::int64_t finer, Bound
 
 }  // namespace
 
+namespace {
+
+/// Interpolates `plane`, cells of one slice of a grid, into a slice of the finer one.
+template <typename Number>
+void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& grid,
+                  const std::vector<Around<Number>>& columns,
+                  const std::vector<Around<Number>>& rows, Plane<Number>& result, std::int64_t k) {
+    std::vector<Number> line(static_cast<std::size_t>(grid.width));
+    for (std::int64_t j = 0; j < static_cast<std::int64_t>(rows.size()); ++j) {
+        const Around<Number>& down = rows[static_cast<std::size_t>(j)];
+        for (std::int64_t i = 0; i < grid.width; ++i) {
+            std::array<Number, cells_between> v{};
+            for (std::size_t n = 0; n < v.size(); ++n)
+                v[n] = from[down.cells[n] * layout.stride + i];
+            line[static_cast<std::size_t>(i)] = value_between(v, down.part);
+        }
+        for (std::int64_t i = 0; i < static_cast<std::int64_t>(columns.size()); ++i) {
+            const Around<Number>& across = columns[static_cast<std::size_t>(i)];
+            std::array<Number, cells_between> v{};
+            for (std::size_t n = 0; n < v.size(); ++n) {
+                v[n] = line[static_cast<std::size_t>(across.cells[n])];
+            }
+            result.at(i, j, k) = value_between(v, across.part);
+        }
+    }
+}
+
+}  // namespace
+
 template <typename Number>
 Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times) {
     const Grid finer = finer_grid(grid, times);
     Plane<Number> result{PlaneLayout(finer)};
     const auto columns = around<Number>(grid.width, finer.width, grid.boundary.x);
     const auto rows = around<Number>(grid.height, finer.height, grid.boundary.y);
-    std::vector<Number> line(static_cast<std::size_t>(grid.width));
-    for (std::int64_t j = 0; j < finer.height; ++j) {
-        const Around<Number>& down = rows[static_cast<std::size_t>(j)];
-        for (std::int64_t i = 0; i < grid.width; ++i) {
-            std::array<Number, cells_between> v{};
-            for (std::size_t n = 0; n < v.size(); ++n) v[n] = plane.at(i, down.cells[n]);
-            line[static_cast<std::size_t>(i)] = value_between(v, down.part);
-        }
-        for (std::int64_t i = 0; i < finer.width; ++i) {
-            const Around<Number>& across = columns[static_cast<std::size_t>(i)];
-            std::array<Number, cells_between> v{};
-            for (std::size_t n = 0; n < v.size(); ++n) {
-                v[n] = line[static_cast<std::size_t>(across.cells[n])];
+    if (grid.depth == 1) {
+        divide_slice(plane.origin(), plane.layout(), grid, columns, rows, result, 0);
+        return result;
+    }
+    const auto slices = around<Number>(grid.depth, finer.depth, grid.boundary.z);
+    Plane<Number> between{PlaneLayout(Grid{grid.width, grid.height})};
+    for (std::int64_t k = 0; k < finer.depth; ++k) {
+        const Around<Number>& deep = slices[static_cast<std::size_t>(k)];
+        for (std::int64_t j = 0; j < grid.height; ++j) {
+            for (std::int64_t i = 0; i < grid.width; ++i) {
+                std::array<Number, cells_between> v{};
+                for (std::size_t n = 0; n < v.size(); ++n) v[n] = plane.at(i, j, deep.cells[n]);
+                between.at(i, j) = value_between(v, deep.part);
             }
-            result.at(i, j) = value_between(v, across.part);
         }
+        divide_slice(between.origin(), between.layout(), grid, columns, rows, result, k);
     }
     return result;
 }

@@ -20,12 +20,13 @@ template <typename Number>
 Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid& fine_grid,
                       const SideRules& sides);
 
-/// The grid of the same domain with `times` cells along each axis in each of its cells. A line
-/// stays one; there are no slices.
+/// The grid of the same domain with `times` cells along each axis in each of its cells. An axis of
+/// one cell stays one.
 Grid finer_grid(const Grid& grid, std::int64_t times);
 
 /// A plane on a finer_grid(). Values between cells lie on the curves of core/between_cells.h, along
-/// columns and then along rows; beyond a side that is not periodic, values go on.
+/// the third axis first, then along columns and then along rows; beyond a side that is not
+/// periodic, values go on.
 template <typename Number>
 Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 

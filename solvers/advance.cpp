@@ -63,7 +63,8 @@ public:
         tuner_.go_on();
         report(control, false);
         outcome_.ended = clock_.is_over();
-        if (clock_.step == 0 && !outcome_.ended) lengths_.choose();
+        const bool begins = std::exchange(schedule_.begins_anew, false) || clock_.step == 0;
+        if (begins && !outcome_.ended) lengths_.choose();
         bool going_on = true;
         while (going_on && is_to_go_on() && !control.cancel) going_on = batch(control, observe);
         outcome_.cancelled = going_on && is_to_go_on();

@@ -58,6 +58,9 @@ struct Schedule {
     /// error is estimated.
     std::int64_t choose_every = 0;
     StepChooser choose = {};
+    /// At `first_step` nothing is known of the steps before, as in a run that goes on with other
+    /// equations, so `choose` is called there, too.
+    bool begins_anew = false;
     /// If above 0, errors are estimated, of all steps or of some of them as `choose` says. A step
     /// whose error is larger than this part of the values is repeated with a shorter length.
     double tolerance = 0;

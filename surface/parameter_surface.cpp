@@ -56,7 +56,8 @@ std::string place_of(const Grid& grid, std::int64_t i, std::int64_t j) {
 }  // namespace
 
 Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
-                                      std::optional<double> unit, Precision precision) {
+                                      std::optional<double> unit, Precision precision,
+                                      std::int64_t detail) {
     std::vector<MetricTensor> tensors;
     tensors.reserve(static_cast<std::size_t>(grid.cell_count()));
     double whole = 0;
@@ -78,7 +79,7 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
                          &metric.flow_11, &metric.flow_12, &metric.flow_22}) {
         *field = Field(layout, precision);
     }
-    metric.unit = unit.value_or(std::sqrt(mean));
+    metric.unit = unit.value_or(std::sqrt(mean) * static_cast<double>(detail));
     for (std::int64_t j = 0; j < grid.height; ++j) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
             const MetricTensor& tensor = tensors[static_cast<std::size_t>(j * grid.width + i)];

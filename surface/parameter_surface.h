@@ -27,7 +27,8 @@ using SurfaceFunction = std::function<Position(double sx, double sy)>;
 ///           |     0       inverse_22 |      columns and rows. (The paper's last step prints ṼᵀAṼ.)
 ///
 /// The default unit of length is √(area of the surface / number of cells), so that a script for the
-/// plane makes patterns of the same size in cells.
+/// plane makes patterns of the same size in cells; with cells that are divided (`detail`), as if
+/// they were not.
 struct SurfaceMetric {
     Field inverse_11, inverse_12, inverse_22;  ///< Cells per unit.
     Field area;                                ///< s: of the cell, in square units.
@@ -40,6 +41,7 @@ struct SurfaceMetric {
 /// the surface is not finite or has no area: its two directions are parallel or one is 0.
 Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid& grid,
                                       std::optional<double> unit,
-                                      Precision precision = Precision::single);
+                                      Precision precision = Precision::single,
+                                      std::int64_t detail = 1);
 
 }  // namespace cascade

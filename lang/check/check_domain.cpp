@@ -1,6 +1,8 @@
 // The `domain` block.
+#include "core/resample.h"
 #include "ir/multiply_add.h"
 #include "lang/check/check_blocks.h"
+#include "lang/program/models.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -195,6 +197,30 @@ void check_fast(Workspace& work, const ast::Statement& option) {
                              "--fast changes nothing");
 }
 
+/// Divides the cells of a domain that is complete: `detail: 2` halves their sides.
+void check_detail(Workspace& work, const ast::Script& script, const ast::Statement& option) {
+    const auto detail = check_constant(work, script, option.values[0], "detail");
+    if (!detail) return;
+    DomainSettings& domain = work.draft->domain;
+    domain.detail = static_cast<std::int64_t>(*detail);
+    double cells = 0;
+    if (domain.model) {
+        domain.model->count *= domain.detail * domain.detail;
+        cells = static_cast<double>(domain.model->count);
+        if (cells <= most_model_cells) domain.grid = rows_of_cells(domain.model->count);
+    } else {
+        const bool has_metric = domain.surface && domain.surface->has_metric;
+        domain.grid = finer_grid(domain.grid, domain.detail);
+        if (has_metric) domain.grid.spacing = 1;  // Areas of cells are those of the metric.
+        cells = static_cast<double>(domain.grid.width) * static_cast<double>(domain.grid.height) *
+                static_cast<double>(domain.grid.depth);
+    }
+    const double most = domain.model ? most_model_cells : most_cells;
+    if (cells <= most) return;
+    work.diagnostics.error(option.span, fmt::format("that makes {:.0f} cells", cells),
+                           fmt::format("the most are {:.0f}", most));
+}
+
 void report_no_setting(Workspace& work, const ast::Word& name) {
     std::string hint = hint_about(work, name.text, WordContext::domain,
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
@@ -260,6 +286,7 @@ void check_domain(Workspace& work, const ast::Script& script) {
     }
     if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
     if (!check_model(work, script, block)) check_surface(work, script, block);
+    if (const auto* option = find_option(script, "detail")) check_detail(work, script, *option);
 }
 
 }  // namespace cascade::checking

@@ -18,8 +18,6 @@ namespace cascade::checking {
 namespace {
 
 constexpr double most_stretched = 100;
-constexpr double most_model_cells =
-    268435456;  // 2^28: elements of a plane are indexed by 32-bit words.
 
 /// What a surface takes in brackets; the others stand alone.
 struct ShapeSizes {

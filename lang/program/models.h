@@ -11,6 +11,9 @@
 
 namespace cascade {
 
+/// 2^28, since elements of a plane are indexed by 32-bit words.
+inline constexpr double most_model_cells = 268435456;
+
 /// A grid of rows for this number of cells: see Grid::linked.
 Grid rows_of_cells(std::int64_t cells);
 

@@ -173,6 +173,11 @@ struct Node {
 /// Does the node draw random numbers?
 inline bool is_draw(const Node& node) { return node.is<Call>() && is_random(node.function); }
 
+/// Does the node draw a number of its own in each cell? Noise and lattices belong to places.
+inline bool is_draw_in_cell(const Node& node) {
+    return node.is<Call>() && info(node.function).kind == FunctionKind::draw;
+}
+
 /// Is the node an aggregate over the domain?
 inline bool is_aggregate(const Node& node) {
     return node.is<Call>() && info(node.function).is_aggregate;
@@ -427,7 +432,7 @@ struct Stage {
 struct SurfaceSettings {
     std::array<Formula, 3> position;  ///< Of numbers, coordinates and functions of numbers.
     bool has_metric = true;           ///< False: cells count as squares.
-    std::optional<double> unit;       ///< Length of one unit; empty: the mean cell has area 1.
+    std::optional<double> unit;       ///< Length of one unit; empty: see DomainSettings::detail.
     Span span;
 };
 
@@ -486,7 +491,7 @@ struct ModelSettings {
     ModelCellKind cells = ModelCellKind::spread;
     std::int64_t count = 16384;  ///< Of spread cells.
     ModelLaplacian laplacian = ModelLaplacian::finite_volumes;
-    std::optional<double> unit;  ///< Length of one unit; empty: the mean cell has area 1.
+    std::optional<double> unit;  ///< Length of one unit; empty: see DomainSettings::detail.
     Stance stance;               ///< What of the model becomes y and z of the script.
     std::optional<DirectionSettings> directions;
     double stretch = 2;  ///< The ratio of length to width of cells along the directions.
@@ -526,6 +531,9 @@ struct DomainSettings {
     std::uint32_t seed = 1;
     Precision precision = Precision::single;  ///< Of all numbers of a run.
     bool fast = false;  ///< Steps are computed with fewer roundings (ir/contraction.h).
+    /// Cells are this many times as short as the script says, along each axis, in a domain of the
+    /// same lengths. On surfaces and models without a unit the mean cell has the area 1 / detail².
+    std::int64_t detail = 1;
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
 };
 

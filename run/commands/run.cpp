@@ -5,6 +5,7 @@
 #include "core/with_commas.h"
 #include "export/bake.h"
 #include "run/commands/analyze.h"
+#include "run/commands/detailed_run.h"
 #include "run/commands/frame_labels.h"
 #include "run/commands/run_checks.h"
 #include "run/commands/run_results.h"
@@ -51,6 +52,8 @@ private:
     Result<std::unique_ptr<LiveRun>> play_session();
     bool has_cancelled(std::string what);
     Result<void> run_stages();
+    Result<void> make_detailed();
+    Result<void> settle_in_detail();
     Result<StageEnd> run_stage(std::uint32_t stage);
     void remark(std::string words);
     void remark_on_resumed();
@@ -62,6 +65,10 @@ private:
     void keep_while_running();
     std::string place() const;
     RunResults results();
+    const Simulation& shown() const {
+        return is_detailed_ ? detailed_->simulation() : *simulation_;
+    }
+    Painter& painter() { return is_detailed_ ? detailed_->painter() : *painter_; }
 
     Script& script_;
     RunRequest request_;
@@ -69,7 +76,9 @@ private:
     RunReport report_;
     std::vector<std::filesystem::path> outputs_;
     std::unique_ptr<Simulation> simulation_;
-    MeshTexture texture_;  ///< That was made for the model.
+    MeshTexture texture_;                    ///< That was made for the model.
+    std::unique_ptr<DetailedRun> detailed_;  ///< Null without --detail.
+    bool is_detailed_ = false;               ///< Has the run been carried there?
     std::optional<Painter> painter_;
     std::vector<Painter> panels_;  ///< Of figures.
     std::optional<FrameRecorder> frames_;
@@ -92,13 +101,9 @@ Result<void> Runner::prepare() {
     auto painter = Painter::create(script_, request_.picture);
     if (!painter) return tl::unexpected(painter.error());
     painter_ = std::move(*painter);
-    for (const std::string& expression : request_.panels) {
-        PictureRequest wanted = request_.picture;
-        wanted.show = expression;
-        auto panel = Painter::create(script_, wanted, "--panel");
-        if (!panel) return tl::unexpected(panel.error());
-        panels_.push_back(std::move(*panel));
-    }
+    auto panels = panel_painters(script_, request_);
+    if (!panels) return tl::unexpected(panels.error());
+    panels_ = std::move(*panels);
     if (!request_.labels.empty()) {
         auto labels = FrameLabels::create(script_, request_.labels);
         if (!labels) return tl::unexpected(labels.error());
@@ -113,7 +118,8 @@ Result<void> Runner::prepare() {
     if (script_.program->domain.model || request_.session) {
         if (auto good = check_places(Folders::tried); !good) return good;
     }
-    if (auto made = make_simulation(); !made || !simulation_) return made;
+    if (auto made = make_simulation(); !made || report_.status == RunStatus::cancelled) return made;
+    if (auto made = make_detailed(); !made || report_.status == RunStatus::cancelled) return made;
     // Folders are created last, so that a run that is refused leaves none.
     if (auto good = check_places(Folders::made); !good) return good;
     if (!request_.frames.empty()) {
@@ -303,6 +309,34 @@ Result<void> Runner::run_stages() {
     return {};
 }
 
+/// The finer cells of --detail.
+Result<void> Runner::make_detailed() {
+    if (request_.picture.detail == 1) return {};
+    auto made = DetailedRun::create(script_, request_, *simulation_, control_);
+    if (!made && !script_.diagnostics.has_errors() && has_cancelled("the making of finer cells"))
+        return {};
+    if (!made) return tl::unexpected(made.error());
+    detailed_ = std::move(*made);
+    return {};
+}
+
+/// Carries a run that has ended to the finer cells of --detail.
+Result<void> Runner::settle_in_detail() {
+    if (!detailed_ || report_.status != RunStatus::finished) return {};
+    const auto start = Clock::now();
+    is_detailed_ = true;
+    const auto end = detailed_->settle(*simulation_, control_);
+    if (!end) return tl::unexpected(end.error());
+    report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    const std::uint32_t stage = simulation_->shown_stage().value_or(0);
+    report_.steps += shown().state(stage).steps - simulation_->state(stage).steps;
+    if (*end == StageEnd::cancelled) {
+        report_.status = RunStatus::cancelled;
+        report_.where += ", settling in finer cells";
+    }
+    return {};
+}
+
 void Runner::remark(std::string words) {
     if (words.empty()) return;
     if (control_.warn) control_.warn(words);
@@ -371,14 +405,15 @@ std::string Runner::place() const {
 }
 
 RunResults Runner::results() {
-    return {script_,
+    return {is_detailed_ ? detailed_->script() : script_,
             request_,
             control_,
             outputs_,
-            *simulation_,
+            shown(),
+            {script_, *simulation_},
             texture_,
-            *painter_,
-            panels_,
+            painter(),
+            is_detailed_ ? detailed_->panels() : panels_,
             frames_ ? &*frames_ : nullptr,
             earlier_frames_,
             log_ ? &*log_ : nullptr,
@@ -388,7 +423,7 @@ RunResults Runner::results() {
 
 Result<RunReport> Runner::run() {
     if (auto ready = prepare(); !ready) return tl::unexpected(ready.error());
-    if (!simulation_) return std::move(report_);
+    if (report_.status == RunStatus::cancelled) return std::move(report_);
     report_.has_begun = true;
     if (request_.session) {
         report_.where = place();
@@ -397,11 +432,12 @@ Result<RunReport> Runner::run() {
         if (log_) (void)results().write_log();
         return tl::unexpected(done.error());
     }
+    if (auto done = settle_in_detail(); !done) return tl::unexpected(done.error());
     if (!request_.resume.empty()) remark_on_resumed();
     if (report_.status == RunStatus::finished && report_.steps > 0) {
-        remark(remark_on_picture(*painter_, *simulation_));
+        remark(remark_on_picture(painter(), shown()));
         // A sheet draws numbers, so it uses palette and range.
-        if (request_.sheet.empty()) remark(remark_on_look(*painter_, *simulation_));
+        if (request_.sheet.empty()) remark(remark_on_look(painter(), shown()));
         if (frames_ && frames_->holds_starts_alone()) {
             remark(fmt::format(
                 "{} nothing but starting values: 'interval' is longer than each stage",
@@ -410,7 +446,7 @@ Result<RunReport> Runner::run() {
     }
     if (request_.features) {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
-        report_.features = measure_shown(*painter_, *simulation_);
+        report_.features = measure_shown(painter(), shown());
     }
     if (auto written = results().write(); !written) return tl::unexpected(written.error());
     return std::move(report_);

@@ -276,6 +276,34 @@ void check_films(OptionRefuser& options, const RunRequest& request) {
     }
 }
 
+/// The end of the run is carried to finer cells, and nothing but the end.
+void check_detail(OptionRefuser& options, const Script& script, const RunRequest& request) {
+    if (request.picture.detail == 1) return;
+    const std::string option = "--detail";
+    const auto& model = script.program->domain.model;
+    const auto& mask = script.program->domain.mask;
+    options.refuse_if(has_cells(script), option, "cells that crawl have no finer cells",
+                      "--size draws them larger");
+    options.refuse_if(model && model->cells != ModelCellKind::spread, option,
+                      "cells that are faces or points of a model cannot be divided",
+                      "--cells 20000 spreads cells, which can");
+    options.refuse_if(mask && std::any_of(mask->formula.nodes.begin(), mask->formula.nodes.end(),
+                                          is_draw_in_cell),
+                      option, "the mask draws a random number in each cell",
+                      "noise(…) has the same outlines in finer cells");
+    options.refuse_if(request.session.has_value(), option, "a session ends with its own cells",
+                      "-o tile.glb --bake 2048 writes smooth maps of a plane");
+    const std::string message = "it shows every step, and only the end is carried to finer cells";
+    const std::string hint = "a script with a finer grid shows all steps on it";
+    options.refuse_if(!request.frames.empty(), "--frames", message, hint);
+    options.refuse_if(!request.series.empty(), "--series", message, hint);
+    options.refuse_if(request.model_files.animate, "--animate", message, hint);
+    options.refuse_if(request.picture.space_time, "--space-time", message, hint);
+    const auto film = std::find_if(request.outputs.begin(), request.outputs.end(), is_film);
+    if (film != request.outputs.end() && films_steps(request))
+        options.refuse("-o", film->string(), message, hint);
+}
+
 void check_panels(OptionRefuser& options, const RunRequest& request) {
     constexpr std::size_t most = 26;  // They have letters.
     const bool has_figure =
@@ -340,6 +368,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         if (!domain.surface) check_on_plane(options, request, has_body);
     }
     check_films(options, request);
+    check_detail(options, script, request);
     check_panels(options, request);
     if (request.session) check_with_session(options, request);
     if (request.stop_at) check_stop_at(script, *request.stop_at);

@@ -272,7 +272,7 @@ Result<void> RunResults::write_log() {
 }
 
 Result<void> RunResults::write_saved_run() {
-    auto written = save_run(request.save, script, simulation);
+    auto written = save_run(request.save, own.script, own.simulation);
     if (!written) return tl::unexpected(written.error());
     report.written.push_back(request.save);
     return {};

@@ -23,6 +23,11 @@ struct RunResults {
     RunControl& control;
     const std::vector<std::filesystem::path>& outputs;  ///< Of -o.
     const Simulation& simulation;
+    /// What is saved: the run of the script's own cells, where the others show finer ones.
+    struct {
+        const Script& script;
+        const Simulation& simulation;
+    } own;
     const MeshTexture& texture;  ///< That was made for the model; may be empty.
     Painter& painter;
     std::span<Painter> panels;                                 ///< Of figures; empty: the picture.

@@ -3,8 +3,10 @@
 
 #include "core/check.h"
 #include "core/printable.h"
+#include "core/resample.h"
 #include "picture/grey_picture.h"
 #include "picture/npy.h"
+#include "run/domain/carried_cells.h"
 #include "run/domain/surface_values.h"
 
 #include <fmt/format.h>
@@ -34,7 +36,8 @@ auto read_granted(const Script& script, const std::string& name, std::uint64_t l
 
 void read_one(Script& script, const Node& node, InputFiles& files) {
     const std::string& name = script.program->literals->text(text_of(node));
-    const Grid& grid = script.program->domain.grid;
+    const std::int64_t detail = script.program->domain.detail;
+    const Grid grid = coarser(script.program->domain.grid, detail);
     const Precision precision = script.program->domain.precision;
     const auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
         return parse_npy(bytes, precision);
@@ -56,7 +59,9 @@ void read_one(Script& script, const Node& node, InputFiles& files) {
                 : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
                               array->slices));
     } else {
-        files.add({Function::field, text_of(node)}, to_field(*array, precision));
+        Field values = to_field(*array, precision);
+        if (detail > 1) values = carrier_on_grid(grid, detail, nullptr, nullptr)->carried(values);
+        files.add({Function::field, text_of(node)}, std::move(values));
     }
 }
 

@@ -21,7 +21,7 @@ Result<std::vector<Field>> metric_planes(const Program& program) {
     std::vector<Field> planes;
     if (!surface || !surface->has_metric) return planes;
     auto metric = measure_surface(function_of(*surface), program.domain.grid, surface->unit,
-                                  program.domain.precision);
+                                  program.domain.precision, program.domain.detail);
     if (!metric) return tl::unexpected(metric.error());
     planes.resize(metric_plane_count);
     const auto put = [&](MetricPlane plane, Field& field) {

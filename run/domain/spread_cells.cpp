@@ -96,7 +96,10 @@ Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache, const Sur
 class CellLinker {
 public:
     CellLinker(const CellRequest& request, const SurfaceMesh& mesh, SurfaceCells cells)
-        : settings_(request.settings), precision_(request.precision), mesh_(mesh) {
+        : settings_(request.settings),
+          precision_(request.precision),
+          detail_(static_cast<double>(request.detail)),
+          mesh_(mesh) {
         made_.cells = std::move(cells);
         made_.grid = rows_of_cells(static_cast<std::int64_t>(count()));
     }
@@ -105,7 +108,7 @@ public:
         const SurfaceCells& cells = made_.cells;
         const double total = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
         const double mean = total / static_cast<double>(count());
-        made_.unit = settings_.unit.value_or(std::sqrt(mean));
+        made_.unit = settings_.unit.value_or(std::sqrt(mean) * detail_);
         const bool are_spread = settings_.cells == ModelCellKind::spread;
         const Conduction conduction = conduction_of(cells, are_spread, made_.unit);
         link_cells(weights_of(cells, settings_.laplacian, conduction, made_.unit, mean));
@@ -186,6 +189,7 @@ private:
 
     const ModelSettings& settings_;
     const Precision precision_;
+    const double detail_;
     const SurfaceMesh& mesh_;
     SpreadCells made_;
 };

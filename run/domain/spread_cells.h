@@ -14,12 +14,14 @@ struct CellRequest {
     ModelSettings settings;
     std::uint32_t seed = 1;
     Precision precision = Precision::single;
+    std::int64_t detail = 1;      ///< As in DomainSettings.
     std::filesystem::path cache;  ///< Where spread cells are kept; empty: nowhere.
 
     explicit CellRequest(const Program& program, std::filesystem::path kept_in = {})
         : settings(*program.domain.model),
           seed(program.domain.seed),
           precision(program.domain.precision),
+          detail(program.domain.detail),
           cache(std::move(kept_in)) {}
 
     /// The number of cells of an upright mesh.

@@ -83,6 +83,7 @@ void add_option_statements(Script& script) {
     if (asked.seed) statements.add("seed", std::to_string(*asked.seed));
     if (asked.precision) statements.add("precision", std::string(name_of(*asked.precision)));
     if (asked.fast) statements.add("fast");
+    if (asked.detail > 1) statements.add("detail", std::to_string(asked.detail));
     if (asked.solver) statements.add("solver", *asked.solver);
     if (asked.steps) statements.add("steps", std::to_string(*asked.steps));
 }

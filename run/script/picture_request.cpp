@@ -17,6 +17,7 @@ namespace {
 
 bool makes_sense(const PictureRequest& request) {
     if (request.scale < 1 || request.scale > 64) return false;
+    if (request.detail < 1 || request.detail > most_detail) return false;
     if (request.depth != 8 && request.depth != 16) return false;
     if (!(std::abs(request.view.azimuth) <= 360 && std::abs(request.view.elevation) <= 89)) {
         return false;
@@ -60,6 +61,7 @@ std::string to_json(const PictureRequest& request) {
                            {"scale", request.scale},
                            {"depth", request.depth},
                            {"space_time", request.space_time}};
+    if (request.detail > 1) json["detail"] = request.detail;
     if (request.flat) json["flat"] = true;
     if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
     if (request.size != usual_size) json["size"] = {request.size.width, request.size.height};
@@ -94,6 +96,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     fields.read("scale", request.scale);
     fields.read("depth", request.depth);
     fields.read("space_time", request.space_time);
+    fields.read("detail", request.detail);
     fields.read("show", request.show);
     fields.read("flat", request.flat);
     fields.read("view", view);

@@ -23,6 +23,9 @@ struct PictureSize {
 /// Of pictures that are drawn from a place in space, if nothing else is asked for.
 inline constexpr PictureSize usual_size{800, 600};
 
+/// The most parts of a cell along each axis.
+inline constexpr int most_detail = 8;
+
 /// The options of `cascade run` that determine a picture's look. They are stored in the picture.
 struct PictureRequest {
     std::string show;  ///< An expression; empty for the picture block or the default.
@@ -30,6 +33,7 @@ struct PictureRequest {
     std::optional<ValueRange> range;  ///< Empty: from the values.
     int scale = 1;                    ///< Pixels per cell.
     int depth = 8;                    ///< Bits: 8 or 16.
+    int detail = 1;                   ///< The end is carried to cells this many times as short.
     bool space_time = false;          ///< 1-D grids: a row of pixels per interval.
     Slice slice;                      ///< 3-D grids: the slice to show.
     bool flat = false;                ///< Of a surface: only the texture.

@@ -27,6 +27,14 @@ std::string Script::messages(bool colour) const {
     return render(diagnostics, sources, style);
 }
 
+Script Script::detailed(std::int64_t times) const {
+    Overrides changed = overrides;
+    changed.detail = times;
+    Script result = load_script(name, text, folder, std::move(changed));
+    result.file = file;
+    return result;
+}
+
 std::uint32_t Script::stage_count() const {
     const auto& stages = program->stages;
     for (std::uint32_t k = 0; k < stages.size(); ++k) {

@@ -41,6 +41,7 @@ struct Overrides {
     std::optional<std::string> cells;  ///< Of the model: a number, faces or vertices.
     std::optional<Axis> up;            ///< Of the model: its axis that points upwards.
     std::optional<Heading> facing;     ///< Likewise: the direction in which it looks.
+    std::int64_t detail = 1;           ///< As in DomainSettings, of Script::detailed(). Not stored.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
@@ -66,6 +67,10 @@ struct Script {
     Diagnostics diagnostics;
     ast::Script tree;
     std::shared_ptr<const Program> program;
+
+    /// The same script, loaded again for cells that are this many times as short along each axis;
+    /// its program is null if there is an error.
+    Script detailed(std::int64_t times) const;
 
     /// All diagnostics, formatted.
     std::string messages(bool colour) const;

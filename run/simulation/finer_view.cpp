@@ -1,52 +1,13 @@
-// All planes are divided by core/resample; what is uniform stays.
+// All planes are divided; what is uniform stays.
 #include "run/simulation/finer_view.h"
 
 #include "core/resample.h"
-#include "run/simulation/regridded_state.h"
+#include "run/simulation/finer_state.h"
 #include "run/simulation/stage_view.h"
 
 #include <memory>
-#include <utility>
 
 namespace cascade {
-
-namespace {
-
-Field finer_field(const Field& field, const Grid& grid, std::int64_t times) {
-    if (field.empty()) return {};
-    return field.visit([&](const auto& plane) { return Field(divided(plane, grid, times)); });
-}
-
-/// The values of a side, each for `times` cells.
-std::shared_ptr<const SideValues> repeated(const SideValues& values, std::int64_t times) {
-    SideValues result;
-    result.first = values.first * times;
-    for (const double number : values.numbers) {
-        result.numbers.insert(result.numbers.end(), static_cast<std::size_t>(times), number);
-    }
-    return std::make_shared<const SideValues>(std::move(result));
-}
-
-StageState finer_state(const StageState& state, const Grid& grid, std::int64_t times) {
-    StageState result =
-        regridded(state,
-                  {grid.spacing / static_cast<double>(times),
-                   [&](const Field& plane) { return finer_field(plane, grid, times); },
-                   [&](const SideValues& values, std::size_t) { return repeated(values, times); }});
-    if (!state.frozen.empty()) {
-        const Grid finer = finer_grid(grid, times);
-        result.frozen = Mask(PlaneLayout(finer));
-        for (std::int64_t j = 0; j < finer.height; ++j) {
-            for (std::int64_t i = 0; i < finer.width; ++i) {
-                result.frozen.row(j)[i] =
-                    state.frozen.row(grid.height > 1 ? j / times : j)[i / times];
-            }
-        }
-    }
-    return result;
-}
-
-}  // namespace
 
 FinerView::FinerView(const Environment& environment, std::span<const StageState> states,
                      std::int64_t times) {
@@ -63,9 +24,11 @@ FinerView::FinerView(const Environment& environment, std::span<const StageState>
         std::make_unique<KernelMaker>(here.grid, environment.kernels->stepper(),
                                       environment.kernels->starts_interpreted(), nullptr);
     here.team = std::make_unique<Team>(environment.team->size());
-    here.files = environment.files.mapped(
-        [&](const Field& plane) { return finer_field(plane, grid, times); });
-    for (const StageState& state : states) states_.push_back(finer_state(state, grid, times));
+    const auto carrier = carrier_on_grid(grid, times, nullptr, nullptr);
+    here.files =
+        environment.files.mapped([&](const Field& plane) { return carrier->carried(plane); });
+    for (const StageState& state : states)
+        states_.push_back(finer_state(state, *carrier, grid, here.grid, times));
 }
 
 std::vector<Field> FinerView::evaluate(const Formula& formula, std::uint32_t stage) const {

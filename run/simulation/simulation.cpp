@@ -5,6 +5,7 @@
 #include "lang/program/nodes_of_rates.h"
 #include "run/domain/field_values.h"
 #include "run/simulation/environment.h"
+#include "run/simulation/finer_run.h"
 #include "run/simulation/finer_view.h"
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_run.h"
@@ -211,6 +212,13 @@ std::size_t Simulation::remove_cells(std::uint32_t stage, const Field& chosen) {
     }
     if (!left.empty()) tissue.rearrange(left, left.size());
     return left.size();
+}
+
+Result<void> Simulation::go_on_from(const Simulation& coarse, std::uint32_t stage) {
+    Environment& here = *self_->environment;
+    here.progress_note = ", on finer cells";
+    return go_on_in_finer_cells(*coarse.self_->environment, coarse.self_->states, here,
+                                self_->states, stage);
 }
 
 void Simulation::end_stage(std::uint32_t stage) {

@@ -145,6 +145,11 @@ public:
     /// is removed.
     std::size_t remove_cells(std::uint32_t stage, const Field& chosen);
 
+    /// Carries a run of the same script to the cells of this one, which are divided
+    /// (DomainSettings::detail), and makes `stage` go on here until its pattern has settled (see
+    /// run/simulation/finer_run.h). No stage of this simulation has started.
+    Result<void> go_on_from(const Simulation& coarse, std::uint32_t stage);
+
     /// Ends a started stage at its present step.
     void end_stage(std::uint32_t stage);
 

@@ -72,6 +72,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.clock.precision = program.domain.precision;
     // A resumed stage goes on as it was.
     if (state_.steps > 0 && state_.time.control.step > 0) return;
+    begins_anew_ = state_.steps > 0;
     state_.time = {};
     state_.time.clock.precision = program.domain.precision;
     state_.time.clock.base_step = state_.steps;
@@ -80,7 +81,7 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
     if (chooses_by_error()) set_first_step();
-    const bool is_finer = stage_.size && stage_.size->factor > 1;
+    const bool is_finer = program.domain.detail > 1 || (stage_.size && stage_.size->factor > 1);
     if (program.domain.model || is_finer) state_.time.stages = substeps(program, stage);
     if (stage_.time.steady) state_.watch.begin(state_.species);
 }
@@ -259,6 +260,7 @@ Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
     schedule.first_step = state_.steps;
     schedule.last_step = last_step;
     schedule.time = state_.time;
+    schedule.begins_anew = begins_anew_;
     schedule.end_time = duration_;
     schedule.interval = interval;
     if (stage_.time.until || stage_.time.steady) {

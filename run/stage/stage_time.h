@@ -80,6 +80,7 @@ private:
     StageState& state_;
     StageTools tools_;
     std::uint32_t species_;
+    bool begins_anew_ = false;  ///< After other steps, such as of a changed script.
     bool uniform_speed_;
     double speed_;                 ///< The item's value; 1 if it varies by cell.
     double duration_;              ///< Infinite if there is none.

@@ -27,6 +27,11 @@ TEST(Divided, TheDomainStaysAsLarge) {
     EXPECT_EQ(finer_grid(grid, 4), (Grid{.width = 48, .height = 32, .spacing = 0.125}));
     const Grid line{.width = 12, .height = 1, .spacing = 0.5};
     EXPECT_EQ(finer_grid(line, 2), (Grid{.width = 24, .height = 1, .spacing = 0.25}));
+    const Grid column{.width = 1, .height = 12};
+    EXPECT_EQ(finer_grid(column, 2), (Grid{.width = 1, .height = 24, .spacing = 0.5}));
+    const Grid volume{.width = 4, .height = 3, .depth = 2};
+    EXPECT_EQ(finer_grid(volume, 3),
+              (Grid{.width = 12, .height = 9, .depth = 6, .spacing = 1.0 / 3}));
 }
 
 TEST(Divided, WavesKeepTheirPlaces) {
@@ -43,6 +48,44 @@ TEST(Divided, WavesKeepTheirPlaces) {
                 EXPECT_NEAR(found.at(i, j), wanted.at(i, j), 0.02) << times << ' ' << i << ' ' << j;
             }
         }
+    }
+}
+
+/// The mean error of a wave along an axis of `cells` cells, the other axes having few.
+double mean_error(std::int64_t cells, int axis) {
+    Grid grid{.width = 3, .height = 3, .depth = 3};
+    (axis == 0 ? grid.width : axis == 1 ? grid.height : grid.depth) = cells;
+    const auto wave = [](std::int64_t cell, std::int64_t of) {
+        return std::sin(2 * std::numbers::pi * (static_cast<double>(cell) + 0.5) /
+                        static_cast<double>(of));
+    };
+    const auto along = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+        return axis == 0 ? i : axis == 1 ? j : k;
+    };
+    Plane<double> plane{PlaneLayout(grid)};
+    for (std::int64_t k = 0; k < grid.depth; ++k) {
+        for (std::int64_t j = 0; j < grid.height; ++j) {
+            for (std::int64_t i = 0; i < grid.width; ++i)
+                plane.at(i, j, k) = wave(along(i, j, k), cells);
+        }
+    }
+    const Plane<double> found = divided(plane, grid, 2);
+    const Grid finer = finer_grid(grid, 2);
+    double sum = 0;
+    for (std::int64_t k = 0; k < finer.depth; ++k) {
+        for (std::int64_t j = 0; j < finer.height; ++j) {
+            for (std::int64_t i = 0; i < finer.width; ++i)
+                sum += std::abs(found.at(i, j, k) - wave(along(i, j, k), 2 * cells));
+        }
+    }
+    return sum / static_cast<double>(finer.cell_count());
+}
+
+TEST(Divided, IsOfThirdOrderAlongEachAxis) {
+    for (const int axis : {0, 1, 2}) {
+        const double ratio = mean_error(32, axis) / mean_error(64, axis);
+        EXPECT_GT(std::log2(ratio), 2.8) << axis;
+        EXPECT_LT(mean_error(32, axis), 5e-4) << axis;
     }
 }
 

@@ -1,0 +1,100 @@
+// The finer cells belong to a second simulation, of the same script loaded for them.
+#include "run/commands/detailed_run.h"
+
+#include "run/commands/run_checks.h"
+#include "run/pictures/picture_size.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// What is wrong with a script in finer cells, as an error of the option.
+Failure refusal(Script& script, const Script& finer, int detail) {
+    const std::vector<Diagnostic> all = finer.diagnostics.sorted();
+    const auto error = std::find_if(all.begin(), all.end(), [](const Diagnostic& each) {
+        return each.severity == Severity::error;
+    });
+    if (error != all.end()) {
+        script.diagnostics.error(option_span(script.sources, "--detail", std::to_string(detail)),
+                                 error->message, error->hint);
+    }
+    return {"the request does not fit the script", ""};
+}
+
+/// The limit for the finer cells, which are there beside those of the run.
+std::uint64_t memory_left(std::uint64_t limit, double used) {
+    if (limit == 0) return 0;
+    return static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(limit) - used));
+}
+
+}  // namespace
+
+Result<std::vector<Painter>> panel_painters(Script& script, const RunRequest& request) {
+    std::vector<Painter> panels;
+    for (const std::string& expression : request.panels) {
+        PictureRequest wanted = request.picture;
+        wanted.show = expression;
+        auto panel = Painter::create(script, wanted, "--panel");
+        if (!panel) return tl::unexpected(panel.error());
+        panels.push_back(std::move(*panel));
+    }
+    return panels;
+}
+
+Result<std::unique_ptr<DetailedRun>> DetailedRun::create(Script& script, const RunRequest& request,
+                                                         const Simulation& coarse,
+                                                         RunControl& control) {
+    const int detail = request.picture.detail;
+    std::unique_ptr<DetailedRun> made(new DetailedRun(script.detailed(detail)));
+    Script& finer = made->script_;
+    if (!finer.program) return tl::unexpected(refusal(script, finer, detail));
+    finer.diagnostics = {};  // Its warnings are those of the script.
+
+    SimulationOptions options = request.simulation;
+    options.memory_limit = memory_left(options.memory_limit, coarse.memory());
+    options.control = &control;
+    options.known_sizes = coarse.known_sizes();
+    // What is said of the model and of sizes has been said of the run's own cells.
+    auto warn = std::exchange(control.warn, {}), note = std::exchange(control.note, {});
+    auto simulation = Simulation::create(finer, options);
+    control.warn = std::move(warn);
+    control.note = std::move(note);
+    if (!simulation && finer.diagnostics.has_errors())
+        return tl::unexpected(refusal(script, finer, detail));
+    if (!simulation) {
+        Failure why = simulation.error();
+        why.message = fmt::format("with --detail {}: {}", detail, why.message);
+        return tl::unexpected(std::move(why));
+    }
+    made->simulation_ = std::move(*simulation);
+
+    auto painter = Painter::create(finer, request.picture);
+    if (!painter) return tl::unexpected(painter.error());
+    made->painter_ = std::move(*painter);
+    auto panels = panel_painters(finer, request);
+    if (!panels) return tl::unexpected(panels.error());
+    made->panels_ = std::move(*panels);
+    auto fits = check_picture_size(finer.program->domain, request.picture,
+                                   coarse.memory() + made->simulation_->memory(),
+                                   request.simulation.memory_limit);
+    if (fits) fits = check_film_sizes(finer, request);
+    if (!fits) return tl::unexpected(fits.error());
+    return made;
+}
+
+Result<StageEnd> DetailedRun::settle(const Simulation& coarse, RunControl& control) {
+    const auto stage = coarse.shown_stage();
+    if (!stage) return StageEnd::finished;
+    if (auto carried = simulation_->go_on_from(coarse, *stage); !carried)
+        return tl::unexpected(carried.error());
+    if (coarse.state(*stage).steps == 0) return StageEnd::finished;
+    const std::int64_t last = simulation_->program().stages[*stage].iterations;
+    return simulation_->advance_stage(*stage, last, control, {});
+}
+
+}  // namespace cascade

@@ -1,0 +1,139 @@
+// The program of the finer run differs from that of the script in the end of one stage.
+#include "run/simulation/finer_run.h"
+
+#include "run/domain/carried_cells.h"
+#include "run/simulation/finer_state.h"
+#include "run/simulation/stage_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+constexpr std::int64_t most_steps = 1'000'000'000;
+
+/// Does the solver leave it to the script that steps of a given length are stable? Euler's are
+/// split where they would not be (StageTimer::substeps).
+bool needs_shorter_steps(const Stage& stage, bool has_uniform_speed) {
+    const Solver solver = stage.time.solver;
+    if (stage.time.chooses_steps() || takes_long_steps(solver)) return false;
+    return solver != Solver::euler || !has_uniform_speed;
+}
+
+/// The program in which the stage goes on from a moment for a part of the time that it has taken,
+/// or until it has settled.
+Program settling_program(const Program& program, std::uint32_t k, const StageState& end) {
+    Program result = program;
+    Stage& stage = result.stages[k];
+    const std::int64_t detail = program.domain.detail;
+    const ItemId speed = program.system_of(k).speed_item();
+    const bool is_timed = stage.uniform[speed];
+    const bool is_shorter = needs_shorter_steps(stage, is_timed);
+    if (is_shorter) {
+        Formula& formula = stage.items[speed];
+        const Node whole = formula.nodes.back();
+        Node product{Call{}, whole.span, whole.type, Function::divide, 2, {}};
+        product.operands[0] = NodeId(formula.nodes.size() - 1);
+        product.operands[1] = formula.nodes.next();
+        formula.nodes.push_back(Node{static_cast<double>(detail * detail), whole.span});
+        formula.nodes.push_back(product);
+    }
+    stage.time.until.reset();  // It may have come true, and would end the stage at once.
+    stage.time.open_end = false;
+    stage.time.duration.reset();
+    stage.time.duration_in_steps.reset();
+    if (is_timed) {
+        stage.time.duration = end.t * (1 + settling_part);
+        stage.iterations = most_steps;
+    } else {
+        const auto more =
+            static_cast<std::int64_t>(std::ceil(static_cast<double>(end.steps) * settling_part));
+        stage.iterations = std::min(most_steps, end.steps + more * detail * detail);
+    }
+    return result;
+}
+
+/// Does a value hold a number that was drawn in its cell, directly or in what it reads?
+class DrawnItems {
+public:
+    DrawnItems(const Program& program, std::uint32_t stage) : system_(program.system_of(stage)) {
+        drawn_.assign(system_.item_count(), false);
+        for (const ItemId item : program.stages[stage].order)
+            drawn_[item] = holds_draw(program.stages[stage].items[item]);
+    }
+
+    bool contains(ItemId item) const { return drawn_[item]; }
+
+private:
+    bool holds_draw(const Formula& formula) const {
+        return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
+            if (const auto* item = node.as<ItemId>()) return bool{drawn_[*item]};
+            if (const auto* definition = node.as<DefinitionId>())
+                return holds_draw(system_.definitions[*definition].formula);
+            return is_draw_in_cell(node);
+        });
+    }
+
+    const System& system_;
+    IdVector<ItemId, bool> drawn_;
+};
+
+/// Makes a stage that has been started in finer cells go on from a moment that was carried there.
+void take_moment(const Program& program, std::uint32_t k, StageState carried, StageState& state) {
+    const System& system = program.system_of(k);
+    const DrawnItems drawn(program, k);
+    const ItemId frozen_item = system.frozen_item();
+    for (const ItemId item : system.items()) {
+        const bool is_carried = drawn.contains(item) && item != system.speed_item();
+        if (!is_carried || carried.fields[item].empty()) continue;
+        if (item == frozen_item) state.frozen = std::move(carried.frozen);
+        state.fields[item] = std::move(carried.fields[item]);
+    }
+    for (const ItemId item : system.species()) {
+        const std::size_t s = state.species_of_item[item]->index();
+        Field& values = carried.species[s];
+        // Cells that never change have their starting values, with sharp outlines.
+        if (!state.frozen.empty() && !drawn.contains(item)) {
+            values.visit([&]<typename Number>(Plane<Number>& plane) {
+                const Plane<Number>& start = state.species[s].plane<Number>();
+                for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+                    for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                        if (state.frozen.row(row)[i]) plane.row(row)[i] = start.row(row)[i];
+                    }
+                }
+            });
+        }
+        state.species[s] = std::move(values);
+    }
+    state.go_to(carried.steps, carried.t);
+}
+
+}  // namespace
+
+Result<void> go_on_in_finer_cells(const Environment& from, std::span<const StageState> states,
+                                  Environment& here, std::span<StageState> into, std::uint32_t k) {
+    const std::int64_t times = here.program->domain.detail;
+    const auto carrier = from.model
+                             ? carrier_on_model(*from.model, *here.model, *here.team)
+                             : carrier_on_grid(from.grid, times, from.inside(), here.inside());
+    for (std::uint32_t each = 0; each < states.size(); ++each) {
+        if (!states[each].started) continue;
+        into[each] = finer_state(states[each], *carrier, from.grid, here.grid, times);
+    }
+    Program settling = settling_program(*here.program, k, states[k]);
+    const PlanOptions planning = here.plans->options();
+    here.plans.reset();
+    here.own_program = std::move(settling);
+    here.program = &*here.own_program;
+    here.plans = std::make_unique<StagePlans>(*here.program, planning);
+    StageState carried = std::move(into[k]);
+    if (auto started = start_stage(here, into, k); !started) return started;
+    take_moment(*here.program, k, std::move(carried), into[k]);
+    return {};
+}
+
+}  // namespace cascade
