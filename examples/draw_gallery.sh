@@ -34,9 +34,15 @@ draw_one() {
         models/kdv) "$program" run -q lang/systems/kdv.cascade -o examples/models/kdv.png --space-time ;;
         models/*) "$program" run -q "lang/systems/${1#*/}.cascade" -o "examples/$1.png" ;;
         figure_3_2) draw "$1" --space-time --scale 4 ;;
-        # The recipes of Appendix C, on four times the cells of the thesis and in colours. Two want its grid.
-        squirrel) draw "$1" --scale 6 --palette tan ;;
-        mixed_spots) draw "$1" --scale 6 --palette viridis ;;
+        # A figure of its moments, and a picture of the last one.
+        replication)
+            draw "$1" --detail 2 --palette coral --range 0,0.4 -o "examples/$1.svg" \
+                --panel one.v --panel two.v --panel four.v --panel eight.v --panel many.v --panel all.v
+            ;;
+        # The recipes of Appendix C, on four times the cells of the thesis and in colours. Two want its grid, and
+        # become smooth in finer cells.
+        squirrel) draw "$1" --detail 6 --palette tan ;;
+        mixed_spots) draw "$1" --detail 6 --palette viridis ;;
         cheetah | small_spots) draw_recipe "$1" cheetah ;;
         leopard | lionfish) draw_recipe "$1" "$1" ;;
         plates | thin_lines) draw_recipe "$1" tan ;;

@@ -68,6 +68,14 @@ hint '--mesh FILE' run s.cascade -o a.ply -- run s.cascade --mesh ball.obj --cel
 hint "surface: x, y, z in the domain makes one" run s.cascade --flat -- \
     check ball.cascade
 
+# Finer cells.
+sed 's/cells: 100/cells: faces/' ball.cascade >faces.cascade
+hint "--cells 20000 spreads cells" run faces.cascade -q --detail 2 -- run faces.cascade -q --cells 100 --detail 2
+sed 's/grid: 8, 8/grid: 8, 8; mask: random(1, 2) > 0/' s.cascade >drawn.cascade
+sed 's/grid: 8, 8/grid: 8, 8; mask: noise(0.3) > -1/' s.cascade >noise.cascade
+hint "noise(…) has the same outlines" run drawn.cascade -q --detail 2 -- run noise.cascade -q --detail 2
+hint "a script with a finer grid" run s.cascade -q --detail 2 -o fine.gif -- run s.cascade -q --grid 16x16 -o fine.gif
+
 # Forms of values.
 hint "as in --grid 256x128" check s.cascade --grid 8,8 -- check s.cascade --grid 8x8
 hint "as in --range 0,8" run s.cascade -q --range 1 -- run s.cascade -q --range 0,8
