@@ -123,7 +123,9 @@ std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) 
     if (const auto bound = jacobian_bound(program, stage, tools_.model)) {
         const Formula* const formulas[] = {&bound->whole, &bound->reaction};
         const std::vector<double> bounds = tools_.numbers(formulas)();
-        decay = bounds[0] - bounds[1];
+        // Where a pattern has grown, the reaction is fastest in other cells than diffusion, so that
+        // the difference would say too little.
+        decay = begins_anew_ ? bounds[0] : bounds[0] - bounds[1];
     } else {
         decay = tools_.estimate();  // As of a direction that turns with a species.
     }

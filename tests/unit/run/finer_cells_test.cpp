@@ -180,6 +180,19 @@ TEST(FinerCells, EverySolverStaysStable) {
     }
 }
 
+/// Diffusion limits the step in one half, and in the other one the bound of a reaction, which has
+/// become large meanwhile, says nothing of it.
+TEST(FinerCells, StepsAreSplitByTheDiffusionOfEachCell) {
+    const Runs runs(
+        "system s {\n  u: 0.1 * noise(0.2)\n  m: 0\n  d: 0.24 * (x > 0.5)\n"
+        "  u' = d * lap(u) + m * u - m * min(u, 100)\n  m' = x < 0.5\n}\n"
+        "domain { grid: 32, 32 }\nstage one: s { iterations: 200 }");
+    ASSERT_TRUE(runs.finer);
+    const auto values = Runs::numbers(*runs.finer, runs.field(*runs.finer, "u"));
+    EXPECT_LT(*std::max_element(values.begin(), values.end()), 0.1);
+    EXPECT_GT(*std::min_element(values.begin(), values.end()), -0.1);
+}
+
 TEST(FinerCells, ConditionsThatCameTrueEndNothing) {
     const std::string system = "system s {\n  u: 0.5\n  u' = u - u^3\n}\ndomain { grid: 4, 4 }\n";
     const Runs grown(system +
