@@ -198,9 +198,12 @@ TEST(Options, what_was_not_given_leaves_a_stored_picture_alone) {
     PictureRequest stored;
     stored.palette = "magma";
     stored.scale = 3;
+    stored.detail = 2;
     const PictureRequest request = apply(parsed({"run", "a.png", "--scale", "5"}).picture, stored);
     EXPECT_EQ(request.palette, "magma");
     EXPECT_EQ(request.scale, 5);
+    EXPECT_EQ(request.detail, 2);
+    EXPECT_EQ(apply(parsed({"run", "a.png", "--detail", "1"}).picture, stored).detail, 1);
 }
 
 TEST(Options, check_takes_many_scripts) {
@@ -288,6 +291,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{{"run", "a", "--seed", "4294967296"}, "whole number from 0 to 4294967295"},
         WrongUse{{"run", "a", "--steps", "1e3"}, "'1e3' is not a whole number"},
         WrongUse{{"run", "a", "--scale", "65"}, "whole number from 1 to 64"},
+        WrongUse{{"run", "a", "--detail", "9"}, "whole number from 1 to 8"},
         WrongUse{{"run", "a", "--palette", "viridi"}, "did you mean 'viridis'?"},
         WrongUse{{"run", "a", "--backend", "gpu"}, "'gpu' is not one of"},
         WrongUse{{"run", "a", "--range", "3"}, "'3' is not a range"},
