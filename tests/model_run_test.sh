@@ -172,6 +172,16 @@ run 2 $model --animate -o grows.glb --bake 64
 says err "maps do not move"
 run 2 run -q spots.cascade --animate -o grows.glb
 says err "the domain is not a model"
+# Levels of tiles: the points of each are a quarter of those of the one before, and a few of the
+# model that nothing could replace.
+run 0 $model --retile --lods 3 -o tiles.obj
+points() { grep '^v ' "$1" | cut -d ' ' -f 2-4 | sort; }
+for pair in 'tiles tiles_lod1 150' 'tiles_lod1 tiles_lod2 37'; do
+    read -r fine coarse count <<< "$pair"
+    others=$(comm -13 <(points "$fine.obj") <(points "$coarse.obj") | wc -l)
+    [ "$others" -le 8 ] || fail "$others points of $coarse are not those of $fine"
+    [ $(($(points "$coarse.obj" | wc -l) - others)) = "$count" ] || fail "$coarse has other points"
+done
 # Maps as large as the cells ask for.
 run 0 run spots.cascade --mesh square.obj --cells 300 --texels-per-cell 2 -o fitting.glb
 says err "maps of 64 texels: a cell is 3.7 texels wide"

@@ -7,13 +7,12 @@
 #include "export/model_writer.h"
 #include "export/point_values.h"
 #include "film/film.h"
-#include "mesh/normals.h"
 #include "run/pictures/map_size.h"
 #include "run/pictures/model_maps.h"
 #include "run/pictures/model_picture.h"
+#include "run/pictures/nested_tiling.h"
 #include "run/pictures/refined_model.h"
 #include "surface/blur_cells.h"
-#include "surface/retile.h"
 
 #include <fmt/format.h>
 
@@ -152,57 +151,24 @@ Result<WrittenFiles> ModelFileWriter::write_with_levels(const std::filesystem::p
 }
 
 Result<void> ModelFileWriter::make_levels() {
-    ModelLevel finest;
-    if (options_.retile) {
-        auto tiled = retiled();
-        if (!tiled) return tl::unexpected(tiled.error());
-        finest = *std::move(tiled);
-    } else {
-        PaintedCells painted = look_.painted();
-        painted.heights = {};
-        painted.material = {};
-        const std::vector<SurfacePlace>& places = refined().places;
-        finest = {refined().mesh, colours_at(places, filter(), painted, team_),
-                  values_at(places, filter(), channels_, team_)};
-    }
-    const std::atomic<bool> never = false;
-    auto levels = levels_of(std::move(finest), options_.levels,
-                            2 * cell_spacing(model_.spread().cells), never);
+    const SurfaceCells& cells = model_.spread().cells;
+    auto levels = options_.retile
+                      ? nested_tiling(mesh_, cells, look_, channels_, options_.levels, team_)
+                      : simplified_levels();
     if (!levels) return tl::unexpected(levels.error());
     levels_ = *std::move(levels);
     return {};
 }
 
-/// Points at cells take the cells' values without filtering.
-Result<ModelLevel> ModelFileWriter::retiled() {
-    const std::size_t count = model_.count();
+Result<std::vector<ModelLevel>> ModelFileWriter::simplified_levels() {
+    PaintedCells painted = look_.painted();
+    painted.heights = {};
+    painted.material = {};
+    const std::vector<SurfacePlace>& places = refined().places;
     const std::atomic<bool> never = false;
-    auto made = retile(mesh_, model_.spread().cells.places, never);
-    if (!made) return tl::unexpected(made.error());
-    const std::size_t points = made->mesh.points.size();
-    std::vector<float> values(look_.channels * points), of_cells(count);
-    for (std::size_t c = 0; c < look_.channels; ++c) {
-        for (std::size_t k = 0; k < count; ++k) of_cells[k] = look_.values[look_.channels * k + c];
-        const PointAttribute whole = attribute_of(*made, "", of_cells);
-        for (std::size_t p = 0; p < points; ++p) values[look_.channels * p + c] = whole.values[p];
-    }
-    const std::vector<SurfacePlace> of_points = places_of_points(mesh_);
-    ModelLevel level;
-    for (std::size_t p = 0; p < points; ++p) {
-        const SurfacePlace& place = p < count ? model_.spread().cells.places[p]
-                                              : of_points[made->kept[p - count].old_point];
-        level.colours.push_back(
-            look_.colour(std::span(values).subspan(look_.channels * p, look_.channels), place));
-    }
-    for (const Channel& channel : channels_) {
-        level.channels.push_back(attribute_of(*made, channel.name, channel.values));
-    }
-    if (look_.displaces) {
-        displace(made->mesh, point_normals(made->mesh),
-                 attribute_of(*made, "", look_.heights).values);
-    }
-    level.mesh = std::move(made->mesh);
-    return level;
+    return levels_of({refined().mesh, colours_at(places, filter(), painted, team_),
+                      values_at(places, filter(), channels_, team_)},
+                     options_.levels, 2 * cell_spacing(model_.spread().cells), never);
 }
 
 }  // namespace cascade

@@ -107,7 +107,7 @@ private:
     Result<void> write_cells(const std::filesystem::path& path);
     Result<WrittenFiles> write_with_levels(const std::filesystem::path& path);
     Result<void> make_levels();
-    Result<ModelLevel> retiled();
+    Result<std::vector<ModelLevel>> simplified_levels();
     const CellFilter& filter();
     const RefinedMesh& refined();  ///< Raised by its heights, if the look says so.
 

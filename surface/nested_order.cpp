@@ -1,0 +1,73 @@
+// Farthest-first traversal. Each cell that is taken shortens distances around it, in a search that
+// ends where another one is nearer, so the searches become smaller and smaller.
+#include "surface/nested_order.h"
+
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// A cell at a distance; among equal ones the first cell counts.
+using Distance = std::pair<double, std::int64_t>;
+
+class FarthestFirst {
+public:
+    explicit FarthestFirst(const SurfaceCells& cells)
+        : cells_(cells), distances_(cells.places.size(), std::numeric_limits<double>::infinity()) {
+        for (std::size_t cell = 0; cell < distances_.size(); ++cell) note(cell);
+    }
+
+    std::vector<std::uint32_t> order() {
+        std::vector<std::uint32_t> order;
+        while (!farthest_.empty()) {
+            const auto [distance, negative] = farthest_.top();
+            farthest_.pop();
+            const auto cell = static_cast<std::size_t>(-negative);
+            // Noted again since, nearer.
+            if (distance != distances_[cell]) continue;
+            order.push_back(static_cast<std::uint32_t>(cell));
+            take(cell);
+        }
+        return order;
+    }
+
+private:
+    void note(std::size_t cell) {
+        farthest_.push({distances_[cell], -static_cast<std::int64_t>(cell)});
+    }
+
+    void take(std::size_t taken) {
+        std::priority_queue<Distance, std::vector<Distance>, std::greater<>> near;
+        near.push({0, static_cast<std::int64_t>(taken)});
+        distances_[taken] = 0;
+        while (!near.empty()) {
+            const auto [distance, number] = near.top();
+            near.pop();
+            const auto cell = static_cast<std::size_t>(number);
+            if (distance > distances_[cell]) continue;
+            for (const VoronoiEdge& edge : cells_.edges_of(cell)) {
+                const double along = distance + edge.distance;
+                if (!(along < distances_[edge.neighbour])) continue;
+                distances_[edge.neighbour] = along;
+                near.push({along, edge.neighbour});
+                note(edge.neighbour);
+            }
+        }
+    }
+
+    const SurfaceCells& cells_;
+    std::vector<double> distances_;           ///< From the nearest cell that has been taken.
+    std::priority_queue<Distance> farthest_;  ///< Of the others; some entries are out of date.
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> nested_order(const SurfaceCells& cells) {
+    return FarthestFirst(cells).order();
+}
+
+}  // namespace cascade
