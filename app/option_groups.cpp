@@ -254,8 +254,9 @@ void add_files(CLI::App& app, RunRequest& run) {
     add_value(app, "--slices", "N", "Films of a volume show N slices along the axis of --slice",
               whole_number(1, 100000), [&](auto count) { run.slices = static_cast<int>(count); })
         ->group(group);
-    add_value(app, "--volume", "FILE.vti", "All species of the last stage, for ParaView",
-              parse_vti_path, [&](auto path) { run.volume = path; })
+    add_value(app, "--volume", "FILE",
+              "All species of the last stage: .vti for ParaView, .vdb\nfor Blender and renderers",
+              parse_volume_path, [&](auto path) { run.volume = path; })
         ->group(group);
     add_value(
         app, "--series", "FILE.pvd",

@@ -1,6 +1,7 @@
 // Numbers are read by from_chars(), which ignores the locale, and must use up the whole text.
 #include "app/option_values.h"
 
+#include "core/file_ending.h"
 #include "core/near_name.h"
 #include "film/film.h"
 #include "run/pictures/frame_folder.h"
@@ -167,6 +168,11 @@ std::optional<double> read_with_unit(std::string_view text, std::span<const Unit
     return std::nullopt;
 }
 
+bool is_volume(const std::filesystem::path& path) {
+    const std::string ending = lower_ending(path);
+    return ending == ".vti" || ending == ".vdb";
+}
+
 Result<std::string> path_with_ending(std::string_view text, std::string_view wanted,
                                      const char* why) {
     const std::size_t dot = text.rfind('.');
@@ -257,6 +263,10 @@ Result<std::string> parse_output_path(std::string_view text) {
         return failure(fmt::format("'{}' is a film in a format that is not written", text),
                        "the endings of films are .gif, .webp, .apng, .mp4 and .webm");
     }
+    if (is_volume(text)) {
+        return failure(fmt::format("'{}' is a volume, and -o writes what is seen of it", text),
+                       fmt::format("--volume {} writes it", text));
+    }
     return failure(
         fmt::format("'{}' has no ending of a file that can be written", text),
         ".png is a picture, .svg or .pdf a figure with axes; .gif, .webp, .apng, .mp4 and .webm "
@@ -280,8 +290,10 @@ Result<std::string> parse_film_path(std::string_view text) {
                    "the endings of films are .gif, .webp, .apng, .mp4 and .webm");
 }
 
-Result<std::string> parse_vti_path(std::string_view text) {
-    return path_with_ending(text, ".vti", "volumes are written as image data of VTK");
+Result<std::string> parse_volume_path(std::string_view text) {
+    if (is_volume(text)) return std::string(text);
+    return failure(fmt::format("'{}' does not end in .vti or .vdb", text),
+                   "volumes are written as image data of VTK or by OpenVDB");
 }
 
 Result<std::string> parse_pvd_path(std::string_view text) {

@@ -75,8 +75,8 @@ Result<std::string> parse_png_path(std::string_view text);
 Result<std::string> parse_model_path(std::string_view text);
 /// The path of a film; see film_format() for the endings.
 Result<std::string> parse_film_path(std::string_view text);
-/// The path of a volume; it must end in .vti.
-Result<std::string> parse_vti_path(std::string_view text);
+/// The path of a volume; it must end in .vti or .vdb.
+Result<std::string> parse_volume_path(std::string_view text);
 Result<std::string> parse_pvd_path(std::string_view text);
 
 }  // namespace cascade

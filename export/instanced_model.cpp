@@ -2,6 +2,7 @@
 #include "export/instanced_model.h"
 
 #include "core/check.h"
+#include "core/file_ending.h"
 #include "core/with_commas.h"
 #include "core/write_encoded.h"
 #include "export/channels.h"

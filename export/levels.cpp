@@ -1,6 +1,7 @@
 // Simplifies level by level, and averages what has merged.
 #include "export/levels.h"
 
+#include "core/file_ending.h"
 #include "core/write_encoded.h"
 #include "export/glb.h"
 #include "mesh/simplify.h"

@@ -2,14 +2,13 @@
 #include "export/model_writer.h"
 
 #include "core/check.h"
+#include "core/file_ending.h"
 #include "core/write_encoded.h"
 #include "export/glb.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace cascade {
 
@@ -27,13 +26,6 @@ Result<std::string> encode(const std::string& ending, const SurfaceMesh& mesh,
 }
 
 }  // namespace
-
-std::string lower_ending(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
 
 bool is_model_ending(const std::filesystem::path& path) {
     const std::string ending = lower_ending(path);

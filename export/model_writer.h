@@ -40,9 +40,6 @@ std::string encode_stl(const SurfaceMesh& mesh);
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const PointResults& results);
 
-/// The extension of a file's name in lower case, such as ".glb".
-std::string lower_ending(const std::filesystem::path& path);
-
 /// Whether write_model supports the extension.
 bool is_model_ending(const std::filesystem::path& path);
 

@@ -2,6 +2,7 @@
 #include "film/film.h"
 
 #include "core/check.h"
+#include "core/file_ending.h"
 #include "core/growing_file.h"
 #include "film/ffmpeg.h"
 
@@ -35,9 +36,7 @@ constexpr std::array formats = {
 };
 
 const FormatOf* format_of(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    const std::string ending = lower_ending(path);
     const auto found = std::find_if(formats.begin(), formats.end(), [&](const FormatOf& format) {
         return format.ending == ending;
     });

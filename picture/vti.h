@@ -3,20 +3,14 @@
 // 11th edition, Kitware 2010, chapter 19).
 #pragma once
 
-#include "core/plane.h"
 #include "core/result.h"
+#include "picture/volume_array.h"
 
 #include <filesystem>
 #include <span>
 #include <string>
 
 namespace cascade {
-
-/// A field with its name in the file.
-struct VolumeArray {
-    std::string name;
-    const Field* field = nullptr;
-};
 
 /// Fields of one layout as a .vti file in memory: an array of cell data each, little-endian
 /// float32, in the order x, y, z; every NaN as 0x7fc00000. Cells are cubes of side `spacing`; the

@@ -25,7 +25,7 @@ list(APPEND CASCADE_WITHOUT
   surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute
   picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf picture/exr
-  picture/write_drawing
+  picture/openvdb_module picture/vdb picture/write_drawing
   export/levels render/ray_caster
   run/domain/free_memory run/domain/reshape_model
   run/pictures/frame_folder run/pictures/frames run/pictures/body_file

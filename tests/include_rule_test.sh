@@ -50,6 +50,8 @@ broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]OpenMesh/' $f
     grep -vE '^mesh/(half_edges\.h|simplify\.cpp|subdivide\.cpp):')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]OpenEXR/' $folders |
     grep -v '^picture/exr\.cpp:')
+broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]openvdb/' $folders |
+    grep -v '^picture/openvdb_module\.cpp:')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]boost/' $folders |
     grep -v '^view/local_server\.cpp:')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"](gif_lib\.h|webp/)' $folders |

@@ -54,6 +54,21 @@ start = sum(1 for k in range(8) for j in range(10) for i in range(12)
 assert abs(total - start) < 1e-3 * start, (total, start)
 END
 
+# By OpenVDB, if this build has it (what is written: tests/openvdb).
+if [ -e "$BUILD/libcascade_openvdb.so" ]; then
+    "$CASCADE" run -q ball.cascade --volume ball.vdb || fail "no .vdb file"
+    "$CASCADE" run -q ball.cascade --backend interp --threads 1 --volume other.VDB || fail "interp"
+    cmp -s ball.vdb other.VDB || fail "another backend, another .vdb file"
+    mkdir alone && cp "$CASCADE" alone/cascade
+    LD_LIBRARY_PATH='' alone/cascade run -q ball.cascade --backend interp --volume none.vdb 2>err &&
+        fail "a .vdb file is written without the module"
+    grep -q "OpenVDB could not be loaded" err || fail "without the module: $(cat err)"
+else
+    "$CASCADE" run -q ball.cascade --volume none.vdb 2>err && fail "a .vdb file is written without OpenVDB"
+    grep -q "this build has no OpenVDB" err || fail "without OpenVDB: $(cat err)"
+fi
+[ ! -e none.vdb ] || fail "a refused .vdb file is left"
+
 # A body, as a picture and as models, on which a pattern grows.
 cat >body.cascade <<'END'
 domain { grid: 20, 20, 20; boundary: noflux }

@@ -41,7 +41,7 @@ struct RunRequest {
     std::filesystem::path frames;     ///< `--frames DIR`; empty for none.
     std::filesystem::path save;       ///< `--save DIR`; empty for none.
     double checkpoint_seconds = 0;    ///< Above 0: seconds between saves during the run.
-    std::filesystem::path volume;     ///< `--volume FILE.vti`; empty for none.
+    std::filesystem::path volume;     ///< `--volume FILE`; empty for none.
     std::filesystem::path series;     ///< `--series FILE.pvd`; empty for none.
     std::filesystem::path resume;     ///< `--resume DIR`; empty to start anew.
     std::optional<StopAt> stop_at;

@@ -9,6 +9,7 @@
 #include "film/film.h"
 #include "lang/check/check.h"
 #include "picture/caption.h"
+#include "picture/vdb.h"
 #include "run/commands/model_checks.h"
 #include "run/pictures/body_picture.h"
 #include "run/pictures/frame_folder.h"
@@ -123,6 +124,9 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
         if (auto good = check_writable(file.path); !good) return good;
         if (file.what == name_of(OutputKind::film)) {
             if (auto good = check_film(file.path); !good) return good;
+        }
+        if (is_vdb(file.path)) {
+            if (auto good = check_vdb(file.path); !good) return good;
         }
         folders.insert(file.path.parent_path());
     }
@@ -351,6 +355,9 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         options.refuse_if(is_given && domain.grid.depth == 1, option, "a plane has no slices",
                           "grid: W, H, D makes a volume");
     }
+    options.refuse_if(is_vdb(request.volume) && domain.grid.depth == 1 && !domain.model, "--volume",
+                      "a .vdb file holds a volume, and this is a plane",
+                      "--volume NAME.vti writes planes, too; grid: W, H, D makes a volume");
     if (has_cells(script)) {
         check_with_cells(options, request);
         if (domain.model) check_model_files(options, request);

@@ -279,7 +279,7 @@ Result<void> RunResults::write_saved_run() {
 }
 
 Result<void> RunResults::write_volume() {
-    auto done = cascade::write_volume(request.volume, simulation);
+    auto done = cascade::write_volume(request.volume, simulation, texts(request.picture));
     if (done) report.written.push_back(request.volume);
     return done;
 }

@@ -1,6 +1,7 @@
 // Frames are recognised by the form of their names and by the script in their text chunks.
 #include "run/pictures/frame_folder.h"
 
+#include "core/file_ending.h"
 #include "film/film.h"
 #include "run/script/embedded_script.h"
 
@@ -38,9 +39,7 @@ std::filesystem::path file_name(const std::string& script) {
 bool is_called_like_a_movie(const std::filesystem::path& path) {
     if (film_format(path)) return true;
     constexpr std::array<std::string_view, 5> endings = {".mov", ".avi", ".mkv", ".ogv", ".m4v"};
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    const std::string ending = lower_ending(path);
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 

@@ -3,6 +3,7 @@
 #include "run/pictures/model_files.h"
 
 #include "core/enough_memory.h"
+#include "core/file_ending.h"
 #include "export/cell_writer.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"

@@ -5,10 +5,11 @@
 #include "core/file.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
-#include "run/pictures/refined_model.h"
+#include "picture/vdb.h"
 #include "picture/vti.h"
 #include "picture/xml_text.h"
 #include "run/pictures/model_files.h"
+#include "run/pictures/refined_model.h"
 #include "surface/cell_filter.h"
 
 #include <fmt/format.h>
@@ -79,7 +80,8 @@ std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model)
     return {values.begin(), values.end()};
 }
 
-Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation) {
+Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation,
+                          const std::map<std::string, std::string>& texts) {
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
     const System& system = simulation.program().system_of(stage);
     const DomainMask* mask = simulation.mask();
@@ -90,7 +92,11 @@ Result<void> write_volume(const std::filesystem::path& path, const Simulation& s
         if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
         arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});
     }
-    return write_vti(path, arrays, simulation.grid().spacing, mask ? &mask->inside : nullptr);
+    const double spacing = simulation.grid().spacing;
+    const Mask* const inside = mask ? &mask->inside : nullptr;
+    if (!is_vdb(path)) return write_vti(path, arrays, spacing, inside);
+    return write_vdb(path, {arrays, spacing, inside, texts, simulation.program().stages[stage].name,
+                            simulation.state(stage).steps, time_of(simulation, stage)});
 }
 
 /// The mesh that carries the values of cells.

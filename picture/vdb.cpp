@@ -1,0 +1,59 @@
+// Loads the module that has OpenVDB.
+#include "picture/vdb.h"
+
+#include "core/file_ending.h"
+#include "core/version.h"
+#include "core/write_encoded.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+namespace cascade {
+
+namespace {
+
+constexpr const char* without_it = "--volume NAME.vti does without it";
+
+Result<VdbEncoder*> load_encoder() {
+#ifdef CASCADE_OPENVDB_MODULE
+    // Never unloaded: OpenVDB's libraries may leave threads behind.
+    void* const module = ::dlopen(CASCADE_OPENVDB_MODULE, RTLD_LAZY | RTLD_LOCAL);
+    if (!module) {
+        const char* reason = ::dlerror();
+        return failure(fmt::format("OpenVDB could not be loaded: {}",
+                                   reason ? reason : "unknown reason"),
+                       without_it);
+    }
+    const auto entry = reinterpret_cast<VdbEncoderEntry*>(::dlsym(module, vdb_encoder_symbol));
+    VdbEncoder* const encoder = entry ? entry(version()) : nullptr;
+    if (encoder) return encoder;
+    return failure(fmt::format("{} is of another build than this program", CASCADE_OPENVDB_MODULE),
+                   "install both again");
+#else
+    return failure("this build has no OpenVDB",
+                   fmt::format("install libopenvdb-dev and build Cascade again; {}", without_it));
+#endif
+}
+
+const Result<VdbEncoder*>& encoder() {
+    static const Result<VdbEncoder*> loaded = load_encoder();
+    return loaded;
+}
+
+}  // namespace
+
+bool is_vdb(const std::filesystem::path& path) { return lower_ending(path) == ".vdb"; }
+
+Result<void> check_vdb(const std::filesystem::path& path) {
+    if (encoder()) return {};
+    const Failure& reason = encoder().error();
+    return failure(fmt::format("cannot write '{}': {}", path.string(), reason.message),
+                   reason.hint);
+}
+
+Result<void> write_vdb(const std::filesystem::path& path, const VdbVolume& volume) {
+    if (auto can = check_vdb(path); !can) return can;
+    return write_encoded(path, [&] { return (*encoder())(volume); });
+}
+
+}  // namespace cascade
