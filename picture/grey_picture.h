@@ -1,6 +1,7 @@
-// Pictures as numbers, as read by `image("f.png")`.
+// Pictures as numbers, as read by `image("f.png")` and `image("f.png", "red")`.
 #pragma once
 
+#include "core/picture_channel.h"
 #include "core/plane.h"
 #include "core/result.h"
 
@@ -11,7 +12,7 @@
 
 namespace cascade {
 
-/// The lightness of a picture's pixels, rows from the top, 0 (black) … 1 (white).
+/// One number of each pixel of a picture, rows from the top, from 0 to 1.
 struct GreyPicture {
     std::int64_t width = 0;
     std::int64_t height = 0;
@@ -23,10 +24,12 @@ inline constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
 
 /// The picture of a PNG file in memory: grey, colour or palette; 1 to 16 bits; interlaced or not.
 /// Stored levels are used unchanged, ignoring the file's gamma. A colour becomes 0.2126 red +
-/// 0.7152 green + 0.0722 blue (the luma of ITU-R BT.709); transparency is blended with white. Fails
-/// if the data is no PNG, truncated or damaged, or has too many pixels. The message is a clause
-/// that follows "cannot read 'FILE': ".
-Result<GreyPicture> parse_grey_picture(std::string_view bytes);
+/// 0.7152 green + 0.0722 blue (the luma of ITU-R BT.709); transparency is blended with white. The
+/// other channels are as they are stored: of a grey picture all three colours are the grey, and
+/// alpha is 1 where the file has none. Fails if the data is no PNG, truncated or damaged, or has
+/// too many pixels. The message is a clause that follows "cannot read 'FILE': ".
+Result<GreyPicture> parse_grey_picture(std::string_view bytes,
+                                       PictureChannel channel = PictureChannel::lightness);
 
 /// The largest PNG file that is read for its pixels, in bytes.
 inline constexpr std::uint64_t largest_picture_file = std::uint64_t{1} << 30;

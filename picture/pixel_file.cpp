@@ -1,42 +1,48 @@
-// A header of 24 bytes and the values.
+// Channels with a header of 32 bytes each.
 #include "picture/pixel_file.h"
 
+#include <array>
 #include <cstring>
 
 namespace cascade {
 namespace {
 
-constexpr std::string_view pixel_magic = "CASPIXEL";
-constexpr std::size_t pixel_header_bytes = 24;
+constexpr std::string_view magic = "CASPIXEL";
+using Header = std::array<std::int64_t, 3>;  ///< The channel, width and height.
+constexpr std::size_t header_bytes = magic.size() + sizeof(Header);
 
 }  // namespace
 
-std::string print_pixel_file(const GreyPicture& picture) {
-    std::string bytes(pixel_magic);
-    for (const std::int64_t side : {picture.width, picture.height}) {
-        bytes.append(reinterpret_cast<const char*>(&side), sizeof side);
-    }
+std::string print_pixel_file(const GreyPicture& picture, PictureChannel channel) {
+    std::string bytes(magic);
+    const Header header{static_cast<std::int64_t>(channel), picture.width, picture.height};
+    bytes.append(reinterpret_cast<const char*>(header.data()), sizeof header);
     return bytes.append(reinterpret_cast<const char*>(picture.values.data()),
                         picture.values.size() * sizeof(float));
 }
 
-Result<GreyPicture> parse_pixel_file(std::string_view bytes) {
-    if (!bytes.starts_with(pixel_magic) || bytes.size() < pixel_header_bytes) {
-        return failure("it is no file of pixels");
-    }
-    GreyPicture picture;
-    std::memcpy(&picture.width, bytes.data() + pixel_magic.size(), 8);
-    std::memcpy(&picture.height, bytes.data() + pixel_magic.size() + 8, 8);
-    const std::size_t pixels = (bytes.size() - pixel_header_bytes) / sizeof(float);
-    const auto count = static_cast<std::int64_t>(pixels);
-    if (picture.width < 1 || picture.height < 1 || picture.width > count ||
-        picture.height != count / picture.width || count % picture.width != 0 ||
-        bytes.size() != pixel_header_bytes + pixels * sizeof(float)) {
-        return failure("its size is not what it says");
-    }
-    picture.values.resize(pixels);
-    std::memcpy(picture.values.data(), bytes.data() + pixel_header_bytes, pixels * sizeof(float));
-    return picture;
+Result<GreyPicture> parse_pixel_file(std::string_view bytes, PictureChannel channel) {
+    Result<GreyPicture> found = failure("it lacks a channel of the picture");
+    do {
+        if (!bytes.starts_with(magic) || bytes.size() < header_bytes) {
+            return failure("it is no file of pixels");
+        }
+        Header header;
+        std::memcpy(header.data(), bytes.data() + magic.size(), sizeof header);
+        bytes.remove_prefix(header_bytes);
+        const auto [number, width, height] = header;
+        const auto most = static_cast<std::int64_t>(bytes.size() / sizeof(float));
+        if (width < 1 || height < 1 || width > most || height > most / width) {
+            return failure("its size is not what it says");
+        }
+        const auto pixels = static_cast<std::size_t>(width * height);
+        if (number == static_cast<std::int64_t>(channel)) {
+            found = GreyPicture{width, height, std::vector<float>(pixels)};
+            std::memcpy(found->values.data(), bytes.data(), pixels * sizeof(float));
+        }
+        bytes.remove_prefix(pixels * sizeof(float));
+    } while (!bytes.empty());
+    return found;
 }
 
 }  // namespace cascade

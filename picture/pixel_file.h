@@ -8,9 +8,13 @@
 
 namespace cascade {
 
-/// "CASPIXEL", width and height in 8 bytes each, then the values in binary32, all in the byte order
-/// of the machine; browsers have that of x86-64.
-std::string print_pixel_file(const GreyPicture& picture);
-Result<GreyPicture> parse_pixel_file(std::string_view bytes);
+/// One channel of a picture: "CASPIXEL", the number of the channel, width and height in 8 bytes
+/// each, then the values in binary32, all in the byte order of the machine; browsers have that of
+/// x86-64. A file has one or more of them after each other.
+std::string print_pixel_file(const GreyPicture& picture,
+                             PictureChannel channel = PictureChannel::lightness);
+/// Fails if the file is damaged or lacks the channel.
+Result<GreyPicture> parse_pixel_file(std::string_view bytes,
+                                     PictureChannel channel = PictureChannel::lightness);
 
 }  // namespace cascade

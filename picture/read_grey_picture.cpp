@@ -64,11 +64,19 @@ float level(const png_byte* row, std::size_t channel, int depth) {
     return static_cast<float>(word) / 65535.0F;
 }
 
-float lightness(const png_byte* row, std::size_t pixel, const Format& format) {
+float number_of(const png_byte* row, std::size_t pixel, const Format& format,
+                PictureChannel wanted) {
     const auto channels = static_cast<std::size_t>(format.channels);
     const auto channel = [&](std::size_t k) {
         return level(row, pixel * channels + k, format.depth);
     };
+    switch (wanted) {
+        case PictureChannel::lightness: break;
+        case PictureChannel::red: return channel(0);
+        case PictureChannel::green: return channel(channels < 3 ? 0 : 1);
+        case PictureChannel::blue: return channel(channels < 3 ? 0 : 2);
+        case PictureChannel::alpha: return channels % 2 == 1 ? 1.0F : channel(channels - 1);
+    }
     const float grey = channels < 3
                            ? channel(0)
                            : 0.2126F * channel(0) + 0.7152F * channel(1) + 0.0722F * channel(2);
@@ -79,8 +87,8 @@ float lightness(const png_byte* row, std::size_t pixel, const Format& format) {
 
 /// Reads all pixels row by row; a pass of an interlaced picture has some of the rows and columns.
 /// Also reads the end of the file, to detect truncation after the pixels.
-bool read_pixels(PngReader& reader, const Format& format, std::vector<png_byte>& row,
-                 std::vector<float>& values) {
+bool read_pixels(PngReader& reader, const Format& format, PictureChannel channel,
+                 std::vector<png_byte>& row, std::vector<float>& values) {
     const bool is_interlaced = format.passes > 1;
     const auto width = static_cast<png_uint_32>(format.width);
     const auto height = static_cast<png_uint_32>(format.height);
@@ -93,7 +101,7 @@ bool read_pixels(PngReader& reader, const Format& format, std::vector<png_byte>&
                 const std::size_t y = is_interlaced ? PNG_ROW_FROM_PASS_ROW(j, pass) : j;
                 for (std::size_t i = 0; i < columns; ++i) {
                     const std::size_t x = is_interlaced ? PNG_COL_FROM_PASS_COL(i, pass) : i;
-                    values[y * width + x] = lightness(row.data(), i, format);
+                    values[y * width + x] = number_of(row.data(), i, format, channel);
                 }
             }
         }
@@ -105,7 +113,7 @@ Failure damaged(const PngReader& reader) {
     return {fmt::format("the PNG file is cut off or damaged: {}", reader.error()), ""};
 }
 
-Result<GreyPicture> parse(std::string_view bytes) {
+Result<GreyPicture> parse(std::string_view bytes, PictureChannel channel) {
     PngReader reader(bytes);
     Format format;
     if (!read_header(reader, format)) return tl::unexpected<Failure>(damaged(reader));
@@ -124,7 +132,7 @@ Result<GreyPicture> parse(std::string_view bytes) {
     if (!start_rows(reader, format)) return tl::unexpected<Failure>(damaged(reader));
     std::vector<png_byte> row(format.row_bytes);
     GreyPicture picture{format.width, format.height, std::vector<float>(pixels)};
-    if (!read_pixels(reader, format, row, picture.values)) {
+    if (!read_pixels(reader, format, channel, row, picture.values)) {
         return tl::unexpected<Failure>(damaged(reader));
     }
     return picture;
@@ -132,9 +140,9 @@ Result<GreyPicture> parse(std::string_view bytes) {
 
 }  // namespace
 
-Result<GreyPicture> parse_grey_picture(std::string_view bytes) {
+Result<GreyPicture> parse_grey_picture(std::string_view bytes, PictureChannel channel) {
     if (!has_png_signature(bytes)) return failure("it is not a PNG file");
-    return enough_memory_for([&] { return parse(bytes); });
+    return enough_memory_for([&] { return parse(bytes, channel); });
 }
 
 Result<GreyPicture> read_grey_picture(const std::filesystem::path& path) {

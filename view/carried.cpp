@@ -23,13 +23,17 @@ Result<Carried> carried_by(const Script& script, const Simulation& simulation) {
     }
     Carried carried{script.name, script.text, false, overrides_to_json(script.overrides), {}};
     const GrantedFiles files(script.folder, script.overrides.reads);
-    for (const std::string& name : input_file_names(script)) {
+    for (const auto& [name, channels] : input_files_of(script)) {
         auto bytes = files.read(name, std::max(largest_npy_file, largest_picture_file));
         if (!bytes) return tl::unexpected(bytes.error());
         if (bytes->starts_with("\x89PNG")) {
-            const auto picture = parse_grey_picture(*bytes);
-            if (!picture) return tl::unexpected(picture.error());
-            bytes = print_pixel_file(*picture);
+            std::string pixels;
+            for (const PictureChannel channel : channels) {
+                const auto picture = parse_grey_picture(*bytes, channel);
+                if (!picture) return tl::unexpected(picture.error());
+                pixels += print_pixel_file(*picture, channel);
+            }
+            bytes = std::move(pixels);
         }
         carried.files.emplace_back(name, *std::move(bytes));
     }

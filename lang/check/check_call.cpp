@@ -51,6 +51,7 @@ void ExpressionChecker::visit(const ast::Call& call) {
     if (!belongs_here(*function, call.function.span)) return;
     if (info(*function).arity.is_groups) return take_surface_value(*function, call);
     if (is_nonlocal(*function)) return take_convolution(call);
+    if (reads_file(*function)) return take_file_value(*function, call);
     Operands operands{};
     for (std::uint32_t i = 0; i < call.argument_count; ++i) {
         operands[i] = part_of(script_.arguments[call.first_argument + i]);
@@ -214,8 +215,8 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         case Contexts::rates:
             return at_step || refuse("it belongs in rates and definitions of a system");
         case Contexts::values:
-            // A cell that crawls reads the model where it is.
-            if (in_cells() && at_step && needs_model(function)) return true;
+            // A cell that crawls reads the domain where it is.
+            if (in_cells() && at_step && reads_file(function)) return true;
             return at_start || refuse("it belongs in values (name: …)");
         case Contexts::noisy:
             return at_start || at_step || refuse("pictures have no randomness of their own");
@@ -235,6 +236,9 @@ void ExpressionChecker::apply(Function function, const Operands& operands, std::
         if (parts_[operands[i]].has_error) parts_.back().has_error = true;
     }
     if (parts_.back().has_error) return;
+    if (function == Function::along && formula_.nodes[operands[0]].calls(Function::image)) {
+        return take_painted_direction(operands[0]);
+    }
     if (function == Function::along && is_direction_[operands[0]]) {
         node.kind = std::exchange(formula_.nodes[operands[0]].kind, 0.0);
         node.operand_count = 0;
@@ -269,7 +273,6 @@ void ExpressionChecker::check_types(const Node& node) {
         }
         case FunctionKind::geometry: return check_geometry(formula_.nodes.back());
         case FunctionKind::link: return check_link(formula_.nodes.back());
-        case FunctionKind::text: return need(operands[0], ValueType::text);
         case FunctionKind::pattern: check_lattice(formula_.nodes.back()); break;
         case FunctionKind::colour:
             if (node.function == Function::palette) return check_palette(node);

@@ -129,7 +129,7 @@ void ExpressionChecker::take_convolution(const ast::Call& call) {
     node.function = Function::convolve;
     node.operands = {parts[1]};
     node.operand_count = 1;
-    has_kernels_ = true;
+    has_loose_nodes_ = true;
 }
 
 void check_kernels_of_stage(Workspace& work, std::uint32_t index) {

@@ -31,7 +31,7 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     work_.call = std::nullopt;
     if (has_error) return std::nullopt;
     CheckedExpression checked;
-    const bool has_other_nodes = expanded_ != nullptr || has_kernels_;
+    const bool has_other_nodes = expanded_ != nullptr || has_loose_nodes_;
     checked.formula = has_other_nodes ? formula_of(formula_.nodes, root) : std::move(formula_);
     if (scope_.context == Context::picture && !put_definitions_in(checked.formula)) {
         return std::nullopt;
@@ -92,8 +92,14 @@ void ExpressionChecker::find_places_of_words() {
                 wants_text_[part_of(argument)] =
                     std::holds_alternative<ast::Text>(script_.expressions[argument].node);
             }
-        } else if (function == Function::palette || reads_file(*function)) {
+        } else if (function == Function::palette) {
             wants_text_[part_of(script_.arguments[end - 1])] = true;
+        } else if (reads_file(*function)) {
+            wants_text_[part_of(script_.arguments[call->first_argument])] = true;
+            // An even number of arguments has a channel.
+            const bool has_channel = function == Function::image && call->argument_count % 2 == 0;
+            if (has_channel)
+                wants_text_[part_of(script_.arguments[call->first_argument + 1])] = true;
         }
     }
 }

@@ -80,6 +80,9 @@ private:
     void apply(Function function, const Operands& operands, std::size_t count);
     void take_surface_value(Function function, const ast::Call& call);
     void take_convolution(const ast::Call& call);
+    void take_file_value(Function function, const ast::Call& call);
+    void take_painted_direction(NodeId image);
+    bool is_place_in_file(NodeId root);
     bool take_lag(std::string_view name);
     bool is_kernel(NodeId root, bool reads_lags);
     void unknown_function(const ast::Word& name);
@@ -115,7 +118,7 @@ private:
     IdVector<NodeId, Part> parts_;
     IdVector<NodeId, bool> wants_text_, is_direction_;
     IdVector<NodeId, bool> in_kernel_;  ///< Of a convolution; see kernel_parts().
-    bool has_kernels_ = false;          ///< Some nodes are in kernels, which are kept elsewhere.
+    bool has_loose_nodes_ = false;  ///< Some are kept elsewhere, as the kernels of convolutions.
 };
 
 /// By node of the expression: is it in the kernel of a convolution?

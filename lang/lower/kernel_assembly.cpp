@@ -32,8 +32,10 @@ std::string KernelAssembly::name_of(const std::variant<Sources...>& source) cons
             return fmt::format("{} (input {})", name_of(StageItem{stage_, each.item}), each.input);
         },
         [&](NamedPlane each) {
-            return fmt::format("{}(\"{}\")", info(each.function).spelling,
-                               program_.literals->text(each.text));
+            // What is read of it may be long; its number is just as distinct.
+            const std::string read = fmt::format("{}(\"{}\")", info(each.function).spelling,
+                                                 program_.literals->text(each.text));
+            return each.reading == 0 ? read : fmt::format("{} (reading {})", read, each.reading);
         },
         [&](SurfaceValueId id) {
             // A long list of numbers would not fit into a name; this one is just as distinct.

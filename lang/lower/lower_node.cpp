@@ -103,8 +103,9 @@ PlaneSource plane_source(const PlanGraph& graph, NodeId id) {
         [](SurfaceValueId id_of_value) -> PlaneSource { return id_of_value; },
         [](LagPart part) -> PlaneSource { return part; },
         [](Unknown unknown) -> PlaneSource { return unknown; },
-        [&](Call) -> PlaneSource {
-            return NamedPlane{node.function, std::get<TextId>(graph[node.operands[0]].kind)};
+        [&](Call call) -> PlaneSource {
+            return NamedPlane{node.function, std::get<TextId>(graph[node.operands[0]].kind),
+                              call.detail};
         },
         [](auto) -> PlaneSource { CHECK(false, "lowering: a plane is an item or a file"); },
     };

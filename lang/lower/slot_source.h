@@ -27,6 +27,7 @@ struct SweepInput {
 struct NamedPlane {
     Function function = Function::field;
     TextId text;
+    std::uint32_t reading = 0;  ///< The number of a FileReading in Literals.
     auto operator<=>(const NamedPlane&) const = default;
 };
 

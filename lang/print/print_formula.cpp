@@ -83,6 +83,7 @@ private:
 
     void write_call(const Node& node) {
         if (node.calls(Function::component)) return write_component(node);
+        if (reads_file(node.function)) return write_reading(node);
         const std::string_view spelling = info(node.function).spelling;
         if (const std::size_t name = spelling.find(' '); name != std::string_view::npos) {
             text_ += fmt::format("{}(", spelling.substr(0, name));
@@ -103,6 +104,21 @@ private:
             push(Part{node.operands[i - 1], 0});
             if (i > 1) push(std::string_view(", "));
         }
+    }
+
+    void write_reading(const Node& node) {
+        const FileReading& reading = program_.literals->reading(node.as<Call>()->detail);
+        const std::string& name =
+            program_.literals->text(std::get<TextId>(formula_.nodes[node.operands[0]].kind));
+        if (reading.is_direction) text_ += "along(";
+        text_ += fmt::format("{}(\"{}\"", info(node.function).spelling, name);
+        if (reading.channel != PictureChannel::lightness) {
+            text_ += fmt::format(", \"{}\"", name_of(reading.channel));
+        }
+        for (const Formula& place : reading.place) {
+            text_ += ", " + Printer(program_, system_, place, stage_).run();
+        }
+        text_ += reading.is_direction ? "))" : ")";
     }
 
     void write_component(const Node& node) {

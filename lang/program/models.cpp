@@ -26,14 +26,23 @@ std::string_view reason_against(Function function) {
             return "tensor(a1, a2, theta) has a meaning there, with theta along(grad(v)) or "
                    "along(axis(0, 1, 0))";
         case Function::curl: return "it needs columns and rows, which a model does not have";
-        case Function::field:
-            return "a model has no rows and columns; "
-                   "attr(\"name\") reads a number of its points";
-        case Function::image:
-            return "a model has no rows and columns; "
-                   "uvimage(\"f.png\") reads a picture that is painted on it";
         default: return "a model has no second derivatives by name; lap(e) has a meaning there";
     }
+}
+
+/// Refuses arrays of the grid's own rows and columns.
+bool arrays_have_places(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
+    bool have_places = true;
+    for (const Node& node : formula.nodes) {
+        if (!node.calls(Function::field)) continue;
+        if (!program.literals->reading(node.as<Call>()->detail).place.empty()) continue;
+        have_places = false;
+        diagnostics.error(node.span,
+                          "on a model, which has no rows and columns, field needs a place",
+                          "field(\"a.npy\", sx, sy, sz) says where in the file; attr(\"name\") "
+                          "reads a number of the model's points");
+    }
+    return have_places;
 }
 
 /// Describes a value that only a model has; nothing for all others.
@@ -74,7 +83,7 @@ private:
 
 bool has_meaning_on_model(const Program& program, const LooseVectors& loose, const Formula& formula,
                           Diagnostics& diagnostics) {
-    bool has_meaning = true;
+    bool has_meaning = arrays_have_places(program, formula, diagnostics);
     const auto refuse = [&](Span span, std::string message, std::string hint) {
         has_meaning = false;
         diagnostics.error(span, std::move(message), std::move(hint));
@@ -222,8 +231,8 @@ bool has_meaning_on_domain(const Program& program, const Formula& formula, const
                            Diagnostics& diagnostics) {
     if (!program.domain.model) return has_meaning_on_plane(program, formula, diagnostics);
     // Functions that cells do not have are refused where they are written.
-    return system.cells ||
-           has_meaning_on_model(program, LooseVectors(system), formula, diagnostics);
+    return system.cells ? arrays_have_places(program, formula, diagnostics)
+                        : has_meaning_on_model(program, LooseVectors(system), formula, diagnostics);
 }
 
 bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics) {
@@ -233,7 +242,9 @@ bool has_meaning_on_domain(const Program& program, Diagnostics& diagnostics) {
     for_each_formula(program, [&](const Formula& formula, const System& system) {
         if (!program.domain.model) {
             has_meaning &= has_meaning_on_plane(program, formula, diagnostics);
-        } else if (!system.cells) {
+        } else if (system.cells) {
+            has_meaning &= arrays_have_places(program, formula, diagnostics);
+        } else {
             if (known != &system) loose.emplace(system);
             known = &system;
             has_meaning &= has_meaning_on_model(program, *loose, formula, diagnostics);

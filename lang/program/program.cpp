@@ -54,6 +54,21 @@ std::uint32_t Literals::add(Constraint constraint) {
     return static_cast<std::uint32_t>(constraints_.size() - 1);
 }
 
+std::uint32_t Literals::add(FileReading reading) {
+    if (reading.place.empty()) {
+        const auto known =
+            std::find_if(readings_.begin(), readings_.end(), [&](const FileReading& each) {
+                return each.place.empty() && each.channel == reading.channel &&
+                       each.is_direction == reading.is_direction;
+            });
+        if (known != readings_.end()) {
+            return static_cast<std::uint32_t>(known - readings_.begin());
+        }
+    }
+    readings_.push_back(std::move(reading));
+    return reading_count() - 1;
+}
+
 bool differs_by_cell(const Node& node, bool operand_differs, const Program& program,
                      std::uint32_t stage) {
     const auto item_differs = [&](StageItem each) {

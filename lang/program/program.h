@@ -5,6 +5,7 @@
 #include "core/axis.h"
 #include "core/grid.h"
 #include "core/id.h"
+#include "core/picture_channel.h"
 #include "core/precision.h"
 #include "core/side.h"
 #include "core/source.h"
@@ -123,7 +124,8 @@ struct Unknown {
 /// A function of operands.
 struct Call {
     /// Of noise its octaves; of the parts of `transport` the axis; of convolve the number of its
-    /// kernel in Literals; of solved the number of its constraint.
+    /// kernel in Literals; of solved the number of its constraint; of functions of files the number
+    /// of what is read.
     std::uint32_t detail = 0;
     bool operator==(const Call&) const = default;
 };
@@ -510,6 +512,15 @@ struct SurfaceValue {
     friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
 };
 
+/// What a function of a file reads of it.
+struct FileReading {
+    PictureChannel channel = PictureChannel::lightness;
+    bool is_direction = false;  ///< The angle of the direction that a picture has painted.
+    /// Where in the file, 0 … 1 from the left, from the top and from the first slice: formulas of
+    /// numbers and of where the cell is. Empty: where the domain has it.
+    std::vector<Formula> place = {};
+};
+
 /// A constraint `0 = e`, which determines a field.
 struct Constraint {
     std::string unknown;  ///< The name of the field.
@@ -547,6 +558,8 @@ public:
     /// The number of a new kernel, or of a new constraint.
     std::uint32_t add(ConvolutionKernel kernel);
     std::uint32_t add(Constraint constraint);
+    /// The number of a new one; of an equal one, if it has no place.
+    std::uint32_t add(FileReading reading);
 
     /// In quotes: the name of a palette, a path.
     const std::string& text(TextId id) const { return texts_[id.index()]; }
@@ -555,6 +568,8 @@ public:
     }
     const ConvolutionKernel& kernel(std::uint32_t number) const { return kernels_[number]; }
     const Constraint& constraint(std::uint32_t number) const { return constraints_[number]; }
+    const FileReading& reading(std::uint32_t number) const { return readings_[number]; }
+    std::uint32_t reading_count() const { return static_cast<std::uint32_t>(readings_.size()); }
     auto text_ids() const { return ids_below<TextId>(texts_.size()); }
 
 private:
@@ -562,6 +577,7 @@ private:
     std::deque<SurfaceValue> surface_values_;
     std::deque<ConvolutionKernel> kernels_;
     std::deque<Constraint> constraints_;
+    std::deque<FileReading> readings_{FileReading{}};
 };
 
 struct Program {

@@ -74,6 +74,8 @@ constexpr WordElsewhere rows[] = {
     {Context::function, "laplacian laplace del2 nabla2 lapl laplacien", "did you mean 'lap'?"},
     {Context::function, "divergence", "did you mean 'div'?"},
     {Context::function, "gradient nabla", "did you mean 'grad'?"},
+    {Context::function, "uvimage texture tex2d texture2d",
+     "image(\"f.png\") reads a picture, on models by their texture coordinates"},
     {Context::function, "rot rotor", "write 'curl(v)'"},
     {Context::function, "norm", "write 'length(v)'"},
     {Context::function, "normalize normalise normalized", "write 'unit(v)'"},

@@ -4,14 +4,15 @@
 #include "core/check.h"
 #include "core/printable.h"
 #include "core/resample.h"
+#include "lang/program/models.h"
 #include "picture/grey_picture.h"
 #include "picture/npy.h"
 #include "run/domain/carried_cells.h"
+#include "run/domain/file_places.h"
 #include "run/domain/surface_values.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,71 +35,142 @@ auto read_granted(const Script& script, const std::string& name, std::uint64_t l
                    parsed.error().hint);
 }
 
-void read_one(Script& script, const Node& node, InputFiles& files) {
+/// The numbers of a NumPy file; nothing with a diagnostic.
+std::optional<NpyArray> read_array(Script& script, const Node& node) {
     const std::string& name = script.program->literals->text(text_of(node));
-    const std::int64_t detail = script.program->domain.detail;
-    const Grid grid = coarser(script.program->domain.grid, detail);
-    const Precision precision = script.program->domain.precision;
-    const auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
-        return parse_npy(bytes, precision);
+    auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
+        return parse_npy(bytes, script.program->domain.precision);
     });
-    if (!array) {
-        script.diagnostics.error(node.span, array.error().message, array.error().hint);
-    } else if (!fits(*array, grid)) {
-        script.diagnostics.error(
-            node.span,
-            array->slices == 1 && grid.depth == 1
-                ? fmt::format("'{}' has {} rows and {} columns, but the grid has {} and {}", name,
-                              array->rows, array->columns, grid.height, grid.width)
-                : fmt::format("'{}' has {} slices, {} rows and {} columns, but the grid has {}, "
-                              "{} and {}",
-                              name, array->slices, array->rows, array->columns, grid.depth,
-                              grid.height, grid.width),
-            array->slices == 1
-                ? fmt::format("a grid of {}, {} would fit", array->columns, array->rows)
-                : fmt::format("a grid of {}, {}, {} would fit", array->columns, array->rows,
-                              array->slices));
-    } else {
-        Field values = to_field(*array, precision);
-        if (detail > 1) values = carrier_on_grid(grid, detail, nullptr, nullptr)->carried(values);
-        files.add({Function::field, text_of(node)}, std::move(values));
-    }
+    if (array) return *std::move(array);
+    script.diagnostics.error(node.span, array.error().message, array.error().hint);
+    return std::nullopt;
 }
 
-/// The pixels of a PNG; nothing with a diagnostic.
-std::optional<GreyPicture> read_picture(Script& script, const Node& node) {
+/// Does an array have the rows and columns of a grid? A diagnostic if not.
+bool fits_grid(Script& script, const Node& node, const NpyArray& array, const Grid& grid) {
     const std::string& name = script.program->literals->text(text_of(node));
-    auto picture = read_granted(script, name, largest_picture_file, parse_grey_picture);
+    if (fits(array, grid)) return true;
+    script.diagnostics.error(
+        node.span,
+        array.slices == 1 && grid.depth == 1
+            ? fmt::format("'{}' has {} rows and {} columns, but the grid has {} and {}", name,
+                          array.rows, array.columns, grid.height, grid.width)
+            : fmt::format("'{}' has {} slices, {} rows and {} columns, but the grid has {}, "
+                          "{} and {}",
+                          name, array.slices, array.rows, array.columns, grid.depth, grid.height,
+                          grid.width),
+        array.slices == 1 ? fmt::format("a grid of {}, {} would fit", array.columns, array.rows)
+                          : fmt::format("a grid of {}, {}, {} would fit", array.columns, array.rows,
+                                        array.slices));
+    return false;
+}
+
+/// A channel of a PNG; nothing with a diagnostic.
+std::optional<GreyPicture> read_picture(Script& script, const Node& node, PictureChannel channel) {
+    const std::string& name = script.program->literals->text(text_of(node));
+    auto picture = read_granted(script, name, largest_picture_file, [&](std::string_view bytes) {
+        return parse_grey_picture(bytes, channel);
+    });
     if (picture) return *std::move(picture);
     script.diagnostics.error(node.span, picture.error().message, picture.error().hint);
     return std::nullopt;
 }
 
-void read_image(Script& script, const Node& node, InputFiles& files) {
-    const Grid& grid = script.program->domain.grid;
-    const auto picture = read_picture(script, node);
-    if (!picture) return;
-    const Field plane = to_field(resized(*picture, grid.width, grid.height), grid);
-    files.add({Function::image, text_of(node)}, plane.converted(script.program->domain.precision));
-}
+/// Reads the files that a script names, for its grid or its model.
+class FileReader {
+public:
+    FileReader(Script& script, const ModelCells* model)
+        : script_(script), model_(model), grid_(script.program->domain.grid) {}
 
-/// The values that the model has at its points, or of a picture painted on it.
-void read_of_model(Script& script, const Node& node, Function function, const ModelCells& model,
-                   InputFiles& files) {
-    const Precision precision = script.program->domain.precision;
-    const auto add = [&](Result<Field> plane) {
-        if (plane) return files.add({function, text_of(node)}, *std::move(plane));
-        script.diagnostics.error(node.span, plane.error().message, plane.error().hint);
-    };
-    if (function == Function::attr) {
-        const std::string& name = script.program->literals->text(text_of(node));
-        add(attribute_plane(name, model, precision));
-    } else if (const auto picture = read_picture(script, node)) {
-        add(painted_plane(*picture, model, precision));
+    /// Nothing with a diagnostic.
+    std::optional<Field> read(const NamedPlane& name, const Node& text) const {
+        const FileReading& reading = script_.program->literals->reading(name.reading);
+        switch (name.function) {
+            case Function::attr: return attribute(text);
+            case Function::field: return array(reading, text);
+            default: return reading.is_direction ? angles(reading, text) : image(reading, text);
+        }
     }
-}
 
-/// Calls `read(function, text)` for each text that the script's formulas read, once.
+private:
+    std::optional<Field> or_error(Result<Field> plane, const Node& text) const {
+        if (plane) return *std::move(plane);
+        script_.diagnostics.error(text.span, plane.error().message, plane.error().hint);
+        return std::nullopt;
+    }
+
+    std::optional<Field> attribute(const Node& text) const {
+        CHECK(model_ != nullptr, "only scripts on models read what points have");
+        const std::string& name = script_.program->literals->text(text_of(text));
+        return or_error(attribute_plane(name, *model_, precision()), text);
+    }
+
+    std::optional<Field> array(const FileReading& reading, const Node& text) const {
+        const auto array = read_array(script_, text);
+        if (!array) return std::nullopt;
+        if (reading.place.empty()) {
+            const std::int64_t detail = script_.program->domain.detail;
+            const Grid grid = coarser(grid_, detail);
+            if (!fits_grid(script_, text, *array, grid)) return std::nullopt;
+            Field values = to_field(*array, precision());
+            if (detail == 1) return values;
+            return carrier_on_grid(grid, detail, nullptr, nullptr)->carried(values);
+        }
+        if (array->slices > 1 && reading.place.size() < 3) {
+            script_.diagnostics.error(
+                text.span,
+                fmt::format("'{}' has {} slices, and the place in it has two numbers",
+                            script_.program->literals->text(text_of(text)), array->slices),
+                "a third number says where between the first slice and the last");
+            return std::nullopt;
+        }
+        const auto places = FilePlaces::by_formulas(reading.place, grid_, model_, false);
+        return plane(places.numbers(*array));
+    }
+
+    std::optional<Field> image(const FileReading& reading, const Node& text) const {
+        const auto picture = read_picture(script_, text, reading.channel);
+        if (!picture) return std::nullopt;
+        if (reading.place.empty() && model_ == nullptr) {
+            const Field filled = to_field(resized(*picture, grid_.width, grid_.height), grid_);
+            return filled.converted(precision());
+        }
+        const auto places = places_of(reading, text);
+        if (!places) return std::nullopt;
+        return plane(places->numbers(*picture));
+    }
+
+    std::optional<Field> angles(const FileReading& reading, const Node& text) const {
+        const auto red = read_picture(script_, text, PictureChannel::red);
+        if (!red) return std::nullopt;
+        const auto green = read_picture(script_, text, PictureChannel::green);
+        const auto places = places_of(reading, text);
+        if (!green || !places) return std::nullopt;
+        return plane(places->angles(*red, *green));
+    }
+
+    std::optional<FilePlaces> places_of(const FileReading& reading, const Node& text) const {
+        if (!reading.place.empty()) {
+            return FilePlaces::by_formulas(reading.place, grid_, model_, reading.is_direction);
+        }
+        if (model_ == nullptr) return FilePlaces::of_grid(grid_);
+        auto places = FilePlaces::of_texture(*model_, *script_.program->domain.model);
+        if (places) return *std::move(places);
+        script_.diagnostics.error(text.span, places.error().message, places.error().hint);
+        return std::nullopt;
+    }
+
+    Field plane(const std::vector<double>& numbers) const {
+        return plane_of(numbers, grid_, model_, precision());
+    }
+    Precision precision() const { return script_.program->domain.precision; }
+
+    Script& script_;
+    const ModelCells* model_;
+    const Grid& grid_;
+};
+
+/// Calls `read(name, text)` for each text that the script's formulas read, once.
 template <typename Read>
 void each_text_read(const Script& script, const Read& read) {
     std::set<NamedPlane> known;
@@ -106,30 +178,32 @@ void each_text_read(const Script& script, const Read& read) {
         for (const Node& node : formula.nodes) {
             if (!node.is<Call>() || !reads_file(node.function)) continue;
             const Node& text = formula.nodes[node.operands[0]];
-            if (known.insert({node.function, text_of(text)}).second) read(node.function, text);
+            const NamedPlane name{node.function, text_of(text), node.as<Call>()->detail};
+            if (known.insert(name).second) read(name, text);
         }
     };
     if (script.program->domain.mask) read_of(script.program->domain.mask->formula);
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        for (const Formula& formula : script.program->stages[k].items) read_of(formula);
-    }
+    for (const Formula* formula : formulas_of(*script.program)) read_of(*formula);
 }
 
 }  // namespace
 
-std::vector<std::string> input_file_names(const Script& script) {
-    std::vector<std::string> names;
-    each_text_read(script, [&](Function function, const Node& text) {
-        const std::string& name = script.program->literals->text(text_of(text));
-        const bool is_known = std::find(names.begin(), names.end(), name) != names.end();
-        if (function != Function::attr && !is_known) names.push_back(name);
+std::map<std::string, std::set<PictureChannel>> input_files_of(const Script& script) {
+    std::map<std::string, std::set<PictureChannel>> files;
+    each_text_read(script, [&](const NamedPlane& plane, const Node& text) {
+        if (plane.function == Function::attr) return;
+        auto& channels = files[script.program->literals->text(text_of(text))];
+        if (plane.function != Function::image) return;
+        const FileReading& reading = script.program->literals->reading(plane.reading);
+        if (!reading.is_direction) channels.insert(reading.channel);
+        else channels.insert({PictureChannel::red, PictureChannel::green});
     });
-    return names;
+    return files;
 }
 
 Result<void> check_attributes(Script& script, const SurfaceMesh& mesh) {
-    each_text_read(script, [&](Function function, const Node& text) {
-        if (function != Function::attr) return;
+    each_text_read(script, [&](const NamedPlane& plane, const Node& text) {
+        if (plane.function != Function::attr) return;
         const auto found = find_attribute(script.program->literals->text(text_of(text)), mesh);
         if (!found) script.diagnostics.error(text.span, found.error().message, found.error().hint);
     });
@@ -139,15 +213,9 @@ Result<void> check_attributes(Script& script, const SurfaceMesh& mesh) {
 
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
     InputFiles files;
-    each_text_read(script, [&](Function function, const Node& text) {
-        if (function == Function::field) {
-            read_one(script, text, files);
-        } else if (function == Function::image) {
-            read_image(script, text, files);
-        } else {
-            CHECK(model != nullptr, "only scripts on models read what points and textures have");
-            read_of_model(script, text, function, *model, files);
-        }
+    const FileReader reader(script, model);
+    each_text_read(script, [&](const NamedPlane& name, const Node& text) {
+        if (auto plane = reader.read(name, text)) files.add(name, *std::move(plane));
     });
     if (script.diagnostics.has_errors()) return failure("the script's files cannot be used");
     return files;

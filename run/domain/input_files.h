@@ -1,7 +1,8 @@
 // The files that a script names in quotes: arrays of `field("a.npy")`, pictures of `image("a.png")`
-// and, on models, `attr("name")` and `uvimage("a.png")`.
+// and, on models, `attr("name")`.
 #pragma once
 
+#include "core/picture_channel.h"
 #include "core/plane.h"
 #include "core/result.h"
 #include "lang/lower/slot_source.h"
@@ -9,8 +10,8 @@
 #include "run/script/script.h"
 
 #include <map>
+#include <set>
 #include <string>
-#include <vector>
 
 namespace cascade {
 
@@ -19,11 +20,11 @@ public:
     void add(NamedPlane name, Field plane) { planes_[name] = std::move(plane); }
     const Field& plane(NamedPlane name) const { return planes_.at(name); }
 
-    /// Calls `look` with the text and the plane of each that this function reads.
+    /// Calls `look` with the name and the plane of each that this function reads.
     template <typename Look>
     void each_of(Function function, const Look& look) const {
         for (const auto& [name, plane] : planes_) {
-            if (name.function == function) look(name.text, plane);
+            if (name.function == function) look(name, plane);
         }
     }
     /// The same files, with a new plane made from each.
@@ -38,17 +39,18 @@ private:
     std::map<NamedPlane, Field> planes_;
 };
 
-/// The names of the files that the mask and starting values read, each once.
-std::vector<std::string> input_file_names(const Script& script);
+/// The names of the files that the mask and the formulas of stages read, and of pictures the
+/// channels.
+std::map<std::string, std::set<PictureChannel>> input_files_of(const Script& script);
 
-/// Checks that a model's points have all that attr() reads in the mask or a starting value; if not,
-/// there are diagnostics at the text in the script.
+/// Checks that a model's points have all that attr() reads; if not, there are diagnostics at the
+/// text in the script.
 Result<void> check_attributes(Script& script, const SurfaceMesh& mesh);
 
-/// Reads every file that the mask or a starting value names, relative to the script's folder, and
-/// the values that starting values take from the points and the texture of a model (null on a
-/// grid). A missing file, a wrong type, a shape other than the grid's, and a name that the model
-/// does not know give diagnostics at the text in the script. Pictures are scaled to the grid.
+/// Reads every file that the mask or a formula names, relative to the script's folder, and the
+/// values of a model's points (null on a grid). A missing file, a wrong type, a shape other than
+/// the grid's, a name that the model does not know and a picture on a model without texture
+/// coordinates give diagnostics at the text in the script. Pictures are scaled to the grid.
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model);
 
 }  // namespace cascade

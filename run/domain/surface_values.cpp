@@ -66,35 +66,6 @@ std::vector<double> key_values(const ModelCells& model, std::span<const double> 
                     smoothing * box.longest, team, cancel);
 }
 
-/// A coordinate of a texture as a position among `count` pixels: the pixel before it, the one
-/// after, and the weight of the second.
-struct BetweenPixels {
-    std::size_t before = 0, after = 0;
-    double part = 0;
-
-    BetweenPixels(double coordinate, std::int64_t count) {
-        if (!std::isfinite(coordinate)) coordinate = 0;
-        const double place =
-            (coordinate - std::floor(coordinate)) * static_cast<double>(count) - 0.5;
-        const auto first = static_cast<std::int64_t>(std::floor(place));
-        part = place - std::floor(place);
-        before = static_cast<std::size_t>((first + count) % count);
-        after = static_cast<std::size_t>((first + 1 + count) % count);
-    }
-};
-
-double lightness_at(const GreyPicture& picture, const std::array<double, 2>& place) {
-    const BetweenPixels column(place[0], picture.width);
-    const BetweenPixels row(1 - place[1], picture.height);  // Rows are counted from the top.
-    const auto pixel = [&](std::size_t j, std::size_t i) {
-        return double{picture.values[j * static_cast<std::size_t>(picture.width) + i]};
-    };
-    const auto along = [&](std::size_t j) {
-        return std::lerp(pixel(j, column.before), pixel(j, column.after), column.part);
-    };
-    return std::lerp(along(row.before), along(row.after), row.part);
-}
-
 }  // namespace
 
 /// What the distances from all places have in common.
@@ -296,20 +267,6 @@ Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
     if (!attribute) return tl::unexpected(attribute.error());
     return field_of_cells(values_at(model.mesh, (*attribute)->values, model.spread().cells.places),
                           model, precision);
-}
-
-Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
-                            Precision precision) {
-    if (model.mesh.texture.empty()) {
-        return failure("the model has no texture coordinates",
-                       "they say where a picture lies on it");
-    }
-    std::vector<double> values;
-    values.reserve(model.count());
-    for (const SurfacePlace& place : model.spread().cells.places) {
-        values.push_back(lightness_at(picture, *texture_place_at(model.mesh, place)));
-    }
-    return field_of_cells(values, model, precision);
 }
 
 }  // namespace cascade

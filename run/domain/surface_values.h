@@ -1,12 +1,11 @@
 // Values of a model's cells that come from places on its surface: distances, values of keys,
-// curvatures, directions, and attributes of its points and its texture.
+// curvatures, directions, and attributes of its points.
 #pragma once
 
 #include "core/parallel.h"
 #include "core/plane.h"
 #include "core/result.h"
 #include "lang/program/program.h"
-#include "picture/grey_picture.h"
 #include "run/domain/model_cells.h"
 
 #include <atomic>
@@ -82,10 +81,5 @@ Result<const PointAttribute*> find_attribute(const std::string& name, const Surf
 /// attr("name") in the cells, interpolated linearly between points. Fails as find_attribute() does.
 Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                               Precision precision);
-
-/// uvimage(…) in the cells, interpolated linearly between the centres of four pixels. Coordinates
-/// beyond 0 … 1 repeat the picture. Fails if the model has no texture coordinates.
-Result<Field> painted_plane(const GreyPicture& picture, const ModelCells& model,
-                            Precision precision);
 
 }  // namespace cascade

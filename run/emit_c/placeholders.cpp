@@ -12,8 +12,10 @@ Placeholders::Placeholders(const Program& program, std::uint32_t last) {
         state.frozen = Mask(layout);
     }
     for (const TextId text : program.literals->text_ids()) {
-        files_.add({Function::field, text}, Field(layout));
-        files_.add({Function::image, text}, Field(layout));
+        for (std::uint32_t k = 0; k < program.literals->reading_count(); ++k) {
+            files_.add({Function::field, text, k}, Field(layout));
+            files_.add({Function::image, text, k}, Field(layout));
+        }
     }
     for (std::size_t k = 0; k < metric_plane_count; ++k) metric_.emplace_back(layout);
 }

@@ -172,14 +172,18 @@ void UndefinedValues::look_at_until(const StageView& view, const RunControl& con
 
 void warn_of_even_pictures(const Environment& environment, const RunControl& control) {
     if (!control.warn) return;
-    environment.files.each_of(Function::image, [&](TextId text, const Field& plane) {
+    const Literals& literals = *environment.program->literals;
+    environment.files.each_of(Function::image, [&](const NamedPlane& name, const Field& plane) {
+        const FileReading& reading = literals.reading(name.reading);
         const FieldMoments levels = moments(plane);
-        if (levels.deviation > one_level) return;
-        control.warn(fmt::format("image(\"{}\") is {:.4g} in all cells{}",
-                                 environment.program->literals->text(text), levels.mean,
-                                 levels.mean > 1 - one_level
-                                     ? ": is it all transparent? What is transparent lies on white"
-                                     : ""));
+        if (levels.deviation > one_level || reading.is_direction) return;
+        const bool is_lightness = reading.channel == PictureChannel::lightness;
+        control.warn(fmt::format(
+            "image(\"{}\"{}) is {:.4g} in all cells{}", literals.text(name.text),
+            is_lightness ? "" : fmt::format(", \"{}\"", name_of(reading.channel)), levels.mean,
+            is_lightness && levels.mean > 1 - one_level
+                ? ": is it all transparent? What is transparent lies on white"
+                : ""));
     });
 }
 

@@ -28,7 +28,9 @@ std::uint32_t adler32(std::string_view bytes) {
 
 }  // namespace
 
-Result<GreyPicture> parse_grey_picture(std::string_view bytes) { return parse_pixel_file(bytes); }
+Result<GreyPicture> parse_grey_picture(std::string_view bytes, PictureChannel channel) {
+    return parse_pixel_file(bytes, channel);
+}
 
 Result<PngTexts> parse_png_texts(std::string_view) {
     return failure("a page without the program cannot read pictures", "'cascade view' can");

@@ -67,7 +67,6 @@ TEST(CheckLinks, NearTakesOneDistance) {
 
 TEST(CheckLinks, CellsReadTheModelWhereTheyAre) {
     EXPECT_EQ(fault_of("attr(\"fur\")").find("attr has a meaning on models only"), 0u);
-    EXPECT_EQ(fault_of("field(\"a.npy\")").find("field cannot stand here"), 0u);
 }
 
 TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {

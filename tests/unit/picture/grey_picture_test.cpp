@@ -48,6 +48,30 @@ std::string bytes(std::initializer_list<int> values) {
     return text;
 }
 
+TEST(GreyPicture, ChannelsAreAsTheyAreStored) {
+    const auto channels = [](const std::string& file) {
+        std::vector<float> values;
+        for (const PictureChannel channel : {PictureChannel::red, PictureChannel::green,
+                                             PictureChannel::blue, PictureChannel::alpha}) {
+            const auto picture = parse_grey_picture(file, channel);
+            EXPECT_TRUE(picture);
+            if (picture) values.push_back(picture->values.at(0));
+        }
+        return values;
+    };
+    const auto near = [](float value) { return FloatNear(value, 1e-6F); };
+    EXPECT_THAT(channels(png(1, {bytes({51, 102, 153, 0})}, 8, 6)),
+                ElementsAre(near(0.2F), near(0.4F), near(0.6F), 0));
+    EXPECT_THAT(channels(png(1, {bytes({51, 102, 153})}, 8, 2)),
+                ElementsAre(near(0.2F), near(0.4F), near(0.6F), 1));
+    EXPECT_THAT(channels(png(1, {bytes({51, 204})}, 8, 4)),
+                ElementsAre(near(0.2F), near(0.2F), near(0.2F), near(0.8F)));
+    EXPECT_THAT(channels(png(1, {bytes({0x33, 0x33})}, 16, 0)),
+                ElementsAre(near(0.2F), near(0.2F), near(0.2F), 1));
+    EXPECT_THAT(channels(png(1, {bytes({0})}, 8, 3, {{"PLTE", bytes({255, 51, 0})}})),
+                ElementsAre(1, near(0.2F), 0, 1));
+}
+
 TEST(GreyPicture, GreyOfEveryDepth) {
     EXPECT_THAT(values_of(png(2, {bytes({0x80}), bytes({0x40})}, 1, 0)), ElementsAre(1, 0, 0, 1));
     EXPECT_THAT(values_of(png(3, {bytes({0x1b})}, 2, 0)),

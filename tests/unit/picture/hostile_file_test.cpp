@@ -114,6 +114,11 @@ TEST(HostilePixels, ComeBackOrAreRefused) {
     }
     EXPECT_FALSE(parse_pixel_file(file + "0"));
     EXPECT_FALSE(parse_pixel_file(file + "0000"));
+    const std::string red = print_pixel_file({1, 1, {0.5F}}, PictureChannel::red);
+    EXPECT_FALSE(parse_pixel_file(red));
+    ASSERT_TRUE(parse_pixel_file(file + red, PictureChannel::red));
+    EXPECT_EQ(parse_pixel_file(file + red, PictureChannel::red)->values.size(), 1u);
+    EXPECT_EQ(parse_pixel_file(file + red)->values.size(), 6u);
     flip_every_bit(file, expect_sound_pixels);
     std::mt19937 random(6);
     for (int round = 0; round < 20'000; ++round) expect_sound_pixels(shaken(file, random));
@@ -125,8 +130,8 @@ TEST(HostilePixels, AbsurdSidesAreRefused) {
     for (const std::int64_t width : sides) {
         for (const std::int64_t height : sides) {
             std::string changed = file;
-            std::memcpy(changed.data() + 8, &width, sizeof width);
-            std::memcpy(changed.data() + 16, &height, sizeof height);
+            std::memcpy(changed.data() + 16, &width, sizeof width);
+            std::memcpy(changed.data() + 24, &height, sizeof height);
             const bool fits = (width == 1 && height == 6) || (width == 6 && height == 1);
             EXPECT_EQ(parse_pixel_file(changed).has_value(), fits) << width << " " << height;
         }

@@ -71,7 +71,7 @@ TEST_F(SurfaceValuesTest, APaintedPictureLiesWhereTheTextureSays) {
         }
     }
     ASSERT_TRUE(write_png(path("coat.png"), image, PngDepth::eight, {}));
-    const auto found = values("mesh: \"square.obj\"; cells: 200", "uvimage(\"coat.png\")");
+    const auto found = values("mesh: \"square.obj\"; cells: 200", "image(\"coat.png\")");
     ASSERT_EQ(found.size(), 200u);
     for (std::size_t k = 0; k < found.size(); ++k) {
         const Vector3d at = place(k);
@@ -90,9 +90,86 @@ TEST_F(SurfaceValuesTest, APaintedPictureLiesWhereTheTextureSays) {
 TEST_F(SurfaceValuesTest, APaintedPictureNeedsTextureCoordinates) {
     std::ofstream(path("square.off")) << "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
     ASSERT_TRUE(write_png(path("coat.png"), Image(2, 2), PngDepth::eight, {}));
-    EXPECT_NE(fault("mesh: \"square.off\"; cells: 60", "a: uvimage(\"coat.png\")\n")
+    EXPECT_NE(fault("mesh: \"square.off\"; cells: 60", "a: image(\"coat.png\")\n")
                   .find("the model has no texture coordinates"),
               std::string::npos);
+    EXPECT_NE(script_.messages(false).find("cascade mesh square.off --unwrap"), std::string::npos);
+}
+
+/// A picture of 2 × 2 pixels of these colours, row by row.
+Image four(Colour a, Colour b, Colour c, Colour d) {
+    Image image(2, 2);
+    image.at(0, 0) = a;
+    image.at(1, 0) = b;
+    image.at(0, 1) = c;
+    image.at(1, 1) = d;
+    return image;
+}
+
+TEST_F(SurfaceValuesTest, APlaceSaysWhereInAPicture) {
+    // Red grows to the right, blue downwards.
+    ASSERT_TRUE(write_png(path("map.png"), four({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}),
+                          PngDepth::eight, {}));
+    const auto between = [](double at) { return std::clamp(2 * at - 0.5, 0.0, 1.0); };
+    const std::string ball = "surface: sphere; cells: 300";
+    for (const double part : {1.0, 3.0}) {
+        const std::string across = part == 1 ? "sx" : "3 * sx - 1";
+        const auto red = values(ball, "image(\"map.png\", \"red\", " + across + ", 1 - sy)");
+        const auto blue = values(ball, "image(\"map.png\", \"blue\", " + across + ", 1 - sy)");
+        ASSERT_EQ(red.size(), 300u);
+        for (std::size_t k = 0; k < red.size(); ++k) {
+            const double x = part == 1 ? place(k).x : 3 * place(k).x - 1;
+            EXPECT_NEAR(red[k], between(x), 1e-5);
+            EXPECT_NEAR(blue[k], between(1 - place(k).y), 1e-5);
+        }
+    }
+}
+
+TEST_F(SurfaceValuesTest, APlaceSaysWhereInAnArray) {
+    Field volume{PlaneLayout(Grid{2, 2, {}, 2})};
+    volume.at(1, 0, 0) = volume.at(1, 1, 0) = volume.at(1, 0, 1) = volume.at(1, 1, 1) = 3;
+    for (std::int64_t j : {0, 1}) {
+        for (std::int64_t i : {0, 1}) volume.at(i, j, 1) += 10;
+    }
+    ASSERT_TRUE(write_npy(path("volume.npy"), volume));
+    const auto between = [](double at) { return std::clamp(2 * at - 0.5, 0.0, 1.0); };
+    const std::string ball = "surface: sphere; cells: 300";
+    const auto found = values(ball, "field(\"volume.npy\", x, y, z)");
+    ASSERT_EQ(found.size(), 300u);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        EXPECT_NEAR(found[k], 3 * between(place(k).x) + 10 * between(place(k).z), 1e-4);
+    }
+    EXPECT_NE(fault(ball, "a: field(\"volume.npy\", sx, sy)\n").find("has 2 slices"),
+              std::string::npos);
+}
+
+TEST_F(SurfaceValuesTest, APaintedDirectionIsAnAngleOnTheSurface) {
+    // To the right and a little upwards everywhere: 30 degrees in the picture.
+    const Colour painted{0.5F + 0.5F * std::cos(0.5236F), 0.5F + 0.5F * std::sin(0.5236F), 0};
+    ASSERT_TRUE(write_png(path("flow.png"), four(painted, painted, painted, painted),
+                          PngDepth::sixteen, {}));
+    std::ofstream(path("square.obj")) << painted_obj;
+    // A square that faces its viewer: angles turn from the right downwards.
+    for (const double angle :
+         values("mesh: \"square.obj\"; cells: 60", "along(image(\"flow.png\"))")) {
+        EXPECT_NEAR(angle, -0.5236, 1e-3);
+    }
+    // By its place it is the same; mirrored, it runs the other way; twice as wide, it is flatter.
+    for (const auto& [place, expected] :
+         {std::pair("sx, 1 - sy", -0.5236), std::pair("1 - sx, 1 - sy", -3.14159 + 0.5236),
+          std::pair("sx / 2, 1 - sy", -std::atan2(std::sin(0.5236), 2 * std::cos(0.5236)))}) {
+        const auto angles = values("mesh: \"square.obj\"; cells: 60",
+                                   "along(image(\"flow.png\", " + std::string(place) + "))");
+        ASSERT_EQ(angles.size(), 60u);
+        for (const double angle : angles) EXPECT_NEAR(angle, expected, 1e-3) << place;
+    }
+    // Middle grey says no direction.
+    const Colour grey{0.5F, 0.5F, 0.5F};
+    ASSERT_TRUE(write_png(path("flow.png"), four(grey, grey, grey, grey), PngDepth::eight, {}));
+    for (const double angle :
+         values("mesh: \"square.obj\"; cells: 60", "along(image(\"flow.png\"))")) {
+        EXPECT_EQ(angle, 0);
+    }
 }
 
 /// The mean over all links of (across / along)² weights: how much faster heat goes along y than
