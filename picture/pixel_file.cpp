@@ -7,14 +7,14 @@
 namespace cascade {
 namespace {
 
-constexpr std::string_view magic = "CASPIXEL";
+constexpr std::string_view file_mark = "CASPIXEL";
 using Header = std::array<std::int64_t, 3>;  ///< The channel, width and height.
-constexpr std::size_t header_bytes = magic.size() + sizeof(Header);
+constexpr std::size_t header_bytes = file_mark.size() + sizeof(Header);
 
 }  // namespace
 
 std::string print_pixel_file(const GreyPicture& picture, PictureChannel channel) {
-    std::string bytes(magic);
+    std::string bytes(file_mark);
     const Header header{static_cast<std::int64_t>(channel), picture.width, picture.height};
     bytes.append(reinterpret_cast<const char*>(header.data()), sizeof header);
     return bytes.append(reinterpret_cast<const char*>(picture.values.data()),
@@ -24,11 +24,11 @@ std::string print_pixel_file(const GreyPicture& picture, PictureChannel channel)
 Result<GreyPicture> parse_pixel_file(std::string_view bytes, PictureChannel channel) {
     Result<GreyPicture> found = failure("it lacks a channel of the picture");
     do {
-        if (!bytes.starts_with(magic) || bytes.size() < header_bytes) {
+        if (!bytes.starts_with(file_mark) || bytes.size() < header_bytes) {
             return failure("it is no file of pixels");
         }
         Header header;
-        std::memcpy(header.data(), bytes.data() + magic.size(), sizeof header);
+        std::memcpy(header.data(), bytes.data() + file_mark.size(), sizeof header);
         bytes.remove_prefix(header_bytes);
         const auto [number, width, height] = header;
         const auto most = static_cast<std::int64_t>(bytes.size() / sizeof(float));

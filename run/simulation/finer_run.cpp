@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t most_steps = 1'000'000'000;
+constexpr std::int64_t most_settling_steps = 1'000'000'000;
 
 /// Does the solver leave it to the script that steps of a given length are stable? Euler's are
 /// split where they would not be (StageTimer::substeps).
@@ -48,11 +48,11 @@ Program settling_program(const Program& program, std::uint32_t k, const StageSta
     stage.time.duration_in_steps.reset();
     if (is_timed) {
         stage.time.duration = end.t * (1 + settling_part);
-        stage.iterations = most_steps;
+        stage.iterations = most_settling_steps;
     } else {
         const auto more =
             static_cast<std::int64_t>(std::ceil(static_cast<double>(end.steps) * settling_part));
-        stage.iterations = std::min(most_steps, end.steps + more * detail * detail);
+        stage.iterations = std::min(most_settling_steps, end.steps + more * detail * detail);
     }
     return result;
 }
