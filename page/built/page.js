@@ -1361,7 +1361,18 @@ stage spots: turing_spots {
 }
 
 picture { color: palette(b, 0, 7, "dart_frog") }
-`,picture:"UklGRn4BAABXRUJQVlA4IHIBAADwCwCdASpIADYAP3Gmylu0rCikLncaMpAuCWgAzvG7Ma0cYPPrMIOordqC7DpnawCFT/2UibI/JXAarf4S+bbyBcK0FrNlMHrYn5YgwCl1ln5uzut7mrEuZJa65CxR1mXR8wY7yPNUYAD+5wX9JP3xr1cBR/Z79+HENjtxH6Jj7myjfnKT/elNmH1ZdW16Rz5Mz3We3c2BPUZjgX3ERAOcaYk67bboKkTwKENjqpjwiQvVNlMm3eixZFI5HfRzxUWD8lOsL2cGn2FVU0s1G8KgYdoEwa85KVXAwKbUbsvvy1Vq29USmEs+H5TNrF03wfLZyMgsTvcH7axEiWoLFwxN1AA9xPbnbQfBSJJjHCA7wPYiu42Lx9k3hyV9zVqzNzYtOW9jsdxa5Uf3z+bbxyraTXE2dv2Cy7/BZmJu8nUI0MTsrK0qK4HE14VoYGLz/TyzhnxWbN1Bh7SSar9NM1AATmnl+S/1dl3WoMOhA/vwAAAA"},{name:"on_models/fingerprint",title:"Ridges on a sphere, which has no grid without poles",about:"Whorls, loops and forks, as on the tips of fingers",script:`# Ridges on a sphere, which has no grid without poles: whorls, loops and forks, as on the tips of
+`,picture:"UklGRn4BAABXRUJQVlA4IHIBAADwCwCdASpIADYAP3Gmylu0rCikLncaMpAuCWgAzvG7Ma0cYPPrMIOordqC7DpnawCFT/2UibI/JXAarf4S+bbyBcK0FrNlMHrYn5YgwCl1ln5uzut7mrEuZJa65CxR1mXR8wY7yPNUYAD+5wX9JP3xr1cBR/Z79+HENjtxH6Jj7myjfnKT/elNmH1ZdW16Rz5Mz3We3c2BPUZjgX3ERAOcaYk67bboKkTwKENjqpjwiQvVNlMm3eixZFI5HfRzxUWD8lOsL2cGn2FVU0s1G8KgYdoEwa85KVXAwKbUbsvvy1Vq29USmEs+H5TNrF03wfLZyMgsTvcH7axEiWoLFwxN1AA9xPbnbQfBSJJjHCA7wPYiu42Lx9k3hyV9zVqzNzYtOW9jsdxa5Uf3z+bbxyraTXE2dv2Cy7/BZmJu8nUI0MTsrK0qK4HE14VoYGLz/TyzhnxWbN1Bh7SSar9NM1AATmnl+S/1dl3WoMOhA/vwAAAA"},{name:"on_models/emperor",title:"A young emperor angelfish",about:"The rings are those of a map that was painted for a fish from the side: its red and green say in which direction stripes run, its blue how wide they are",script:`# A young emperor angelfish. The rings are those of a map that was painted for a fish from the side: its red and green
+# say in which direction stripes run, its blue how wide they are. The map is projected through the fish, so that both
+# flanks have it; maps/rings.cascade has painted it, and any program that paints could.
+domain { surface: fish; cells: 40000; seed: 5 }
+system rings: witkin_kass {
+  i: 1..1
+  theta[i]: along(image("maps/rings.png", 1 - sz, 1 - sy))
+  s: 1.1 + 0.7 * image("maps/rings.png", "blue", 1 - sz, 1 - sy)
+}
+stage coat: rings { iterations: 1500 }
+picture { color: palette(plus[1], 0.15, 1.1, "#0a0f2c #12306e #2f6fc0 #dcebff #ffffff") }
+`,picture:"UklGRoQBAABXRUJQVlA4IHgBAACwCwCdASpIADYAP3Guyly0rqgkqBZtUpAuCUAZ9GZVwfIbGY+q9vh8bofZI2tVtDJHgI+OYG3uN5WqDF02xgU6hX/ZgjrYq6upazs3uvNIruOEuC1Gr4y6JLr1NkivJJrs/1WTuQAA/u9gG1qv2ha5uirECf5cpN9s79e3Lo9LEcnXyRgiMFK54jsaoJVyRBTsAc4DA1YezQYqZdjYFcJyjBSXxzXpWoW3BmpocOwy/ixZOivuPw9jXjpivspN8l4iEPHZjQzRWLcPn80+33bIsUqanixUU0RgEJYYqxX8HZz9z2fjHSCrcjAFoyUPfygEnTOpMhAWmS4RkIlDp7L6AI8MsDaIvU9c35nql0chQi3N/cbGgXIBav95zJDl3MX/g9NdPMy6JESQD3hd0tVr9H1Gd4GGO02BuvweitxafbA4G3+XYHy7BM07jTRL+2BebHa2pJmeBFQnyQtvh3jX0CtEM+ZXjbsd8uAW8AxgUNIsABTEAAAA"},{name:"on_models/fingerprint",title:"Ridges on a sphere, which has no grid without poles",about:"Whorls, loops and forks, as on the tips of fingers",script:`# Ridges on a sphere, which has no grid without poles: whorls, loops and forks, as on the tips of
 # fingers. J. Swift, P. C. Hohenberg, Physical Review A 15, 319 (1977); lap of lap is taken over links.
 domain {
   surface: sphere

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double difference = 1e-4;          // Of longest sides, for slopes of formulas.
 constexpr double shortest_direction = 0.01;  // 8-bit pixels have no ½.
+constexpr double rounding = 1e-9;            // Of one component relative to the other.
 
 /// A place along one side of a file as a position among `count` elements: the one before it, the
 /// one after, and the weight of the second.
@@ -46,16 +47,18 @@ double number_at(const std::vector<Number>& values, std::array<std::int64_t, 3> 
                  const FilePlace& place, bool repeats) {
     const BetweenElements column(place[0], sides[0], repeats), row(place[1], sides[1], repeats),
         slice(place[2], sides[2], repeats);
+    // std::lerp rounds in each library in its own way.
+    const auto mix = [](double a, double b, double part) { return a + (b - a) * part; };
     const auto along = [&](std::size_t k, std::size_t j) {
         const std::size_t start =
             (k * static_cast<std::size_t>(sides[1]) + j) * static_cast<std::size_t>(sides[0]);
-        return std::lerp(static_cast<double>(values[start + column.before]),
-                         static_cast<double>(values[start + column.after]), column.part);
+        return mix(static_cast<double>(values[start + column.before]),
+                   static_cast<double>(values[start + column.after]), column.part);
     };
     const auto across = [&](std::size_t k) {
-        return std::lerp(along(k, row.before), along(k, row.after), row.part);
+        return mix(along(k, row.before), along(k, row.after), row.part);
     };
-    return std::lerp(across(slice.before), across(slice.after), slice.part);
+    return mix(across(slice.before), across(slice.after), slice.part);
 }
 
 void set(BuiltinValues& values, Builtin builtin, double value) {
@@ -141,13 +144,17 @@ Vector3d gradient_in(const SurfaceMesh& mesh, std::uint32_t triangle,
 /// The angle on the surface of a step in a picture, to the right and upwards in pixels.
 double angle_of(double to_right, double upwards, std::array<double, 2> sides,
                 const FileSlopes& slopes) {
-    if (!(std::hypot(to_right, upwards) >= shortest_direction)) return 0;
+    if (!(to_right * to_right + upwards * upwards >= shortest_direction * shortest_direction)) {
+        return 0;
+    }
     // The step along the surface that is this step in the picture: two linear equations.
     const double a = to_right / sides[0], b = -upwards / sides[1];
     const auto& [right, down] = slopes;
     const double sign = right[0] * down[1] - right[1] * down[0] < 0 ? -1 : 1;
     const double x = sign * (a * down[1] - b * down[0]);
-    const double y = sign * (b * right[0] - a * right[1]);
+    double y = sign * (b * right[0] - a * right[1]);
+    // To the left is π, whatever the rounding errors: −π is the same direction, but another number.
+    if (std::abs(y) <= rounding * std::abs(x)) y = 0;
     return std::isfinite(x) && std::isfinite(y) ? std::atan2(y, x) : 0;
 }
 
