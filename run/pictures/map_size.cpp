@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-double least_side(double texels_per_cell, std::int64_t cells, double covered) {
+double side_needed(double texels_per_cell, std::int64_t cells, double covered) {
     return texels_per_cell * std::sqrt(static_cast<double>(cells) / covered);
 }
 
@@ -27,7 +27,7 @@ double covered_by(const ModelCells& model, const MeshTexture& texture) {
 }  // namespace
 
 std::int64_t map_side(double texels_per_cell, std::int64_t cells, double covered) {
-    const double least = std::ceil(least_side(texels_per_cell, cells, covered));
+    const double least = std::ceil(side_needed(texels_per_cell, cells, covered));
     return static_cast<std::int64_t>(
         std::bit_ceil(static_cast<std::uint64_t>(std::clamp(least, 1.0, 0x1p40))));
 }
@@ -41,7 +41,7 @@ MapSize map_size_for(double texels_per_cell, const Simulation& simulation,
         const double covered = covered_by(*model, texture);
         const auto count = static_cast<std::int64_t>(model->count());
         wanted = map_side(texels_per_cell, count, covered);
-        cells_along = least_side(1, count, covered);
+        cells_along = side_needed(1, count, covered);
     } else {
         cells_along = static_cast<double>(simulation.grid().longest_side());
         wanted = std::max<std::int64_t>(1, std::llround(texels_per_cell * cells_along));
