@@ -70,12 +70,12 @@ std::vector<std::string> describe_model(const MadeMesh& made) {
 
 namespace {
 
-struct Quantiles {
+struct MeanAndDeviation {
     double mean = 0;
     double deviation = 0;  ///< In percent of the mean.
 };
 
-Quantiles spread_of(const std::vector<double>& values) {
+MeanAndDeviation spread_of(const std::vector<double>& values) {
     double sum = 0, squares = 0;
     for (const double value : values) {
         sum += value;
@@ -107,7 +107,7 @@ Result<std::vector<std::string>> describe_cells(const SurfaceMesh& mesh, const C
     if (!cells) return tl::unexpected(cells.error());
     std::vector<std::string> lines;
     if (cancel) return lines;
-    const Quantiles areas = spread_of(cells->areas);
+    const MeanAndDeviation areas = spread_of(cells->areas);
     lines.push_back(fmt::format(
         "{} of mean area {:.4g}, deviation {:.1f} %, {:.2f} neighbours each",
         counted(cells->areas.size(), "cell"), areas.mean, areas.deviation,
@@ -122,7 +122,7 @@ Result<std::vector<std::string>> describe_cells(const SurfaceMesh& mesh, const C
             })->distance);
     }
     if (!nearest.empty()) {
-        const Quantiles distances = spread_of(nearest);
+        const MeanAndDeviation distances = spread_of(nearest);
         lines.push_back(fmt::format("the nearest neighbour {:.4g} away, deviation {:.1f} %",
                                     distances.mean, distances.deviation));
     }
