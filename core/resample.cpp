@@ -139,11 +139,7 @@ std::vector<Around<Number>> around(std::int64_t cells, std::int64_t finer, Bound
     return result;
 }
 
-}  // namespace
-
-namespace {
-
-/// Interpolates `plane`, cells of one slice of a grid, into a slice of the finer one.
+/// Interpolates one slice of a grid, which begins at `from`, into slice k of the finer one.
 template <typename Number>
 void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& grid,
                   const std::vector<Around<Number>>& columns,

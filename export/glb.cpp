@@ -8,6 +8,7 @@
 #include "picture/srgb.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -95,6 +96,12 @@ private:
     Json targets() {
         Json targets = Json::array();
         const std::vector<Vector3d> normals = point_normals(mesh_);
+        std::vector<std::array<int, 3>> levels(vertices_.points.size());
+        for (std::size_t k = 0; k < levels.size(); ++k) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                levels[k][c] = static_cast<int>(level_in(look_.colours, k, c));
+            }
+        }
         std::optional<std::size_t> still;
         for (const GlbMoment& moment : growth_.moments) {
             Json target;
@@ -109,9 +116,8 @@ private:
                 GlbFile::vertex_buffer, "VEC4", vertices_.points.size(),
                 [&](std::size_t k, std::size_t c) {
                     if (c == 3) return 0;
-                    const auto now = static_cast<int>(level_in(look_.colours, k, c));
                     // 32767 stands for 1, as 65535 does in the colours.
-                    return (static_cast<int>(level_in(moment.colours, k, c)) - now) / 2;
+                    return (static_cast<int>(level_in(moment.colours, k, c)) - levels[k][c]) / 2;
                 });
             targets.push_back(std::move(target));
         }
@@ -205,6 +211,14 @@ private:
     std::optional<std::size_t> sampler_;
 };
 
+/// A file without parts whose coordinates begin where those of the mesh are exact.
+Result<GlbFile> file_for(const SurfaceMesh& mesh) {
+    const SurfaceMesh::Box box = mesh.box();
+    const Result<Vector3d> origin = origin_of_glb(mesh.points, box.low, box.high);
+    if (!origin) return tl::unexpected(origin.error());
+    return GlbFile(*origin);
+}
+
 /// An animation in which one moment after the other has all the weight, and the mesh the rest.
 void animate(std::size_t node, const GlbGrowth& growth, GlbFile& file) {
     const std::size_t count = growth.moments.size();
@@ -243,21 +257,18 @@ Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look) {
 
 Result<std::string> encode_growing_glb(const SurfaceMesh& mesh, const GlbLook& look,
                                        const GlbGrowth& growth) {
-    const SurfaceMesh::Box box = mesh.box();
-    const Result<Vector3d> origin = origin_of_glb(mesh.points, box.low, box.high);
-    if (!origin) return tl::unexpected(origin.error());
-    GlbFile file(*origin);
-    const std::size_t node = file.add_node({{"mesh", add_model(mesh, look, file, growth)}});
-    if (!growth.moments.empty()) animate(node, growth, file);
-    return file.pack();
+    Result<GlbFile> file = file_for(mesh);
+    if (!file) return tl::unexpected(file.error());
+    const std::size_t node = file->add_node({{"mesh", add_model(mesh, look, *file, growth)}});
+    if (!growth.moments.empty()) animate(node, growth, *file);
+    return file->pack();
 }
 
 Result<std::string> encode_glb(std::span<const GlbLevel> levels) {
     const SurfaceMesh& finest = levels.front().mesh;
-    const SurfaceMesh::Box box = finest.box();
-    const Result<Vector3d> origin = origin_of_glb(finest.points, box.low, box.high);
-    if (!origin) return tl::unexpected(origin.error());
-    GlbFile file(*origin);
+    Result<GlbFile> made = file_for(finest);
+    if (!made) return tl::unexpected(made.error());
+    GlbFile& file = *made;
     Json node = {{"mesh", add_model(finest, levels.front().look, file)}};
     if (levels.size() > 1) {
         Json coarser = Json::array(), coverages = Json::array();

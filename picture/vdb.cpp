@@ -16,7 +16,7 @@ constexpr const char* without_it = "--volume NAME.vti does without it";
 
 Result<VdbEncoder*> load_encoder() {
 #ifdef CASCADE_OPENVDB_MODULE
-    // Never unloaded: OpenVDB's libraries may leave threads behind.
+    // Never unloaded: threads of OpenVDB's libraries may still run.
     void* const module = ::dlopen(CASCADE_OPENVDB_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
         const char* reason = ::dlerror();

@@ -36,8 +36,8 @@ Lights::Lights(Lighting lighting, const Camera& camera, const Vector3& up) {
             even = {0.42F, 0.42F, 0.42F};
             break;
         case Lighting::studio:
-            // A key light from the upper left, a weaker one that fills in from the right, and one
-            // from above and behind that lights the outlines.
+            // A key light at the upper left, a weaker fill light at the right, a rim light above
+            // the model on its far side, and a second, small light beside the key light.
             sun = unit(near * 0.8F + above * 0.8F - right * 0.9F);
             sun_radius = 0.25F;
             sunlight = {0.66F, 0.63F, 0.59F};

@@ -205,7 +205,8 @@ FilePlaces FilePlaces::of_grid(const Grid& grid) {
     return {each, false};
 }
 
-Result<FilePlaces> FilePlaces::of_texture(const ModelCells& model, const ModelSettings& settings) {
+Result<FilePlaces> FilePlaces::of_texture(const ModelCells& model, const ModelSettings& settings,
+                                          bool with_slopes) {
     if (model.mesh.texture.empty()) {
         const std::string by_place = "image(\"f.png\", sx, 1 - sy) projects a picture along z";
         return failure(
@@ -215,13 +216,18 @@ Result<FilePlaces> FilePlaces::of_texture(const ModelCells& model, const ModelSe
                 : fmt::format("'cascade mesh {} --unwrap -o NAME.glb' writes it with some; {}",
                               settings.path, by_place));
     }
-    const auto each = [&model](const Visit& visit) {
+    const auto each = [&model, with_slopes](const Visit& visit) {
         const SurfaceMesh& mesh = model.mesh;
         const SurfaceCells& cells = model.spread().cells;
-        const CellFrames frames = cell_frames(mesh, cells);
+        const CellFrames frames = with_slopes ? cell_frames(mesh, cells) : CellFrames();
         for (std::size_t k = 0; k < cells.places.size(); ++k) {
             const SurfacePlace& place = cells.places[k];
             const auto [u, v] = *texture_place_at(mesh, place);
+            const FilePlace from_top{u, 1 - v, 0};  // Rows are counted from the top.
+            if (!with_slopes) {
+                visit(from_top, {});
+                continue;
+            }
             const auto& corners = mesh.texture[place.triangle];
             const auto gradient = [&](std::size_t axis) {
                 return gradient_in(mesh, place.triangle,
@@ -229,10 +235,9 @@ Result<FilePlaces> FilePlaces::of_texture(const ModelCells& model, const ModelSe
                                     static_cast<double>(corners[1][axis]),
                                     static_cast<double>(corners[2][axis])});
             };
-            // Rows are counted from the top.
             const Vector3d of_u = gradient(0), of_v = gradient(1) * -1;
-            visit({u, 1 - v, 0}, {{dot(of_u, frames.right[k]), dot(of_v, frames.right[k]), 0},
-                                  {dot(of_u, frames.down[k]), dot(of_v, frames.down[k]), 0}});
+            visit(from_top, {{dot(of_u, frames.right[k]), dot(of_v, frames.right[k]), 0},
+                             {dot(of_u, frames.down[k]), dot(of_v, frames.down[k]), 0}});
         }
     };
     return FilePlaces(each, true);

@@ -39,7 +39,8 @@ public:
     static FilePlaces of_grid(const Grid& grid);
     /// By the texture coordinates of a model, beyond which the picture repeats. Fails, and says
     /// what makes some, if the model has none.
-    static Result<FilePlaces> of_texture(const ModelCells& model, const ModelSettings& settings);
+    static Result<FilePlaces> of_texture(const ModelCells& model, const ModelSettings& settings,
+                                         bool with_slopes);
 
     /// Interpolated linearly between the centres of pixels.
     std::vector<double> numbers(const GreyPicture& picture) const;

@@ -154,7 +154,8 @@ private:
             return FilePlaces::by_formulas(reading.place, grid_, model_, reading.is_direction);
         }
         if (model_ == nullptr) return FilePlaces::of_grid(grid_);
-        auto places = FilePlaces::of_texture(*model_, *script_.program->domain.model);
+        auto places =
+            FilePlaces::of_texture(*model_, *script_.program->domain.model, reading.is_direction);
         if (places) return *std::move(places);
         script_.diagnostics.error(text.span, places.error().message, places.error().hint);
         return std::nullopt;

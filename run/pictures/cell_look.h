@@ -30,6 +30,8 @@ struct CellLook {
     PaintedCells painted() const {
         return {channels, values, colour, heights, material.cells(), displaces};
     }
+    /// The same without heights and material.
+    PaintedCells painted_alone() const { return {channels, values, colour, {}}; }
 };
 
 }  // namespace cascade

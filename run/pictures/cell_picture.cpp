@@ -302,7 +302,9 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
     options.round_shadows = true;
     std::optional<RaisedMesh> raised;
     if (look.displaces && !look.heights.empty()) {
-        raised.emplace(raised_model(mesh_, cells_, filter_, look.heights, team), drawn_);
+        raised.emplace(raised_model(refined_for_colours(mesh_, cells_), mesh_, filter_,
+                                    look.heights, team),
+                       drawn_);
     }
     const Ground ground{raised ? raised->drawn : drawn_.mesh,
                         raised ? std::span<const TriangleOrigin>(raised->fine.origins)

@@ -17,19 +17,15 @@ class GrowingModel {
 public:
     GrowingModel(const ModelCells& model, const MeshTexture& texture)
         : mesh_(mesh_in_files(model, texture)),
-          cells_(model.spread().cells),
           team_(hardware_threads()),
-          filter_(mesh_, cells_, team_),
-          fine_(refined_for_colours(mesh_, cells_)) {}
+          filter_(mesh_, model.spread().cells, team_),
+          fine_(refined_for_colours(mesh_, model.spread().cells)) {}
 
     GlbMoment moment(const ModelLook& look) {
-        PaintedCells painted = look.painted();
-        painted.heights = {};
-        painted.material = {};
         GlbMoment moment;
-        moment.colours = colours_at(fine_.places, filter_, painted, team_);
+        moment.colours = colours_at(fine_.places, filter_, look.painted_alone(), team_);
         if (look.displaces) {
-            RefinedMesh raised = raised_model(mesh_, cells_, filter_, look.heights, team_);
+            RefinedMesh raised = raised_model(fine_, mesh_, filter_, look.heights, team_);
             moment.points = std::move(raised.mesh.points);
         }
         return moment;
@@ -44,7 +40,6 @@ public:
 
 private:
     SurfaceMesh mesh_;
-    const SurfaceCells& cells_;
     Team team_;
     CellFilter filter_;
     RefinedMesh fine_;

@@ -111,10 +111,11 @@ const CellFilter& ModelFileWriter::filter() {
 
 const RefinedMesh& ModelFileWriter::refined() {
     if (refined_) return *refined_;
-    const SurfaceCells& cells = model_.spread().cells;
-    refined_ = std::make_unique<RefinedMesh>(
-        look_.displaces ? raised_model(mesh_, cells, filter(), look_.heights, team_)
-                        : refined_for_colours(mesh_, cells));
+    RefinedMesh fine = refined_for_colours(mesh_, model_.spread().cells);
+    if (look_.displaces) {
+        fine = raised_model(std::move(fine), mesh_, filter(), look_.heights, team_);
+    }
+    refined_ = std::make_unique<RefinedMesh>(std::move(fine));
     return *refined_;
 }
 
@@ -162,9 +163,7 @@ Result<void> ModelFileWriter::make_levels() {
 }
 
 Result<std::vector<ModelLevel>> ModelFileWriter::simplified_levels() {
-    PaintedCells painted = look_.painted();
-    painted.heights = {};
-    painted.material = {};
+    const PaintedCells painted = look_.painted_alone();
     const std::vector<SurfacePlace>& places = refined().places;
     const std::atomic<bool> never = false;
     return levels_of({refined().mesh, colours_at(places, filter(), painted, team_),

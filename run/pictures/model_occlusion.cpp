@@ -32,7 +32,8 @@ std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& 
     CHECK(heights.size() == cells.places.size(), "each cell has a height");
     std::vector<float> finite(heights.begin(), heights.end());
     for (float& height : finite) height = std::isfinite(height) ? height : 0;
-    const DrawnMesh drawn = creased_mesh(raised_model(mesh, cells, filter, finite, team).mesh);
+    const DrawnMesh drawn = creased_mesh(
+        raised_model(refined_for_colours(mesh, cells), mesh, filter, finite, team).mesh);
     const RayCaster caster(drawn.mesh);
     const CornerNormals normals = corner_normals(mesh);
     const auto nearby = static_cast<float>(cell_spacing(cells) * drawn.scale);

@@ -9,7 +9,9 @@
 #include "surface/retile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace cascade {
@@ -20,14 +22,19 @@ class NestedTiling {
 public:
     NestedTiling(const SurfaceMesh& mesh, const SurfaceCells& cells, const ModelLook& look,
                  std::span<const Channel> channels, Team& team)
-        : mesh_(mesh), cells_(cells), look_(look), channels_(channels), team_(team) {}
+        : mesh_(mesh), cells_(cells), look_(look), channels_(channels), team_(team) {
+        for (std::size_t k = 0; k < cells.places.size(); ++k) {
+            const Colour light = light_of(shown(look.colour_of(k, cells.places[k])));
+            for (std::size_t c = 0; c < 3; ++c) lights_[c].push_back(light[c]);
+        }
+    }
 
     Result<std::vector<ModelLevel>> levels(int count) {
         std::vector<std::uint32_t> order;
         if (count > 1) order = nested_order(cells_);
         std::vector<ModelLevel> levels;
         std::vector<std::uint32_t> kept(cells_.places.size());
-        for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = static_cast<std::uint32_t>(k);
+        std::iota(kept.begin(), kept.end(), 0u);
         for (int k = 0; k < count; ++k) {
             if (k > 0) {
                 kept.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(
@@ -94,11 +101,7 @@ private:
     std::vector<Colour> colours_at_points(const AtPoints& at_points) const {
         std::vector<Colour> colours;
         for (std::size_t c = 0; c < 3; ++c) {
-            std::vector<float> lights;
-            for (std::size_t k = 0; k < cells_.places.size(); ++k) {
-                lights.push_back(light_of(shown(look_.colour_of(k, cells_.places[k]))[c]));
-            }
-            const std::vector<float> of_points = at_points("", lights).values;
+            const std::vector<float> of_points = at_points("", lights_[c]).values;
             colours.resize(of_points.size());
             for (std::size_t p = 0; p < of_points.size(); ++p) {
                 colours[p][c] = stored_of(std::clamp(of_points[p], 0.0F, 1.0F));
@@ -112,6 +115,7 @@ private:
     const ModelLook& look_;
     std::span<const Channel> channels_;
     Team& team_;
+    std::array<std::vector<float>, 3> lights_;  ///< Red, green and blue of all cells.
 };
 
 }  // namespace

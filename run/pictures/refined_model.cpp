@@ -21,9 +21,8 @@ RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cel
     return refined(mesh, colour_distance * cell_spacing(cells), most_triangles);
 }
 
-RefinedMesh raised_model(const SurfaceMesh& mesh, const SurfaceCells& cells,
-                         const CellFilter& filter, std::span<const float> heights, Team& team) {
-    RefinedMesh fine = refined_for_colours(mesh, cells);
+RefinedMesh raised_model(RefinedMesh fine, const SurfaceMesh& mesh, const CellFilter& filter,
+                         std::span<const float> heights, Team& team) {
     std::vector<Vector3d> normals;
     const std::vector<Vector3d> of_points = point_normals(mesh);
     for (const SurfacePlace& place : fine.places) {
