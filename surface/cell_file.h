@@ -15,7 +15,7 @@
 namespace cascade {
 
 /// Increased when the file format or the cells for the same surface and options change.
-inline constexpr std::uint32_t cell_file_version = 3;
+inline constexpr std::uint32_t cell_file_version = 4;
 
 /// A hash of the surface and of all options that affect its cells: cells may be reused if and only
 /// if it is equal. The probability of a collision is 2⁻¹²⁸.

@@ -4,6 +4,7 @@
 #include "mesh/flat.h"
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace cascade {
@@ -65,11 +66,15 @@ public:
     }
 
 private:
-    /// An edge to a triangle that has not been visited, in a heap with the nearest on top.
+    /// An edge to a triangle that has not been visited, in a heap with the nearest on top. Edges
+    /// that meet in the corner nearest to the place are equally near; of those, the one found
+    /// first is on top. The order is total, so that it does not depend on the library's heap.
     struct Front {
         double square = 0;  ///< Of its distance.
         std::uint32_t piece = 0, edge = 0;
-        friend bool operator<(const Front& a, const Front& b) { return a.square > b.square; }
+        friend bool operator<(const Front& a, const Front& b) {
+            return std::tie(b.square, b.piece, b.edge) < std::tie(a.square, a.piece, a.edge);
+        }
     };
     void add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered,
              double square);

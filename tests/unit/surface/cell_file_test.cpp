@@ -129,7 +129,7 @@ TEST_F(CellFile, SaysWhyItIsNotUsed) {
     change(false, [](std::string& b) { b[0] = 'K'; });
     EXPECT_NE(reason().find("is no file of cells"), std::string::npos);
     change(false, [](std::string& b) { b[8] = 99; });
-    EXPECT_NE(reason().find("is of version 99, not 3"), std::string::npos);
+    EXPECT_NE(reason().find("is of version 99, not 4"), std::string::npos);
     change(false, [](std::string& b) { std::swap(b[12], b[15]); });
     EXPECT_NE(reason().find("byte order"), std::string::npos);
     change(false, [](std::string& b) { b[100] ^= 1; });
