@@ -165,8 +165,14 @@ void add_picture_options(CLI::App& app, PictureChanges& picture) {
               "On a surface: the direction of view, in degrees around\nit and above the horizon",
               parse_view, [&](auto view) { picture.view = view; })
         ->group(group);
-    add_value(app, "--size", "WxH", "On a surface: pixels across and down, instead of 800x600",
+    add_value(app, "--size", "WxH",
+              "Pixels across and down. A plane becomes a smooth picture,\nas large as fits in; "
+              "surfaces are 800x600 without it",
               parse_picture_size, [&](auto size) { picture.size = size; })
+        ->group(group);
+    add_value(app, "--copies", "NxM",
+              "Copies of a periodic plane side by side, such as 2x2, with\nno seam between them",
+              parse_copies, [&](auto copies) { picture.copies = copies; })
         ->group(group);
     add_value(app, "--quality", "Q", "On a surface: draft, normal or fine, for less or more time",
               one_of({quality_names.begin(), quality_names.end()}),

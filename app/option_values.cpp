@@ -100,17 +100,32 @@ Result<View> parse_view(std::string_view text) {
                    "write degrees around (-360 to 360) and above (-89 to 89), as in --view 30,25");
 }
 
+/// "3x2", or "3" for both.
+std::optional<std::array<std::int64_t, 2>> parse_sides(std::string_view text,
+                                                       std::int64_t largest) {
+    const std::size_t cross = text.find('x');
+    const auto across = parse_whole(text.substr(0, cross), 1, largest);
+    const auto down =
+        cross == std::string_view::npos ? across : parse_whole(text.substr(cross + 1), 1, largest);
+    if (!across || !down) return std::nullopt;
+    return std::array{*across, *down};
+}
+
 Result<PictureSize> parse_picture_size(std::string_view text) {
     // Pictures that are too large are refused later, when the scale is known.
     constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
-    const std::size_t cross = text.find('x');
-    if (cross != std::string_view::npos) {
-        const auto width = parse_whole(text.substr(0, cross), 1, largest);
-        const auto height = parse_whole(text.substr(cross + 1), 1, largest);
-        if (width && height) return PictureSize{*width, *height};
-    }
+    if (const auto sides = parse_sides(text, largest)) return PictureSize{(*sides)[0], (*sides)[1]};
     return failure(fmt::format("'{}' is not the size of a picture", text),
-                   "write pixels across x down, as in --size 1920x1080");
+                   "write pixels across x down, as in --size 1920x1080, or one number for both");
+}
+
+Result<PictureCopies> parse_copies(std::string_view text) {
+    if (const auto sides = parse_sides(text, most_copies)) {
+        return PictureCopies{static_cast<int>((*sides)[0]), static_cast<int>((*sides)[1])};
+    }
+    return failure(fmt::format("'{}' is no number of copies", text),
+                   fmt::format("write copies across x down, each 1 to {}, as in --copies 2x2",
+                               most_copies));
 }
 
 Result<float> parse_fov(std::string_view text) {

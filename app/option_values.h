@@ -35,6 +35,7 @@ Result<ValueRange> parse_range(std::string_view text);
 Result<View> parse_view(std::string_view text);
 /// "1920x1080"; each at least 1.
 Result<PictureSize> parse_picture_size(std::string_view text);
+Result<PictureCopies> parse_copies(std::string_view text);
 /// Degrees, 1 … 120.
 Result<float> parse_fov(std::string_view text);
 Result<double> parse_texels(std::string_view text);

@@ -339,7 +339,8 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
     if (changes.slice) request.slice = *changes.slice;
     if (changes.flat) request.flat = true;
     if (changes.view) request.view = *changes.view;
-    if (changes.size) request.size = *changes.size;
+    if (changes.size) request.size = changes.size;
+    if (changes.copies) request.copies = *changes.copies;
     if (changes.quality) request.quality = *changes.quality;
     if (changes.lighting) request.lighting = *changes.lighting;
     if (changes.fov) request.fov = changes.fov;

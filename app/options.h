@@ -53,6 +53,7 @@ struct PictureChanges {
     bool flat = false;
     std::optional<View> view;
     std::optional<PictureSize> size;
+    std::optional<PictureCopies> copies;
     std::optional<Quality> quality;
     std::optional<Lighting> lighting;
     std::optional<float> fov;

@@ -12,12 +12,14 @@ draw() {
     "$program" run -q "examples/$1.cascade" -o "examples/$1.png" "${@:2}"
 }
 
-draw_recipe() { draw "$1" --grid 128x128 --scale 3 --palette "$2"; }
+# Recipes of Appendix C, on four times the cells of the thesis and in colours; finer at the end.
+draw_recipe() { draw "$1" --grid 128x128 --detail 3 --palette "$2"; }
 
 draw_one() {
     case $1 in
         pearson_map) draw "$1" ;;
         materials/lava) draw "$1" --displace --light studio ;;
+        witkin_kass/replication) draw "$1" --copies 2x2 ;;
         witkin_kass/* | surfaces/* | bodies/*) draw "$1" ;;
         on_models/torus) draw "$1" --view 30,40 ;;
         on_models/fingerprint | on_models/lobes) draw "$1" ;;
@@ -39,8 +41,7 @@ draw_one() {
             draw "$1" --detail 2 --palette coral --range 0,0.4 -o "examples/$1.svg" \
                 --panel one.v --panel two.v --panel four.v --panel eight.v --panel many.v --panel all.v
             ;;
-        # The recipes of Appendix C, on four times the cells of the thesis and in colours. Two want its grid, and
-        # become smooth in finer cells.
+        # These two recipes want the grid of the thesis.
         squirrel) draw "$1" --detail 6 --palette tan ;;
         mixed_spots) draw "$1" --detail 6 --palette viridis ;;
         cheetah | small_spots) draw_recipe "$1" cheetah ;;
@@ -52,10 +53,9 @@ draw_one() {
         broken_lines) draw_recipe "$1" dart_frog ;;
         honeycomb) draw_recipe "$1" inferno ;;
         autocatalytic_spots | vary_spots) draw_recipe "$1" magma ;;
-        # Grids of 128 cells and more.
         automatic_cascade | butterfly | fish | brusselator | fitzhugh_nagumo | gray_scott_* | figure_3_3_cheetah | \
-            figure_3_3_leopard | figure_3_4_mixed_stripes | figure_3_4_reticulation) draw "$1" --scale 2 ;;
-        *) draw "$1" --scale 4 ;;
+            figure_3_3_leopard | figure_3_4_mixed_stripes | figure_3_4_reticulation) draw "$1" --size 512 ;;
+        *) draw "$1" --size 384 ;;
     esac
 }
 

@@ -121,13 +121,16 @@ private:
 
 class PlaneBaker {
 public:
-    PlaneBaker(const FlatCells& cells, const PaintedCells& painted, std::int64_t texels)
+    PlaneBaker(const FlatCells& cells, const PaintedCells& painted,
+               std::array<std::int64_t, 2> size)
         : cells_(cells), painted_(painted), values_(cells, painted) {
-        const auto [width, height] = texture_size(cells, texels);
-        const std::int64_t longer = std::max(cells.columns, cells.rows);
-        samples_ = std::max<std::int64_t>(2, (longer + texels - 1) / texels);
-        const auto image = [w = width, h = height](bool is_there) {
-            return is_there ? Image(w, h) : Image();
+        const auto cells_of_texel = [](std::int64_t count, std::int64_t texels) {
+            return (count + texels - 1) / texels;
+        };
+        samples_ = std::max({std::int64_t{2}, cells_of_texel(cells.columns, size[0]),
+                             cells_of_texel(cells.rows, size[1])});
+        const auto image = [size](bool is_there) {
+            return is_there ? Image(size[0], size[1]) : Image();
         };
         maps_.maps = maps_of(painted.material, !painted.heights.empty());
         maps_.repeats = cells.repeats;
@@ -298,11 +301,11 @@ std::array<std::int64_t, 2> texture_size(const FlatCells& cells, std::int64_t te
     return {side(cells.columns), side(cells.rows)};
 }
 
-MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted, std::int64_t texels,
-                        Team& team) {
+MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted,
+                        std::array<std::int64_t, 2> size, Team& team) {
     CHECK(painted.values.size() == cells.count() * painted.channels,
           "each cell has values of all channels");
-    return PlaneBaker(cells, painted, texels).run(team);
+    return PlaneBaker(cells, painted, size).run(team);
 }
 
 SurfaceMesh plane_mesh(const FlatCells& cells) {

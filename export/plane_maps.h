@@ -17,9 +17,10 @@ std::array<std::int64_t, 2> texture_size(const FlatCells& cells, std::int64_t te
 /// samples, of colours in linear light, of which there are four or, in small textures, one or more
 /// for each cell. Normals are those of the surface raised by the texels' heights. Cells outside
 /// take values from their surroundings; heights that are not finite do, too. `colour` gets no
-/// place. The same on any number of threads. Throws std::bad_alloc.
-MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted, std::int64_t texels,
-                        Team& team);
+/// place. `size` are texels across and down. The same on any number of threads. Throws
+/// std::bad_alloc.
+MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted,
+                        std::array<std::int64_t, 2> size, Team& team);
 
 /// A rectangle of the plane's size around the origin that faces z, y upwards, with texture
 /// coordinates from 0 to 1.

@@ -90,4 +90,22 @@ Image enlarge(Image image, int factor) {
     return large;
 }
 
+Image repeated(const Image& image, int across, int down) {
+    Image whole(image.width * across, image.height * down);
+    const auto repeat = [&](const auto& one, auto& all) {
+        for (std::int64_t y = 0; y < whole.height; ++y) {
+            const auto row = one.begin() + y % image.height * image.width;
+            for (int k = 0; k < across; ++k) {
+                std::copy_n(row, image.width, all.begin() + y * whole.width + k * image.width);
+            }
+        }
+    };
+    repeat(image.pixels, whole.pixels);
+    if (!image.alpha.empty()) {
+        whole.alpha.resize(whole.pixels.size());
+        repeat(image.alpha, whole.alpha);
+    }
+    return whole;
+}
+
 }  // namespace cascade

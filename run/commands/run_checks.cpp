@@ -12,6 +12,7 @@
 #include "picture/vdb.h"
 #include "run/commands/model_checks.h"
 #include "run/pictures/body_picture.h"
+#include "run/pictures/drawn_cells.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/material.h"
 #include "run/pictures/model_maps.h"
@@ -67,14 +68,6 @@ std::string_view name_of(OutputKind kind) {
     if (kind == OutputKind::picture) return "the picture";
     if (kind == OutputKind::figure) return "the figure";
     return kind == OutputKind::film ? "the film" : "the model";
-}
-
-/// Of cells that crawl.
-bool has_cells(const Script& script) {
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        if (script.program->system_of(k).cells) return true;
-    }
-    return false;
 }
 
 std::vector<OutputFile> files_of(const Script& script, const RunRequest& request,
@@ -145,8 +138,7 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
 }
 
 Result<void> check_film_sizes(const Script& script, const RunRequest& request) {
-    const PictureSize size = picture_size(script.program->domain, request.picture,
-                                          has_cells(script) || draws_body(script, request.picture));
+    const PictureSize size = picture_size(script, request.picture);
     for (const auto& output : request.outputs) {
         if (!is_film(output)) continue;
         if (auto good = check_film_size(output, size.width, size.height); !good) return good;
@@ -154,7 +146,7 @@ Result<void> check_film_sizes(const Script& script, const RunRequest& request) {
     if (request.labels.empty() || has_room_for_caption(size.width, size.height)) return {};
     return failure(fmt::format("frames of {} × {} pixels have no room for a label", size.width,
                                size.height),
-                   "a larger --scale makes room");
+                   "a larger --scale or --size makes room");
 }
 
 Result<void> check_folders(const RunRequest& request, Folders folders) {
@@ -219,8 +211,6 @@ void check_on_plane(OptionRefuser& options, const RunRequest& request, bool has_
     const std::string hint = "surface: x, y, z in the domain makes one";
     if (!has_body) options.refuse_if(request.picture.flat, "--flat", message, hint);
     options.refuse_if(request.picture.is_turned(), "--view", message, hint);
-    options.refuse_if(request.picture.size != usual_size, "--size", message,
-                      "--scale N draws each cell as N x N pixels");
     options.refuse_if(request.picture.fov.has_value(), "--fov", message, hint);
     options.refuse_if(!request.picture.ground, "--ground", message, hint);
     options.refuse_if(request.picture.background != pure_white, "--background", message, hint);
@@ -228,6 +218,28 @@ void check_on_plane(OptionRefuser& options, const RunRequest& request, bool has_
     options.refuse_if(request.picture.lighting != Lighting::sun, "--light", message, hint);
     options.refuse_if(request.turntable > 0 || request.picture.view.is_turning, "--turntable",
                       message, hint);
+}
+
+/// Smooth pictures, and copies side by side.
+void check_flat_picture(OptionRefuser& options, const Script& script,
+                        const PictureRequest& picture) {
+    const bool has_copies = picture.copies != PictureCopies();
+    if (draws_scene(script, picture)) {
+        options.refuse_if(has_copies, "--copies", "only planes are drawn in copies",
+                          "of a surface by a formula, --flat draws the texture alone");
+        return;
+    }
+    options.refuse_if(picture.size && picture.space_time, "--size",
+                      "a space-time picture has a pixel for each cell and interval",
+                      "--scale N draws them as N x N pixels");
+    options.refuse_if(has_copies && picture.space_time, "--copies",
+                      "a space-time picture has no copies", "");
+    const auto [columns, rows] = sides_that_repeat(script.program->domain.grid, picture.slice);
+    const std::string hint = "a domain with boundary: periodic repeats";
+    options.refuse_if(picture.copies.across > 1 && !columns, "--copies",
+                      "the pattern does not go on at its left and right sides", hint);
+    options.refuse_if(picture.copies.down > 1 && !rows, "--copies",
+                      "the pattern does not go on at its upper and lower sides", hint);
 }
 
 /// Outputs of rows and columns, which cells that crawl do not lie in.
@@ -374,6 +386,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         const bool has_body = picture_expression(script.tree, "body").has_value();
         if (!domain.surface) check_on_plane(options, request, has_body);
     }
+    check_flat_picture(options, script, request.picture);
     check_films(options, request);
     check_detail(options, script, request);
     check_panels(options, request);

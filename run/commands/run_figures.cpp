@@ -62,11 +62,15 @@ std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulati
                      std::string(script.sources.text(formula->nodes[value].span))};
 }
 
-/// The plane that a flat picture is of, in lengths.
-PlaneExtent extent_of(const Grid& grid, const Image& picture, const PictureRequest& request) {
-    const double length = grid.spacing / request.scale;
-    PlaneExtent plane{static_cast<double>(picture.width) * length,
-                      static_cast<double>(picture.height) * length, "x", "y"};
+/// The plane that a flat picture is of, with its copies, in lengths.
+PlaneExtent extent_of(const Grid& grid, const PictureRequest& request) {
+    const PlaneLayout layout(grid);
+    const Grid shown = grid.depth == 1 ? grid : slice_grid(layout, request.slice);
+    const auto length = [&](std::int64_t cells, int copies) {
+        return static_cast<double>(cells * copies) * grid.spacing;
+    };
+    PlaneExtent plane{length(shown.width, request.copies.across),
+                      length(shown.height, request.copies.down), "x", "y"};
     if (grid.depth == 1) return plane;
     if (request.slice.axis == Axis::x) plane.across = "z";
     if (request.slice.axis == Axis::y) plane.down = "z";
@@ -81,13 +85,14 @@ Drawing RunResults::figure_of(Painter& of, const Canvas& canvas, const std::stri
     const Grid& grid = simulation.grid();
     if (of.is_flat() && grid.height == 1 && grid.depth == 1 && !canvas.is_colour()) {
         std::vector<double> values;
-        for (std::int64_t k = 0; k < grid.width; ++k) values.push_back(canvas.fields[0].at(k, 0));
+        const Field& line = canvas.fields[0];
+        for (std::int64_t k = 0; k < line.layout().width; ++k) values.push_back(line.at(k, 0));
         return draw_curve_figure(values, static_cast<double>(grid.width) * grid.spacing, title,
                                  name);
     }
     const Image picture = of.image(canvas);
     std::optional<PlaneExtent> plane;
-    if (of.is_flat()) plane = extent_of(grid, picture, wanted);
+    if (of.is_flat()) plane = extent_of(grid, wanted);
     const auto bar = canvas.is_colour() ? bar_of(script, simulation, of.formula(simulation))
                                         : ColourBar{&of.palette(), of.range_of(canvas), name};
     return draw_figure(picture, title, plane, bar);

@@ -181,7 +181,7 @@ Result<void> Runner::make_simulation() {
             go_on(*simulation_, nullptr, played->values(), Continuation::same, control_.cancel);
         if (!restored) return tl::unexpected(restored.error());
     }
-    auto fits = check_picture_size(script_.program->domain, request_.picture, simulation_->memory(),
+    auto fits = check_picture_size(script_, request_.picture, simulation_->memory(),
                                    request_.simulation.memory_limit);
     return fits ? check_film_sizes(script_, request_) : fits;
 }

@@ -41,6 +41,9 @@ struct DrawnCells {
     std::string fault;  ///< The message about cells that cannot be drawn; "" if all can.
 };
 
+/// True if a stage that runs is one of cells that crawl.
+bool has_cells(const Script& script);
+
 /// Places the cells as the settings of the picture block say, of which some may be missing.
 /// Settings that read what has no value yet count as missing, too. `file` is that of
 /// picture_file(); without it, the file is read.

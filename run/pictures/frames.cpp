@@ -158,13 +158,14 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
 
 /// As many as have room for a picture and what it is encoded from, in half of the free memory.
 int FrameRecorder::threads_for(const Painter& painter, int threads) const {
-    // Pictures of surfaces are drawn by all threads together.
-    if (frames_.empty() || !painter.is_flat()) return 1;
+    // Pictures of surfaces, and smooth ones, are drawn by all threads together.
+    if (frames_.empty() || !painter.has_square_cells()) return 1;
     constexpr std::uint64_t bytes_of_pixel = 40;
-    const auto scale = static_cast<std::uint64_t>(painter.request().scale);
+    const auto [across, down] = painter.request().copies;
+    const std::int64_t scale = painter.request().scale;
     const PlaneLayout& layout = frames_.front().layout;
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(layout.width * layout.height) * scale * scale;
+    const auto pixels =
+        static_cast<std::uint64_t>(layout.width * layout.height * scale * scale * across * down);
     const std::uint64_t fitting = available_memory() / 2 / (pixels * bytes_of_pixel);
     const std::uint64_t most =
         std::min<std::uint64_t>(static_cast<unsigned>(threads), frames_.size());

@@ -3,12 +3,14 @@
 #include "run/pictures/painter.h"
 
 #include "core/near_name.h"
+#include "export/plane_maps.h"
 #include "lang/check/check.h"
 #include "lang/syntax/parse.h"
 #include "run/domain/metric_planes.h"
 #include "run/pictures/body_picture.h"
 #include "run/pictures/model_picture.h"
 #include "run/pictures/drawn_cells.h"
+#include "run/pictures/picture_size.h"
 #include "run/pictures/plane_look.h"
 #include "run/pictures/surface_picture.h"
 #include "run/pictures/tissue_picture.h"
@@ -117,21 +119,30 @@ Canvas Painter::values(const Simulation& simulation) {
     return {evaluate(simulation, evaluation_in(simulation))};
 }
 
-Canvas Painter::canvas(const Simulation& simulation) {
-    Canvas canvas = values(simulation);
+/// What the canvas is of.
+void Painter::look_at_domain(const Simulation& simulation) {
     model_ = simulation.model();
-    shows_cells_ = simulation.state(simulation.shown_stage().value_or(0)).tissue != nullptr;
+    shows_cells_ = simulation.state(shown_stage_of(simulation)).tissue != nullptr;
+    if (const DomainMask* mask = simulation.mask()) {
+        outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
+    }
+}
+
+Canvas Painter::canvas(const Simulation& simulation) {
+    look_at_domain(simulation);
+    if (is_flat() && request_.size) {
+        const PictureSize copy = copy_size(simulation.grid(), request_);
+        return canvas_of_plane(simulation, std::max(copy.width, copy.height), false);
+    }
+    Canvas canvas = values(simulation);
     if (shows_cells_) return canvas_of_cells(simulation, std::move(canvas));
     if (shows_body_) return canvas_of_body(simulation, std::move(canvas));
     for (Field& field : canvas.fields) field = shown(std::move(field), request_);
     if (model_) canvas.material = material(simulation, evaluation_in(simulation));
     if (model_ && request_.bump != 0 && canvas.is_colour()) {
-        const std::uint32_t stage = simulation.shown_stage().value_or(0);
+        const std::uint32_t stage = shown_stage_of(simulation);
         auto usual = simulation.evaluate(simulation.program().stages[stage].show, stage);
         if (usual.size() == 1) canvas.relief = shown(std::move(usual[0]), request_);
-    }
-    if (const DomainMask* mask = simulation.mask()) {
-        outside_ = as_shown(Field(PlaneLayout(simulation.grid())), mask, request_);
     }
     return canvas;
 }
@@ -149,35 +160,35 @@ MaterialFields Painter::material(const Simulation& simulation,
 }
 
 Canvas Painter::map_canvas(const Simulation& simulation, std::int64_t texels) {
+    look_at_domain(simulation);
+    return canvas_of_plane(simulation, texels, true);
+}
+
+Canvas Painter::canvas_of_plane(const Simulation& simulation, std::int64_t texels,
+                                bool has_material) {
     constexpr std::int64_t most_parts = 8, most_cells = std::int64_t{1} << 22;
     const Grid& grid = simulation.grid();
     std::int64_t parts = std::clamp<std::int64_t>(texels / grid.longest_side(), 1, most_parts);
     while (parts > 1 && grid.cell_count() > most_cells / (parts * parts)) --parts;
     const auto finer = parts > 1 ? simulation.finer(parts) : nullptr;
-    if (!finer) {
-        Canvas whole = canvas(simulation);
-        whole.material = material(simulation, evaluation_in(simulation));
-        return whole;
+    EvaluateFormula evaluation = evaluation_in(simulation);
+    if (finer) {
+        evaluation = [&](const Formula& formula) {
+            return finer->evaluate(formula, shown_stage_of(simulation));
+        };
     }
-    const EvaluateFormula in_parts = [&](const Formula& formula) {
-        return finer->evaluate(formula, shown_stage_of(simulation));
-    };
-    Canvas divided{evaluate(simulation, in_parts)};
-    for (Field& field : divided.fields) field = shown(std::move(field), request_);
-    divided.material = material(simulation, in_parts);
-    divided.parts = parts;
-    return divided;
+    Canvas canvas{evaluate(simulation, evaluation)};
+    for (Field& field : canvas.fields) field = shown(std::move(field), request_);
+    if (has_material) canvas.material = material(simulation, evaluation);
+    if (finer) canvas.parts = parts;
+    return canvas;
 }
 
 PlaneLook Painter::plane_look(const Canvas& canvas, std::optional<ValueRange> range) const {
     const PlaneLayout& layout = canvas.fields[0].layout();
     const Grid& grid = script_->program->domain.grid;
     FlatCells plane{layout.width, layout.height, grid.spacing / static_cast<double>(canvas.parts)};
-    const Boundaries& sides = grid.boundary;
-    const Axis across = request_.slice.axis;
-    const Boundary columns = grid.depth > 1 && across == Axis::x ? sides.z : sides.x;
-    const Boundary rows = grid.depth > 1 && across == Axis::y ? sides.z : sides.y;
-    plane.repeats = {columns == Boundary::periodic, rows == Boundary::periodic};
+    plane.repeats = sides_that_repeat(grid, request_.slice);
     if (!outside_.empty()) {
         for (std::int64_t j = 0; j < layout.height; ++j) {
             for (std::int64_t i = 0; i < layout.width; ++i) {
@@ -203,6 +214,17 @@ Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) co
     return image;
 }
 
+/// Of one copy.
+Image Painter::smooth(const Canvas& canvas, std::optional<ValueRange> range) const {
+    const PlaneLook look = plane_look(canvas, range);
+    const PictureSize size = copy_size(script_->program->domain.grid, request_);
+    Team team(hardware_threads());
+    MaterialMaps maps = bake_plane(look.cells, look.painted(), {size.width, size.height}, team);
+    Image image = std::move(maps.colour);
+    for (const Colour& opacity : maps.opacity.pixels) image.alpha.push_back(opacity[0]);
+    return image;
+}
+
 ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) const {
     const ValueRange used = range_of(canvas, range);
     ModelLook look(*model_, canvas, used, *palette_);
@@ -215,8 +237,9 @@ ModelLook Painter::look(const Canvas& canvas, std::optional<ValueRange> range) c
 
 DrawOptions Painter::draw_options() const {
     DrawOptions options;
-    options.width = request_.size.width;
-    options.height = request_.size.height;
+    const PictureSize size = request_.size.value_or(usual_size);
+    options.width = size.width;
+    options.height = size.height;
     options.quality = request_.quality;
     options.lighting = request_.lighting;
     options.ground = request_.ground;
@@ -269,7 +292,7 @@ Image Painter::of_body(const Canvas& canvas, std::optional<ValueRange> range) co
 
 /// The values in the order of the cells' numbers, and the cells.
 Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    const std::uint32_t stage = shown_stage_of(simulation);
     const Tissue& tissue = *simulation.state(stage).tissue;
     for (Field& field : values.fields) field = row_of_cells(field, tissue);
     values.cells =
@@ -306,8 +329,13 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
     if (canvas.cells) return with_cells(canvas, range);
     if (canvas.body) return of_body(canvas, range);
     if (model_) return on_model(canvas, range);
-    Image flat = texture(canvas, range);
-    if (is_flat()) return enlarge(std::move(flat), request_.scale);
+    if (is_flat()) {
+        const auto [across, down] = request_.copies;
+        return repeated(request_.size ? smooth(canvas, range)
+                                      : enlarge(texture(canvas, range), request_.scale),
+                        across, down);
+    }
+    const Image flat = texture(canvas, range);
     const DomainSettings& domain = script_->program->domain;
     const DrawOptions options = draw_options();
     const Boundaries& sides = domain.grid.boundary;

@@ -27,7 +27,7 @@ struct Canvas {
     std::vector<Field> fields;
     Field relief = {};             ///< For a colour with bumps: the number that gives the heights.
     MaterialFields material = {};  ///< Of a model, and of map_canvas().
-    std::int64_t parts = 1;        ///< Of a cell along each axis: more in map_canvas().
+    std::int64_t parts = 1;  ///< Of a cell along each axis: more for maps and smooth pictures.
     /// Of a stage of cells that crawl, in whose order the fields are; else null.
     std::shared_ptr<const DrawnCells> cells = nullptr;
     /// Of a volume that is drawn as a body: its surface, in lengths of scripts, at whose points the
@@ -68,19 +68,22 @@ public:
     bool fell_back() const { return fell_back_; }
     /// The values of a plane for maps whose longer side has this many texels, with the material.
     /// Where cells are larger than texels they are divided, at most into 8 × 8, and formulas are
-    /// computed in the parts: so thresholds have smooth outlines.
+    /// computed in the parts: so thresholds have smooth outlines. Canvases of smooth pictures are
+    /// made in this way, too, without a material.
     Canvas map_canvas(const Simulation& simulation, std::int64_t texels);
 
     /// The expression of --show or the picture block as it is for the stage that is shown; nothing
     /// where the default is drawn.
     std::optional<Formula> formula(const Simulation& simulation);
 
-    /// The canvas as an image, enlarged, and transparent outside of the mask; drawn on the surface
-    /// if the domain has one. `range` overrides the automatic range.
+    /// The canvas as an image, enlarged or smooth, and transparent outside of the mask; drawn on
+    /// the surface if the domain has one. `range` overrides the automatic range.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {});
-    /// True if each cell of the last canvas becomes a square of pixels. Then image() may be called
-    /// from several threads.
+    /// True if the last canvas is seen as the plane it is, or as the texture of a surface.
     bool is_flat() const;
+    /// True if each of its cells, moreover, becomes a square of pixels. Then image() may be called
+    /// from several threads at once, and uses one.
+    bool has_square_cells() const { return is_flat() && !request_.size; }
     const PictureRequest& request() const { return request_; }
     const Palette& palette() const { return *palette_; }
     /// Sets the view of later pictures.
@@ -105,7 +108,10 @@ public:
     ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
 private:
+    void look_at_domain(const Simulation& simulation);
+    Canvas canvas_of_plane(const Simulation& simulation, std::int64_t texels, bool has_material);
     Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
+    Image smooth(const Canvas& canvas, std::optional<ValueRange> range) const;
     std::vector<Field> evaluate(const Simulation& simulation, const EvaluateFormula& evaluate);
     MaterialFields material(const Simulation& simulation, const EvaluateFormula& evaluate) const;
     DrawOptions draw_options() const;

@@ -2,52 +2,90 @@
 #include "run/pictures/picture_size.h"
 
 #include "core/quantities.h"
+#include "run/pictures/body_picture.h"
+#include "run/pictures/drawn_cells.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace cascade {
 
 namespace {
 
-bool is_drawn(const DomainSettings& domain, const PictureRequest& picture) {
-    return domain.model || (domain.surface && !picture.flat);
+PictureSize cells_of(const Grid& grid, const Slice& slice) {
+    if (grid.depth == 1) return {grid.width, grid.height};
+    const Grid shown = slice_grid(PlaneLayout(grid), slice);
+    return {shown.width, shown.height};
 }
 
-/// One pixel for each cell that is shown, or the default size of rendered pictures.
-PictureSize unscaled_size(const DomainSettings& domain, const PictureRequest& picture,
-                          bool is_drawn) {
-    if (is_drawn) return picture.size;
-    if (domain.grid.depth == 1) return {domain.grid.width, domain.grid.height};
-    const Grid grid = slice_grid(PlaneLayout(domain.grid), picture.slice);
-    return {grid.width, grid.height};
+/// What `scale` multiplies: a pixel for each cell, or the size that was asked for.
+PictureSize unscaled_copy(const Grid& grid, const PictureRequest& picture) {
+    const PictureSize cells = cells_of(grid, picture.slice);
+    if (!picture.size) return cells;
+    const auto side = [](std::int64_t count) { return static_cast<double>(count); };
+    const double room_across = side(picture.size->width) / picture.copies.across;
+    const double room_down = side(picture.size->height) / picture.copies.down;
+    const double pixels = std::min(room_across / side(cells.width), room_down / side(cells.height));
+    const auto fitting = [&](std::int64_t count, double room) {
+        const double rounded = std::round(side(count) * pixels);
+        return static_cast<std::int64_t>(
+            std::max(1.0, rounded > room ? std::floor(room) : rounded));
+    };
+    return {fitting(cells.width, room_across), fitting(cells.height, room_down)};
+}
+
+PictureSize unscaled_size(const Script& script, const PictureRequest& picture) {
+    if (draws_scene(script, picture)) return picture.size.value_or(usual_size);
+    const PictureSize copy = unscaled_copy(script.program->domain.grid, picture);
+    return {copy.width * picture.copies.across, copy.height * picture.copies.down};
+}
+
+PictureSize scaled(PictureSize size, int scale) {
+    return {size.width * scale, size.height * scale};
 }
 
 }  // namespace
 
-PictureSize picture_size(const DomainSettings& domain, const PictureRequest& picture,
-                         bool has_cells) {
-    PictureSize size = unscaled_size(domain, picture, has_cells || is_drawn(domain, picture));
-    size.width *= picture.scale;
-    size.height *= picture.scale;
-    return size;
+bool draws_scene(const Script& script, const PictureRequest& picture) {
+    const DomainSettings& domain = script.program->domain;
+    return domain.model || (domain.surface && !picture.flat) || has_cells(script) ||
+           draws_body(script, picture);
 }
 
-Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,
-                                double memory, std::uint64_t memory_limit) {
+std::array<bool, 2> sides_that_repeat(const Grid& grid, const Slice& slice) {
+    const Boundaries& sides = grid.boundary;
+    const bool is_slice = grid.depth > 1;
+    const Boundary columns = is_slice && slice.axis == Axis::x ? sides.z : sides.x;
+    const Boundary rows = is_slice && slice.axis == Axis::y ? sides.z : sides.y;
+    return {columns == Boundary::periodic, rows == Boundary::periodic};
+}
+
+PictureSize copy_size(const Grid& grid, const PictureRequest& picture) {
+    return scaled(unscaled_copy(grid, picture), picture.scale);
+}
+
+PictureSize picture_size(const Script& script, const PictureRequest& picture) {
+    return scaled(unscaled_size(script, picture), picture.scale);
+}
+
+Result<void> check_picture_size(const Script& script, const PictureRequest& picture, double memory,
+                                std::uint64_t memory_limit) {
     constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
-    // Only what is drawn from a place in space has another size than the usual one.
-    const bool is_scene = is_drawn(domain, picture) || picture.size != usual_size;
-    const PictureSize size = unscaled_size(domain, picture, is_scene);
+    const bool has_pixels = draws_scene(script, picture) || picture.size;
+    const PictureSize size = unscaled_size(script, picture);
     const std::int64_t count = size.width * size.height;
     const std::int64_t pixels_per_cell = std::int64_t{picture.scale} * picture.scale;
-    const char* const hint = !is_scene            ? "use a smaller grid or --scale"
+    const char* const hint = !has_pixels          ? "use a smaller grid or --scale"
                              : picture.scale == 1 ? "use a smaller --size"
                                                   : "use a smaller --size or --scale";
     if (count > most_pixels / pixels_per_cell) {
         const std::string scale =
-            is_scene && picture.scale == 1 ? "" : fmt::format(" at scale {}", picture.scale);
+            has_pixels && picture.scale == 1 ? "" : fmt::format(" at scale {}", picture.scale);
         return failure(fmt::format("a picture of {} × {} {}{} has more than {} pixels", size.width,
-                                   size.height, is_scene ? "pixels" : "cells", scale, most_pixels),
+                                   size.height, has_pixels ? "pixels" : "cells", scale,
+                                   most_pixels),
                        hint);
     }
     // An enlarged picture is painted at one pixel per cell first.

@@ -1,22 +1,32 @@
-// How large a picture may be.
+// How large a picture is, and may be.
 #pragma once
 
 #include "core/result.h"
 #include "lang/program/program.h"
 #include "run/script/picture_request.h"
+#include "run/script/script.h"
 
+#include <array>
 #include <cstdint>
 
 namespace cascade {
 
-/// The size of pictures of a domain. Those of models, surfaces and `has_cells`, of cells that
-/// crawl, are drawn from a place in space, and have a size of their own.
-PictureSize picture_size(const DomainSettings& domain, const PictureRequest& picture,
-                         bool has_cells = false);
+/// True if pictures are drawn from a place in space: of models, surfaces, bodies and cells that
+/// crawl.
+bool draws_scene(const Script& script, const PictureRequest& picture);
+
+/// Whether a picture of the plane, or of a slice, goes on at its left and right sides, and at its
+/// upper and lower ones, with a copy of itself.
+std::array<bool, 2> sides_that_repeat(const Grid& grid, const Slice& slice);
+
+/// One of the copies that a picture of the plane, or of a slice, consists of.
+PictureSize copy_size(const Grid& grid, const PictureRequest& picture);
+
+PictureSize picture_size(const Script& script, const PictureRequest& picture);
 
 /// Refuses pictures of more than 2²⁸ pixels, and those that do not fit into memory; `memory` is
 /// what the run needs without them, in bytes, and 0 no limit.
-Result<void> check_picture_size(const DomainSettings& domain, const PictureRequest& picture,
+Result<void> check_picture_size(const Script& script, const PictureRequest& picture,
                                 double memory = 0, std::uint64_t memory_limit = 0);
 
 }  // namespace cascade

@@ -22,7 +22,8 @@ Result<WrittenFiles> write_plane(const std::filesystem::path& path, const PlaneL
             occlusion = height_occlusion(look.cells, look.heights, team);
             painted.material[MaterialPart::occlusion] = occlusion;
         }
-        const MaterialMaps maps = bake_plane(look.cells, painted, options.bake, team);
+        const MaterialMaps maps =
+            bake_plane(look.cells, painted, texture_size(look.cells, options.bake), team);
         const auto done = write_maps(path, plane_mesh(look.cells), maps, texts, options.map_format);
         if (!done) return tl::unexpected(done.error());
         return WrittenFiles{map_paths(path, maps.maps, options.map_format), look.material.doubts};

@@ -33,7 +33,11 @@ bool makes_sense(const PictureRequest& request) {
     const auto is_side = [](std::int64_t side) {
         return side >= 1 && side <= std::numeric_limits<std::int32_t>::max();
     };
-    if (!is_side(request.size.width) || !is_side(request.size.height)) return false;
+    if (request.size && !(is_side(request.size->width) && is_side(request.size->height))) {
+        return false;
+    }
+    const auto is_count = [](int count) { return count >= 1 && count <= most_copies; };
+    if (!is_count(request.copies.across) || !is_count(request.copies.down)) return false;
     if (!(request.slice.place >= 0 && request.slice.place <= 1)) return false;
     return find_palette(request.palette) != nullptr;
 }
@@ -64,7 +68,10 @@ std::string to_json(const PictureRequest& request) {
     if (request.detail > 1) json["detail"] = request.detail;
     if (request.flat) json["flat"] = true;
     if (request.is_turned()) json["view"] = {request.view.azimuth, request.view.elevation};
-    if (request.size != usual_size) json["size"] = {request.size.width, request.size.height};
+    if (request.size) json["size"] = {request.size->width, request.size->height};
+    if (request.copies != PictureCopies{}) {
+        json["copies"] = {request.copies.across, request.copies.down};
+    }
     if (request.quality != Quality::normal) json["quality"] = name_of(request.quality);
     if (request.lighting != Lighting::sun) json["light"] = name_of(request.lighting);
     if (request.fov) json["fov"] = *request.fov;
@@ -90,6 +97,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     PictureRequest request;
     std::vector<float> view, range;
     std::vector<std::int64_t> size;
+    std::vector<int> copies;
     std::string quality(name_of(Quality::normal)), light(name_of(Lighting::sun));
     std::string background = name_of(request.background);
     fields.read("palette", request.palette);
@@ -101,6 +109,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     fields.read("flat", request.flat);
     fields.read("view", view);
     fields.read("size", size);
+    fields.read("copies", copies);
     fields.read("quality", quality);
     fields.read("light", light);
     if (json.contains("fov")) fields.read("fov", request.fov.emplace());
@@ -112,7 +121,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
     fields.read("range", range);
     const auto is_none_or_two = [](std::size_t count) { return count == 0 || count == 2; };
     if (!fields.is_sound() || !is_none_or_two(view.size()) || !is_none_or_two(range.size()) ||
-        !is_none_or_two(size.size())) {
+        !is_none_or_two(size.size()) || !is_none_or_two(copies.size())) {
         return tl::unexpected(unreadable);
     }
     if (json.contains("slice")) {
@@ -131,6 +140,7 @@ Result<PictureRequest> picture_request_from_json(const std::string& text) {
         request.view.elevation = view[1];
     }
     if (!size.empty()) request.size = {size[0], size[1]};
+    if (!copies.empty()) request.copies = {copies[0], copies[1]};
     const auto named = quality_named(quality);
     const auto lighting = lighting_named(light);
     if (!named || !lighting) return tl::unexpected(senseless);

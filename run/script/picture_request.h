@@ -23,6 +23,13 @@ struct PictureSize {
 /// Of pictures that are drawn from a place in space, if nothing else is asked for.
 inline constexpr PictureSize usual_size{800, 600};
 
+/// Copies of a plane's picture side by side.
+struct PictureCopies {
+    int across = 1, down = 1;
+    bool operator==(const PictureCopies&) const = default;
+};
+inline constexpr int most_copies = 16;  ///< Along each axis.
+
 /// The most parts of a cell along each axis.
 inline constexpr int most_detail = 8;
 
@@ -38,8 +45,10 @@ struct PictureRequest {
     Slice slice;                      ///< 3-D grids: the slice to show.
     bool flat = false;                ///< Of a surface: only the texture.
     View view;                        ///< Of a surface: the direction it is seen from.
-    /// Of a surface, in pixels that `scale` multiplies.
-    PictureSize size = usual_size;
+    /// In pixels that `scale` multiplies. Of a plane: the picture is smooth, and as large as fits
+    /// in; empty: a pixel for each cell. Of a surface; empty: the usual one.
+    std::optional<PictureSize> size;
+    PictureCopies copies;               ///< Of a plane that is periodic there.
     Quality quality = Quality::normal;  ///< Of a surface.
     Lighting lighting = Lighting::sun;  ///< Of a surface.
     /// Of a surface: the field of view along the shorter side of the picture, in degrees.

@@ -44,7 +44,7 @@ PngTexts embed_session(const Script& script, const PictureRequest& request, cons
 Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& request) {
     auto painter = make_painter(run, request);
     if (!painter) return tl::unexpected(std::move(painter.error()));
-    if (const auto fits = check_picture_size(run.script().program->domain, request); !fits) {
+    if (const auto fits = check_picture_size(run.script(), request); !fits) {
         return refused<std::string>(fits.error());
     }
     if (!painter->is_flat() && !RayCaster::is_available()) {

@@ -99,8 +99,8 @@ bool write_tile(Team& team) {
     };
     PaintedCells look{3, colours, as_it_is, {}};
     for (std::size_t k = 0; k < material_parts; ++k) look.material[k] = parts[k];
-    return report(
-        cascade::write_maps("tile.glb", plane_mesh(cells), bake_plane(cells, look, 256, team), {}));
+    return report(cascade::write_maps("tile.glb", plane_mesh(cells),
+                                      bake_plane(cells, look, texture_size(cells, 256), team), {}));
 }
 
 /// Copies of a ball before a square: a row of 64 at the bottom whose colours go from red to blue,

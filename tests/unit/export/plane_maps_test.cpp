@@ -21,7 +21,7 @@ Colour grey(std::span<const float> values, const SurfacePlace&) {
 MaterialMaps baked(const FlatCells& cells, const PaintedCells& painted, std::int64_t texels,
                    int threads = 2) {
     Team team(threads);
-    return bake_plane(cells, painted, texels, team);
+    return bake_plane(cells, painted, texture_size(cells, texels), team);
 }
 
 template <typename Function>

@@ -48,7 +48,8 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     EXPECT_EQ(to_json(request).find("bump"), std::string::npos);
     request.bump = -0.25F;
     request.view = {200, -10, {0, 0, 1}, true};
-    request.size = {1920, 1080};
+    request.size = PictureSize{1920, 1080};
+    request.copies = {3, 2};
     request.quality = Quality::fine;
     request.lighting = Lighting::outdoors;
     request.displace = true;
@@ -60,6 +61,7 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     EXPECT_TRUE(back->view.is_turning);
     EXPECT_EQ(back->view.azimuth, 200.0F);
     EXPECT_EQ(back->size, request.size);
+    EXPECT_EQ(back->copies, request.copies);
     EXPECT_EQ(back->quality, Quality::fine);
     EXPECT_EQ(back->lighting, Lighting::outdoors);
     EXPECT_TRUE(back->displace);
@@ -75,9 +77,9 @@ TEST(ModelFiles, pictures_carry_how_a_model_is_seen) {
     }
     for (const char* wrong :
          {R"({"bump": 2})", R"({"bump": "a"})", R"({"turning": 3})", R"({"size": [0, 9]})",
-          R"({"size": [9]})", R"({"size": 9})", R"({"quality": "best"})", R"({"quality": 1})",
-          R"({"light": "moon"})", R"({"fov": 0})", R"({"fov": "a"})", R"({"ground": 2})",
-          R"({"background": "blue"})", R"({"background": null})"}) {
+          R"({"size": [9]})", R"({"copies": [2, 0]})", R"({"size": 9})", R"({"quality": "best"})",
+          R"({"quality": 1})", R"({"light": "moon"})", R"({"fov": 0})", R"({"fov": "a"})",
+          R"({"ground": 2})", R"({"background": "blue"})", R"({"background": null})"}) {
         EXPECT_FALSE(picture_request_from_json(wrong)) << wrong;
     }
 }
