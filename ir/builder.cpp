@@ -135,13 +135,16 @@ ValueId KernelBuilder::emit(Instruction instruction) {
     if (arity > 0 && !is_link_reduction(instruction.op)) {
         if (const std::optional<ValueId> known = simplify(instruction)) return *known;
     }
-    std::uint64_t key = hash_of(instruction);
-    for (auto found = numbering_.find(key); found != numbering_.end();
-         found = numbering_.find(++key)) {
-        if (kernel_.code[found->second] == instruction) return found->second;
-    }
     const ValueId id = next();
-    numbering_.emplace(key, id);
+    const bool is_product = instruction.op == Op::multiply || instruction.op == Op::divide;
+    if (!is_product || products_ == EqualProducts::are_one) {
+        std::uint64_t key = hash_of(instruction);
+        for (auto found = numbering_.find(key); found != numbering_.end();
+             found = numbering_.find(++key)) {
+            if (kernel_.code[found->second] == instruction) return found->second;
+        }
+        numbering_.emplace(key, id);
+    }
     kernel_.code.push_back(instruction);
     return id;
 }

@@ -21,9 +21,15 @@
 
 namespace cascade {
 
+/// Whether equal products and quotients are one value. In a kernel that is to be contracted they
+/// are not, so that keep() excludes one of them and not all; contracted() makes them one.
+enum class EqualProducts : std::uint8_t { are_one, are_several };
+
 class KernelBuilder {
 public:
-    explicit KernelBuilder(Precision precision = Precision::single) {
+    explicit KernelBuilder(Precision precision = Precision::single,
+                           EqualProducts products = EqualProducts::are_one)
+        : products_(products) {
         kernel_.precision = precision;
     }
     Precision precision() const { return kernel_.precision; }
@@ -149,7 +155,8 @@ private:
     ValueId fold(const Instruction& instruction);
 
     CellKernel kernel_;
-    std::optional<ValueId> cell_;                           ///< Used for draws if set.
+    std::optional<ValueId> cell_;  ///< Used for draws if set.
+    EqualProducts products_;
     std::unordered_map<std::uint64_t, ValueId> numbering_;  ///< By hash, with linear probing.
     std::unordered_map<std::string, FieldSlot> field_slots_;
     std::unordered_map<std::string, MaskSlot> mask_slots_;

@@ -136,6 +136,10 @@ const Grid& PassContext::grid() const {
     return is_tissue() ? of_tissue : program.domain.grid;
 }
 
+PassContext context_of_steps(const Program& program, std::uint32_t stage) {
+    return {program, stage, Extent::domain, program.domain.fast};
+}
+
 Expressions GraphPass::run() {
     const auto needed = needed_by(from_.graph, from_.roots);
     images_.resize(needed.size());

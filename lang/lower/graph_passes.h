@@ -36,6 +36,7 @@ struct PassContext {
     const Program& program;
     std::uint32_t stage = 0;
     Extent extent = Extent::domain;
+    bool has_fewer_roundings = false;  ///< Of steps with --fast.
 
     /// Do the cells crawl?
     bool is_tissue() const {
@@ -53,6 +54,9 @@ struct PassContext {
     /// The grid of the cells; of cells that crawl one whose size does not matter.
     const Grid& grid() const;
 };
+
+/// That of a stage's steps.
+PassContext context_of_steps(const Program& program, std::uint32_t stage);
 
 /// A pass goes through the nodes that roots need, operands first, and replaces each by nodes of a
 /// new graph.
@@ -100,6 +104,7 @@ Expressions spread_over_links(const Expressions& from, const PassContext& contex
 Expressions take_out_even_weights(const Expressions& from, const PassContext& context);
 Expressions weigh_by_areas(const Expressions& from, const PassContext& context);
 Expressions leave_out_masked_cells(const Expressions& from, const PassContext& context);
+Expressions fuse_products(const Expressions& from, const PassContext& context);
 
 /// Finds the nodes that are the same in all cells.
 IdVector<NodeId, bool> uniform_nodes(const ExpressionGraph& graph, const PassContext& context);

@@ -13,11 +13,11 @@ namespace cascade::lowering {
 class KernelAssembly {
 public:
     /// If `frozen` varies, it is read as a mask, or as a plane like other items.
-    KernelAssembly(const PassContext& context, bool frozen_is_mask)
+    KernelAssembly(const PassContext& context, bool frozen_is_mask, EqualProducts products)
         : context_(context),
           program_(context.program),
           stage_(context.stage),
-          builder_(program_.domain.precision),
+          builder_(program_.domain.precision, products),
           frozen_is_mask_(frozen_is_mask) {}
 
     KernelBuilder& builder() { return builder_; }

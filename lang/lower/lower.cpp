@@ -18,7 +18,8 @@ namespace cascade {
 namespace lowering {
 
 StepGraph::StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options)
-    : graph(lower_expressions(flat_step(program, stage), {program, stage}), {program, stage}) {
+    : graph(lower_expressions(flat_step(program, stage), context_of_steps(program, stage)),
+            context_of_steps(program, stage)) {
     const System& system = program.system_of(stage);
     const std::size_t rate_count = system.rate_order.size();
     const std::vector<NodeId>& roots = graph.roots();

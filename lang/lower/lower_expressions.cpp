@@ -16,6 +16,7 @@ bool is_on_model(const PassContext& context) { return context.has_links() && !co
 bool has_faces(const PassContext& context) { return !context.has_links(); }
 bool has_areas(const PassContext& context) { return context.has_metric() || context.has_links(); }
 bool has_mask(const PassContext& context) { return context.has_mask(); }
+bool has_fewer_roundings(const PassContext& context) { return context.has_fewer_roundings; }
 
 bool any_node(const Node&) { return true; }
 bool is_tensor(const Node& node) {
@@ -25,6 +26,10 @@ bool is_tensor(const Node& node) {
 bool is_transport(const Node& node) { return node.calls(Function::transport); }
 bool is_operator(const Node& node) { return node.is<Call>() && differentiates(node.function); }
 bool is_of_whole_planes(const Node& node) { return is_aggregate(node) || is_nonlocal(node); }
+bool is_sum_or_quotient(const Node& node) {
+    return node.calls(Function::add) || node.calls(Function::subtract) ||
+           node.calls(Function::divide);
+}
 bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>(); }
 
 /// Before the first pass, definitions and rates have been replaced by their expressions
@@ -54,6 +59,8 @@ constexpr std::array passes{
     // After this pass the operands of aggregates and convolutions have no effect outside of the
     // mask.
     PassInfo{"mask", has_mask, is_of_whole_planes, leave_out_masked_cells},
+    // After this pass sums with a product on one side are computed with one rounding.
+    PassInfo{"products", has_fewer_roundings, is_sum_or_quotient, fuse_products},
 };
 
 /// Gives the fields of constraints the sides that the stage says of their definitions.
@@ -141,17 +148,18 @@ Expressions lower_expressions(Expressions flat, const PassContext& context,
 
 void watch_lowering(const Program& program, const LoweringWatch& watch) {
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-        const PassContext context{program, k};
+        const PassContext usual{program, k}, of_steps = context_of_steps(program, k);
         const std::array view{&program.stages[k].show};
-        const auto lower = [&](std::string_view what, Expressions flat) {
+        const auto lower = [&](std::string_view what, const PassContext& context,
+                               Expressions flat) {
             lower_expressions(std::move(flat), context,
                               [&](std::string_view pass, const Expressions& after) {
                                   watch(context, what, pass, after);
                               });
         };
-        lower("starting values", flat_start(program, k, program.stages[k].order));
-        lower("one step", flat_step(program, k));
-        if (!view[0]->nodes.empty()) lower("picture", flat_formulas(view, context));
+        lower("starting values", usual, flat_start(program, k, program.stages[k].order));
+        lower("one step", of_steps, flat_step(program, k));
+        if (!view[0]->nodes.empty()) lower("picture", usual, flat_formulas(view, usual));
     }
 }
 

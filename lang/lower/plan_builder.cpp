@@ -90,7 +90,9 @@ void PlanBuilder::number_nodes() {
 
 void PlanBuilder::lower(std::uint32_t pass) {
     const bool is_last = pass + 1 == planner_.pass_count();
-    last_ = std::make_unique<KernelAssembly>(graph_.context(), request_.frozen_is_mask);
+    last_ = std::make_unique<KernelAssembly>(graph_.context(), request_.frozen_is_mask,
+                                             request_.contracts ? EqualProducts::are_several
+                                                                : EqualProducts::are_one);
     std::vector<NodeId> wanted = written_[pass];
     if (is_last) {
         for (const ItemId item : request_.first_slots) {

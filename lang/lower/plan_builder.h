@@ -20,8 +20,7 @@ struct PlanRequest {
     std::span<const ItemId> first_slots = {};
     /// The nodes known before the first pass, in the order of their numbers.
     std::span<const NodeId> step_invariants = {};
-    /// Compute with fewer roundings. Bits then do not depend on which values are computed once for
-    /// all steps, but may depend on which operands are written to planes.
+    /// Compute with fewer roundings inside of nodes, too; see fuse_products().
     bool contracts = false;
 };
 

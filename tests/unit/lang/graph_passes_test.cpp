@@ -141,6 +141,35 @@ TEST(GraphPasses, AggregatesCountAreasAndTheMask) {
         << "items are 0 outside";
 }
 
+TEST(GraphPasses, FastStepsFuseProducts) {
+    const auto fast = [](const std::string& rates) {
+        auto checked = check_text("system s { u: x; v: y; k: 2; w: x * y; " + rates +
+                                  " }\nstage only: s {}\n");
+        checked->program->domain.fast = true;
+        std::string step;
+        watch_lowering(*checked->program, [&](const PassContext& context, std::string_view what,
+                                              std::string_view pass, const Expressions& after) {
+            EXPECT_EQ(verify(after, context, pass), "");
+            if (what == "one step" && pass == "products") step = print(after, context);
+        });
+        return step;
+    };
+    EXPECT_EQ(fast("u' = k * u + v"),
+              "%0 = k\n%1 = u\n%3 = v\n%4 = (multiply_add)(%0, %1, %3)  # u'\nresult %4\n");
+    // The product with a coefficient, else the second; a negated factor varies.
+    EXPECT_THAT(fast("u' = k * u + u * v"),
+                HasSubstr("%4 = %1 * %3\n%5 = (multiply_add)(%0, %1, %4)"));
+    EXPECT_THAT(fast("u' = u * u + u * v"),
+                HasSubstr("%1 = %0 * %0\n%2 = v\n%4 = (multiply_add)(%0, %2, %1)"));
+    EXPECT_THAT(fast("u' = v - u * k"),
+                HasSubstr("%2 = k\n%4 = -(%1)\n%5 = (multiply_add)(%2, %4, %0)"));
+    EXPECT_THAT(fast("u' = v + u / k"), HasSubstr("(multiply_add)("));
+    // What no step changes is rounded, and so is twice a product.
+    EXPECT_EQ(fast("u' = w * w + x").find("multiply_add"), std::string::npos);
+    EXPECT_EQ(fast("p = u * v; u' = p + p").find("multiply_add"), std::string::npos);
+    EXPECT_EQ(fast("u' = u * v"), "") << "nothing to do";
+}
+
 TEST(GraphPasses, TheVerifierFindsWhatIsWrong) {
     const auto checked = check_text("system s { u: x; u' = u }\nstage only: s {}\n");
     const PassContext context{*checked->program, 0};

@@ -1,0 +1,83 @@
+// Sums with a product on one side become multiply-adds, and divisions by what is the same in all
+// cells products with a reciprocal. What is fused depends on the expressions alone, and not on what
+// is in planes later, so that every plan of a step computes the same bits.
+#include "lang/lower/graph_passes.h"
+#include "lang/lower/plan_graph.h"
+
+#include <optional>
+
+namespace cascade::lowering {
+
+namespace {
+
+class FusedProducts : public GraphPass {
+public:
+    FusedProducts(const Expressions& from, const PassContext& context)
+        : GraphPass(from, context), facts_(from, context) {}
+
+private:
+    /// A product that may stay unrounded; a uniform factor comes first.
+    struct Product {
+        NodeId first, second;
+        bool has_coefficient = false;
+    };
+
+    /// What no step changes is computed once, and rounded.
+    bool may_change(NodeId old) const {
+        return !facts_.is_uniform(old) && !facts_.is_step_invariant(old) &&
+               facts_.sides(old) == nullptr && facts_[old].type == ValueType::number;
+    }
+
+    bool is_scaled(NodeId old) const {
+        return facts_[old].calls(Function::divide) && facts_.is_uniform(facts_[old].operands[1]);
+    }
+
+    std::optional<Product> product(NodeId old) {
+        if (!may_change(old)) return std::nullopt;
+        const auto [a, b, c, d, e, f] = facts_[old].operands;
+        if (is_scaled(old)) {
+            return Product{call(Function::divide, {graph().number(1), image(b)}), image(a), true};
+        }
+        if (!facts_[old].calls(Function::multiply)) return std::nullopt;
+        const bool swaps = facts_.is_uniform(b);
+        return Product{image(swaps ? b : a), image(swaps ? a : b), swaps || facts_.is_uniform(a)};
+    }
+
+    NodeId image_of(const Node& node) override {
+        if (!may_change(at())) return keep(node);
+        if (is_scaled(at())) {
+            const auto quotient = product(at());
+            return times(quotient->first, quotient->second);
+        }
+        const bool is_difference = node.calls(Function::subtract);
+        const auto [a, b, c, d, e, f] = facts_[at()].operands;
+        if ((!node.calls(Function::add) && !is_difference) || a == b) return keep(node);
+        const auto left = product(a), right = product(b);
+        if (!left && !right) return keep(node);
+        // Of two, the one with a coefficient is fused, else the second.
+        const bool fuses_left =
+            left && (!right || (left->has_coefficient && !right->has_coefficient));
+        auto [first, second, has_coefficient] = fuses_left ? *left : *right;
+        NodeId added = image(fuses_left ? b : a);
+        if (is_difference) {
+            // The varying factor, because a negated coefficient would need another register.
+            NodeId& turned = fuses_left ? added : second;
+            turned = call(Function::negate, {turned});
+        }
+        Node sum = node;
+        sum.function = Function::multiply_add;
+        sum.operands = {first, second, added};
+        sum.operand_count = 3;
+        return keep(sum);
+    }
+
+    PlanGraph facts_;  ///< Of the old graph.
+};
+
+}  // namespace
+
+Expressions fuse_products(const Expressions& from, const PassContext& context) {
+    return FusedProducts(from, context).run();
+}
+
+}  // namespace cascade::lowering
