@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_coarse.h"
 #include "lang/check/check_shape.h"
 #include "lang/check/check_semi_implicit.h"
 #include "lang/check/check_side_values.h"
@@ -115,7 +116,7 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
             for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
                 checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
             }
-            checking::check_coarse_starts(program, own);
+            checking::check_coarse_grids(program, own);
             if (has_meaning_on_domain(program, own)) checking::check_sizes(program, own);
         }
     }

@@ -221,6 +221,16 @@ void check_detail(Workspace& work, const ast::Script& script, const ast::Stateme
                            fmt::format("the most are {:.0f}", most));
 }
 
+/// Joins the cells of a domain that is complete, for stages on a coarser grid. Its sides are
+/// multiples of the number.
+void check_coarse_domain(Workspace& work, const ast::Script& script, const ast::Statement& option) {
+    const auto times = check_constant(work, script, option.values[0], "coarse");
+    if (!times) return;
+    DomainSettings& domain = work.draft->domain;
+    domain.coarse = static_cast<std::int64_t>(*times);
+    domain.grid = coarser(domain.grid, domain.coarse);
+}
+
 void report_no_setting(Workspace& work, const ast::Word& name) {
     std::string hint = hint_about(work, name.text, WordContext::domain,
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
@@ -287,6 +297,8 @@ void check_domain(Workspace& work, const ast::Script& script) {
     if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
     if (!check_model(work, script, block)) check_surface(work, script, block);
     if (const auto* option = find_option(script, "detail")) check_detail(work, script, *option);
+    if (const auto* option = find_option(script, "coarse"))
+        check_coarse_domain(work, script, *option);
 }
 
 }  // namespace cascade::checking

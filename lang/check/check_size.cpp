@@ -27,6 +27,7 @@ std::optional<StageSize> check_size(Workspace& work, const ast::Script& script,
 }
 
 void check_sizes(const Program& program, Diagnostics& diagnostics) {
+    if (program.domain.coarse > 1) return;  // The domain of the script has been checked.
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         if (!program.stages[k].size) continue;
         const auto trial = trial_program(program, k);
@@ -38,8 +39,9 @@ void check_sizes(const Program& program, Diagnostics& diagnostics) {
         const DomainSettings& domain = program.domain;
         if (domain.model || domain.surface) continue;
         const Grid& grid = domain.grid;
-        if (const auto unfit = unfit_size(*program.stages[k].size, grid.spacing,
-                                          static_cast<double>(grid.longest_side()))) {
+        const auto times = static_cast<double>(program.stages[k].coarse);
+        if (const auto unfit = unfit_size(*program.stages[k].size, grid.spacing * times,
+                                          static_cast<double>(grid.longest_side()) / times)) {
             diagnostics.error(unfit->span, unfit->message, unfit->hint);
         }
     }

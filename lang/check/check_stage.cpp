@@ -1,6 +1,7 @@
 // Stages: checks each statement, fills in defaults, orders the items, and finds the uniform ones.
 #include "lang/check/cell_stages.h"
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_coarse.h"
 #include "lang/check/check_convolution.h"
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
@@ -49,6 +50,7 @@ private:
     std::vector<Declaration> declarations_of(const ast::Statement& statement);
     void set(const Declaration& declaration);
     bool set_of_cells(const Declaration& declaration);
+    void set_of_fields(const ast::Statement& statement);
     void report_unknown(const Declaration& declaration);
     void fill_defaults();
     void take_default(ItemId item, const Formula* formula, double otherwise);
@@ -177,6 +179,20 @@ bool StageChecker::set_of_cells(const Declaration& declaration) {
     return true;
 }
 
+/// Takes a setting that stages of fields alone have.
+void StageChecker::set_of_fields(const ast::Statement& statement) {
+    if (statement.name.text == "size") {
+        stage().size = check_size(work_, script_, statement);
+        return;
+    }
+    if (statement.values.empty()) return;
+    const auto coarse = check_coarse(work_, script_, statement.values[0], "grid",
+                                     "a stage runs in the cells of the domain, or in wider ones");
+    if (!coarse || !has_one_value(work_, script_, statement)) return;
+    stage().coarse = coarse->times;
+    stage().coarse_span = coarse->span;
+}
+
 void StageChecker::set(const Declaration& declaration) {
     const ast::Statement& statement = *declaration.statement;
     const std::string_view name = declaration.name;
@@ -188,8 +204,7 @@ void StageChecker::set(const Declaration& declaration) {
     }
     const Meaning* meaning = find(work_.names[stage().system], name);
     if (meaning == nullptr && !system().cells && is_setting_of(SettingBlock::field_stage, name)) {
-        stage().size = check_size(work_, script_, statement);
-        return;
+        return set_of_fields(statement);
     }
     if (meaning == nullptr) return report_unknown(declaration);
     if (meaning->has_error) return;
@@ -227,10 +242,11 @@ void StageChecker::report_unknown(const Declaration& declaration) {
         std::vector<std::string> names = quantity_names(system());
         diagnostic.notes.push_back(
             {std::nullopt, fmt::format("{} has {}", system().name, list_names(names))});
-        for (std::string& each : settings_of({SettingBlock::stage}))
+        const SettingBlock own =
+            system().cells ? SettingBlock::cell_stage : SettingBlock::field_stage;
+        for (std::string& each : settings_of({SettingBlock::stage, own}))
             names.push_back(std::move(each));
-        if (!system().cells) names.emplace_back("size");
-        if (system().cells) names.insert(names.end(), {"founders", "remove", "body", "ey", "ez"});
+        if (system().cells) names.insert(names.end(), {"ey", "ez"});
         diagnostic.hint = hint_about(work_, declaration.name, WordContext::stage, names);
         if (is_side_word(declaration.name)) {
             diagnostic.hint =

@@ -153,33 +153,4 @@ void change_solver(Stage& stage, const TimeSettings& asked) {
     if (!time.chooses_steps()) time.largest_step.reset();
 }
 
-void check_coarse_starts(const Program& program, Diagnostics& diagnostics) {
-    constexpr std::int64_t fewest_cells = 4;
-    const DomainSettings& domain = program.domain;
-    const Grid& grid = domain.grid;
-    const char* const obstacle = domain.model     ? "which a model does not have"
-                                 : domain.surface ? "which a surface does not have"
-                                 : domain.mask    ? "on which a masked domain has another shape"
-                                                  : nullptr;
-    for (const Stage& stage : program.stages) {
-        const std::int64_t times = stage.time.coarse;
-        if (times == 1) continue;
-        if (obstacle != nullptr) {
-            diagnostics.error(stage.time.coarse_span,
-                              fmt::format("stage '{}' starts on a coarser grid, {}", stage.name,
-                                          obstacle));
-            continue;
-        }
-        for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
-            if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
-            diagnostics.error(stage.time.coarse_span,
-                              fmt::format("a side of {} cells cannot have cells {} times as wide",
-                                          cells, times),
-                              fmt::format("sides must be multiples of {}, and {} at least", times,
-                                          fewest_cells * times));
-            break;
-        }
-    }
-}
-
 }  // namespace cascade::checking

@@ -1,6 +1,7 @@
 // The settings of time, each by itself. check_stage_time.cpp checks whether they are compatible.
 #include "lang/check/check_time.h"
 #include "lang/check/check_blocks.h"
+#include "lang/check/check_coarse.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,6 @@ namespace {
 constexpr double least_tolerance = 1e-7, most_tolerance = 0.1;
 constexpr double least_step = 1e-12;
 constexpr double longest_duration = 1e12;
-constexpr std::int64_t most_coarse = 64;
 
 const ast::Expr& root_of(const ast::Script& script, ast::Expression expression) {
     return script.expressions[expression.root];
@@ -90,37 +90,6 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
     if (checked) time.until = std::move(checked->formula);
 }
 
-void check_start(Workspace& work, const ast::Script& script, ast::Expression value,
-                 TimeSettings& time) {
-    static constexpr std::string_view example = "as in start: coarse(4)";
-    const Span span = root_of(script, value).span;
-    if (std::holds_alternative<ast::Garbage>(root_of(script, value).node)) return;
-    const ast::Call* call = call_of(script, value, "coarse");
-    if (call == nullptr) {
-        work.diagnostics.error(span, "a stage starts as its values say, or on coarser grids first",
-                               std::string(example));
-        return;
-    }
-    if (call->argument_count != 1) {
-        work.diagnostics.error(span, "coarse takes one value: how many times wider its cells are",
-                               std::string(example));
-        return;
-    }
-    const ast::Expression argument = argument_of(script, value, *call);
-    const auto times = check_constant(work, script, argument, "coarse");
-    if (!times) return;
-    std::int64_t power = 2;
-    while (power < most_coarse && static_cast<double>(power) != *times) power *= 2;
-    if (static_cast<double>(power) != *times) {
-        work.diagnostics.error(root_of(script, argument).span,
-                               fmt::format("coarse takes 2, 4, 8, … {}", most_coarse),
-                               "each grid has cells half as wide as the one before it");
-        return;
-    }
-    time.coarse = power;
-    time.coarse_span = span;
-}
-
 }  // namespace
 
 bool is_automatic(const ast::Script& script, const ast::Statement& speed) {
@@ -151,7 +120,12 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
     } else if (name == "until") {
         check_until(work, script, value, scope, time);
     } else {
-        check_start(work, script, value, time);
+        const auto coarse =
+            check_coarse(work, script, value, "start",
+                         "a stage starts as its values say, or on coarser grids first");
+        if (!coarse) return;
+        time.coarse = coarse->times;
+        time.coarse_span = coarse->span;
     }
 }
 

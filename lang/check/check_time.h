@@ -37,7 +37,4 @@ void change_solver(Stage& stage, const TimeSettings& asked);
 /// condition that varies by cell where it must not.
 void check_time(Workspace& work, std::uint32_t stage);
 
-/// Stages that start on coarser grids need a flat grid whose sides can be halved often enough.
-void check_coarse_starts(const Program& program, Diagnostics& diagnostics);
-
 }  // namespace cascade::checking

@@ -217,8 +217,7 @@ std::vector<KnownName> names_that_begin(std::string_view block, const Program& p
     if (block == "stage" || block == "system" || block == "cells") {
         names = of_kinds(program, {NameKind::species, NameKind::parameter});
     }
-    for (std::size_t k = 0; k < setting_count; ++k) {
-        const SettingInfo& row = info(static_cast<Setting>(k));
+    for (const SettingInfo& row : setting_rows()) {
         if (!has_settings_of(block, row.block)) continue;
         names.push_back({std::string(row.word), NameKind::setting, std::string(row.meaning)});
     }

@@ -91,6 +91,7 @@ const char* kind_of(const Program& program, std::uint32_t index, ItemId item) {
 void print_time(const Program& program, const System& system, const Stage& stage,
                 std::uint32_t index, Output out) {
     const StageTime& time = stage.time;
+    if (stage.coarse > 1) fmt::format_to(out, "  grid: coarse({})\n", stage.coarse);
     if (time.coarse > 1) fmt::format_to(out, "  start: coarse({})\n", time.coarse);
     if (time.solver != Solver::euler) fmt::format_to(out, "  solver: {}\n", name_of(time.solver));
     if (time.chooses_steps()) fmt::format_to(out, "  tolerance: {}\n", time.step_tolerance());

@@ -417,6 +417,9 @@ struct Stage {
     std::int64_t interval = 1;        ///< 0 if the stage is observed at tenths of the duration.
     Formula show;
     StageTime time;
+    /// `grid: coarse(…)`: its cells are this many times as wide as those of the domain.
+    std::int64_t coarse = 1;
+    Span coarse_span;  ///< Where that was written.
     std::optional<StageSize> size;
     /// By species, in their order; empty if the boundary holds at all sides.
     IdVector<SpeciesId, std::array<SideSetting, side_count>> sides;
@@ -545,6 +548,8 @@ struct DomainSettings {
     /// Cells are this many times as short as the script says, along each axis, in a domain of the
     /// same lengths. On surfaces and models without a unit the mean cell has the area 1 / detail².
     std::int64_t detail = 1;
+    /// Cells are this many times as wide as the script says, in a domain of the same lengths.
+    std::int64_t coarse = 1;
     std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
 };
 

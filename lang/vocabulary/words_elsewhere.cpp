@@ -20,7 +20,7 @@ constexpr WordElsewhere rows[] = {
      "write 'duration: 1000'"},
     {Context::stage, "method integrator scheme stepper time_stepping", "write 'solver: rk4'"},
     {Context::stage, "tol rtol atol abstol reltol", "write 'solver: rk45; tolerance: 0.001'"},
-    {Context::stage, "grid width height resolution nx",
+    {Context::stage, "width height resolution nx",
      "it belongs in the domain: write 'domain { grid: 100, 100 }'"},
     {Context::stage, "spacing dx h cell_size",
      "it belongs in the domain: write 'domain { spacing: 0.5 }'"},

@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/near_name.h"
 #include "run/commands/analyze_json.h"
+#include "run/simulation/coarser_grid.h"
 #include "run/simulation/stage_sizes.h"
 
 #include <fmt/format.h>
@@ -194,7 +195,8 @@ Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request) {
     }
     const auto stage = find_stage(program, request.stage.empty() ? "1" : request.stage);
     if (!stage) return tl::unexpected(stage.error());
-    return Analysis(program, *stage, request).run();
+    const Program own = program_of_stage(script, program, *stage);
+    return Analysis(own, *stage, request).run();
 }
 
 std::string outlook(const Program& program, std::uint32_t stage) {
@@ -211,7 +213,7 @@ std::vector<std::string> outlooks(const Script& script) {
     std::vector<std::string> remarks;
     if (script.program->stages.empty()) return remarks;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        std::string remark = outlook(*script.program, k);
+        std::string remark = outlook(program_of_stage(script, *script.program, k), k);
         if (!remark.empty()) remarks.push_back(std::move(remark));
     }
     return remarks;

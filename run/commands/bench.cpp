@@ -216,7 +216,7 @@ private:
         StageBench bench;
         bench.stage = stage.name;
         bench.solver = name_of(stage.time.solver);
-        bench.grid = simulation_->grid();
+        bench.grid = simulation_->grid(k);
         bench.precision = script_.program->domain.precision;
         bench.fast = script_.program->domain.fast;
         bench.is_native = request_.simulation.backend == BackendKind::jit;

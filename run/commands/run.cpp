@@ -50,7 +50,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
 Result<void> Runner::run_stages() {
     for (std::uint32_t k = 0; k < script_.stage_count(); ++k) {
         const std::int64_t before = simulation_->state(k).steps;
-        if (before == 0) remark(outlook(simulation_->program(), k));
+        if (before == 0) remark(outlook(simulation_->program(k), k));
         auto end = run_stage(k);
         if (!end) return tl::unexpected(end.error());
         report_.where = place();

@@ -65,7 +65,7 @@ Result<Field> read_item(const std::filesystem::path& folder, const nlohmann::jso
     const Program& program = simulation.program();
     const auto model = simulation.model();
     const Grid grid =
-        model ? Grid{static_cast<std::int64_t>(model->count()), 1} : program.domain.grid;
+        model ? Grid{static_cast<std::int64_t>(model->count()), 1} : simulation.grid(stage);
     const std::string name = array_name(program.stages[stage], item);
     const auto file = read_saved_file(folder, manifest, name);
     if (!file) return tl::unexpected(damaged(folder, file.error().message));

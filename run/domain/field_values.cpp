@@ -45,6 +45,18 @@ Mask to_mask(const Field& field) {
     return mask;
 }
 
+Field to_field(const Mask& mask, Precision precision) {
+    const PlaneLayout& layout = mask.layout();
+    Field field(layout, precision);
+    field.visit([&](auto& plane) {
+        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            for (std::int64_t i = 0; i < layout.width; ++i)
+                plane.row(row)[i] = mask.row(row)[i] != 0 ? 1 : 0;
+        }
+    });
+    return field;
+}
+
 double smallest(const Field& field, const DomainMask* mask) {
     return extreme(field, mask, [](double value, double least) { return value < least; });
 }

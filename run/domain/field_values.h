@@ -12,6 +12,9 @@ namespace cascade {
 /// 1 where the value is not 0 (NaN counts as not 0, as everywhere in the language).
 Mask to_mask(const Field& field);
 
+/// Its values as numbers.
+Field to_field(const Mask& mask, Precision precision);
+
 /// The smallest value of a field's cells inside the mask; NaN if one is NaN.
 double smallest(const Field& field, const DomainMask* mask);
 /// The largest.

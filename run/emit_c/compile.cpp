@@ -173,6 +173,12 @@ Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
                         program.stages[stage].name),
             "'cascade run' compiles it in memory");
     }
+    if (program.stages[stage].coarse > 1) {
+        return failure(fmt::format("stage '{}' runs on a coarser grid, which is not compiled to an "
+                                   "object file",
+                                   program.stages[stage].name),
+                       "'cascade run' compiles it in memory");
+    }
     if (program.domain.mask) {
         return failure("a domain with a mask is not compiled to an object file",
                        "'cascade run' compiles it in memory");

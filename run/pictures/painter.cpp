@@ -354,8 +354,7 @@ Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {
         const System& system = program.system_of(k);
         std::size_t in_stage = 0;
         for (const ItemId item : system.species()) {
-            const Field field =
-                as_shown(simulation.state(k).field(item), simulation.mask(), request);
+            const Field field = as_shown(simulation.field(k, item), simulation.mask(), request);
             const ValueRange range = request.range.value_or(automatic_range(spread_of(field)));
             Image image = paint(field, range, palette);
             if (simulation.mask()) clear_where_nan(image, field);

@@ -70,7 +70,7 @@ std::vector<Channel> species_channels(const Simulation& simulation, const FieldN
     std::vector<Channel> channels;
     for (const ItemId item : system.species()) {
         channels.push_back(
-            {std::string(system.item_name(item)), numbers(simulation.state(stage).field(item))});
+            {std::string(system.item_name(item)), numbers(simulation.field(stage, item))});
     }
     return channels;
 }
@@ -88,7 +88,7 @@ Result<void> write_volume(const std::filesystem::path& path, const Simulation& s
     std::deque<Field> copies;
     std::vector<VolumeArray> arrays;
     for (const ItemId item : system.species()) {
-        const Field& field = simulation.state(stage).field(item);
+        const Field& field = simulation.field(stage, item);
         if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
         arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});
     }

@@ -84,6 +84,7 @@ void add_option_statements(Script& script) {
     if (asked.precision) statements.add("precision", std::string(name_of(*asked.precision)));
     if (asked.fast) statements.add("fast");
     if (asked.detail > 1) statements.add("detail", std::to_string(asked.detail));
+    if (asked.coarse > 1) statements.add("coarse", std::to_string(asked.coarse));
     if (asked.solver) statements.add("solver", *asked.solver);
     if (asked.steps) statements.add("steps", std::to_string(*asked.steps));
 }

@@ -1,6 +1,7 @@
 // Parses the script, the files that it uses, and the options that change it; then checks it all.
 #include "run/script/script.h"
 
+#include "core/check.h"
 #include "core/file.h"
 #include "core/near_name.h"
 #include "lang/check/chance.h"
@@ -33,6 +34,14 @@ Script Script::detailed(std::int64_t times) const {
     Script result = load_script(name, text, folder, std::move(changed));
     result.file = file;
     return result;
+}
+
+Program Script::coarser(std::int64_t times) const {
+    Overrides changed = overrides;
+    changed.coarse = times;
+    const Script result = load_script(name, text, folder, std::move(changed));
+    CHECK(result.program, "coarser cells make no script wrong");
+    return *result.program;
 }
 
 std::uint32_t Script::stage_count() const {

@@ -42,6 +42,7 @@ struct Overrides {
     std::optional<Axis> up;            ///< Of the model: its axis that points upwards.
     std::optional<Heading> facing;     ///< Likewise: the direction in which it looks.
     std::int64_t detail = 1;           ///< As in DomainSettings, of Script::detailed(). Not stored.
+    std::int64_t coarse = 1;           ///< Likewise, of Script::coarser(). Not stored.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
@@ -71,6 +72,9 @@ struct Script {
     /// The same script, loaded again for cells that are this many times as short along each axis;
     /// its program is null if there is an error.
     Script detailed(std::int64_t times) const;
+    /// The program of the same script, checked again for cells that are this many times as wide, as
+    /// those of its stages may be. The script has no errors.
+    Program coarser(std::int64_t times) const;
 
     /// All diagnostics, formatted.
     std::string messages(bool colour) const;

@@ -202,6 +202,11 @@ bool have_same_cells(const Program& before, const Program& after) {
     const DomainSettings& first = before.domain;
     const DomainSettings& second = after.domain;
     if (first.seed != second.seed || first.precision != second.precision) return false;
+    for (const Stage& stage : before.stages) {
+        for (const Stage& other : after.stages) {
+            if (other.name == stage.name && other.coarse != stage.coarse) return false;
+        }
+    }
     if (first.model || second.model) return have_same_model(before, after);
     const bool has_mask = first.mask.has_value();
     if (has_mask != second.mask.has_value()) return false;

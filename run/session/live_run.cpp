@@ -334,6 +334,7 @@ Accepted<void> LiveRun::make(const Paint& change) {
         return refuse(fmt::format("'{}' would not be finite in every cell", change.item));
     }
     if (!removes) {
+        values = simulation_->in_cells_of(stage_, *item, std::move(values));
         simulation_->set_field(stage_, *item, std::move(values));
     } else if (simulation_->remove_cells(stage_, values) == 0) {
         return refuse("this takes all cells", "at least one must stay");

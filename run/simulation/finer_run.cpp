@@ -1,13 +1,10 @@
 // The program of the finer run differs from that of the script in the end of one stage.
 #include "run/simulation/finer_run.h"
 
-#include "run/domain/carried_cells.h"
-#include "run/simulation/finer_state.h"
 #include "run/simulation/stage_start.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 namespace cascade {
@@ -114,17 +111,13 @@ void take_moment(const Program& program, std::uint32_t k, StageState carried, St
 
 }  // namespace
 
-Result<void> go_on_in_finer_cells(const Environment& from, std::span<const StageState> states,
-                                  Environment& here, std::span<StageState> into, std::uint32_t k) {
-    const std::int64_t times = here.program->domain.detail;
-    const auto carrier = from.model
-                             ? carrier_on_model(*from.model, *here.model, *here.team)
-                             : carrier_on_grid(from.grid, times, from.inside(), here.inside());
-    for (std::uint32_t each = 0; each < states.size(); ++each) {
-        if (!states[each].started) continue;
-        into[each] = finer_state(states[each], *carrier, from.grid, here.grid, times);
-    }
-    Program settling = settling_program(*here.program, k, states[k]);
+std::unique_ptr<CellCarrier> carrier_to_finer(const Environment& from, const Environment& here) {
+    if (from.model) return carrier_on_model(*from.model, *here.model, *here.team);
+    return carrier_on_grid(from.grid, here.program->domain.detail, from.inside(), here.inside());
+}
+
+Result<void> settle_in_finer_cells(Environment& here, std::span<StageState> into, std::uint32_t k) {
+    Program settling = settling_program(*here.program, k, into[k]);
     const PlanOptions planning = here.plans->options();
     here.plans.reset();
     here.own_program = std::move(settling);

@@ -1,6 +1,7 @@
 // Planes are carried; numbers along a side are repeated.
 #include "run/simulation/finer_state.h"
 
+#include "run/domain/field_values.h"
 #include "run/simulation/regridded_state.h"
 
 #include <memory>
@@ -34,7 +35,11 @@ StageState finer_state(const StageState& state, const CellCarrier& carrier, cons
                           [&](const SideValues& values, std::size_t side) {
                               return repeated(values, grid, side / 2, times);
                           }});
-    if (!state.frozen.empty()) result.frozen = carrier.repeated(state.frozen);
+    if (!state.frozen.empty()) {
+        result.frozen = carrier.repeated(state.frozen);
+        Field& flags = result.fields[frozen_item(result)];
+        flags = to_field(result.frozen, flags.precision());
+    }
     return result;
 }
 

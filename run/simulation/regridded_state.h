@@ -22,4 +22,7 @@ struct Regridding {
 /// The state without what only steps need: its moment, numbers, planes and sides, and not `frozen`.
 StageState regridded(const StageState& state, const Regridding& regridding);
 
+/// The item `frozen` of a stage of fields, whose last items are `frozen` and `speed`.
+inline ItemId frozen_item(const StageState& state) { return ItemId(state.fields.size() - 2); }
+
 }  // namespace cascade

@@ -11,9 +11,11 @@
 #include "run/simulation/stage_run.h"
 #include "run/simulation/stage_start.h"
 #include "run/simulation/stage_tools.h"
+#include "run/simulation/stages_on_grids.h"
 #include "run/simulation/tissue_run.h"
 #include "run/simulation/tissue_stage.h"
 #include "run/simulation/values_of_start.h"
+#include "run/stage/memory.h"
 #include "run/stage/stage_remarks.h"
 #include "run/tissue/ground.h"
 #include "tissue/tissue.h"
@@ -57,8 +59,7 @@ Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& opt
 }
 
 struct Simulation::Implementation {
-    std::unique_ptr<Environment> environment;
-    std::vector<StageState> states;
+    std::unique_ptr<StagesOnGrids> stages;
     Keeping keeping;
     bool has_expected = false;  ///< Has the stepper been told what later stages need?
     std::unique_ptr<RunningStage>
@@ -66,13 +67,14 @@ struct Simulation::Implementation {
     /// By stage: kernels of stages that ended before it was known whether all can be compiled.
     std::map<std::uint32_t, StepKernels> unsettled;
 
-    StageView view(std::uint32_t stage) const { return {*environment, states, stage}; }
+    /// What all stages share, but for coarser grids.
+    Environment& environment() const { return stages->domain(); }
 
     std::unique_ptr<RunningStage> make_run(std::uint32_t k) {
-        if (environment->program->system_of(k).cells) {
-            return std::make_unique<TissueRun>(*environment, states, k, keeping);
+        if (environment().program->system_of(k).cells) {
+            return std::make_unique<TissueRun>(environment(), stages->in_domain(), k, keeping);
         }
-        return std::make_unique<StageRun>(*environment, states, k, keeping);
+        return std::make_unique<StageRun>(stages->environment(k), stages->states(k), k, keeping);
     }
 
     /// Must be called before states are changed.
@@ -90,17 +92,18 @@ struct Simulation::Implementation {
 
     /// Lets the stepper compile the kernels of stages after `k`, if their steps take long.
     void expect_stages_after(std::uint32_t k) {
-        const KernelMaker& kernels = *environment->kernels;
+        const KernelMaker& kernels = *environment().kernels;
         if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;
-        const TimeAccount::Scope spent(environment->account, Spent::compiling);
-        for (std::uint32_t later = k + 1; later < environment->script->stage_count(); ++later) {
-            const bool is_of_fields = !environment->program->system_of(later).cells;
-            if (!is_of_fields || !environment->takes_long(later)) continue;
-            const Stage& stage = environment->stage(later);
-            const auto species = environment->program->system_of(later).species_count();
+        const TimeAccount::Scope spent(environment().account, Spent::compiling);
+        for (std::uint32_t later = k + 1; later < environment().script->stage_count(); ++later) {
+            const bool is_of_fields = !environment().program->system_of(later).cells;
+            if (!is_of_fields || stages->has_own_cells(later) || !environment().takes_long(later))
+                continue;
+            const Stage& stage = environment().stage(later);
+            const auto species = environment().program->system_of(later).species_count();
             const Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
             for (const SweepForm& form : scheme.forms) {
-                for (const Pass& pass : environment->plans->sweep(later, form).passes) {
+                for (const Pass& pass : environment().plans->sweep(later, form).passes) {
                     kernels.expect(pass.bound.kernel);
                 }
             }
@@ -116,17 +119,22 @@ Result<std::unique_ptr<Simulation>> Simulation::create(Script& script,
     auto environment = make_environment(script, options);
     if (!environment) return tl::unexpected(environment.error());
     std::unique_ptr<Simulation> simulation(new Simulation);
-    simulation->self_->environment = std::move(*environment);
-    simulation->self_->states.resize(script.program->stages.size());
+    auto& stages = simulation->self_->stages;
+    stages = std::make_unique<StagesOnGrids>(std::move(*environment), script.stage_count());
+    const Environment& here = stages->domain();
+    if (auto fits = check_memory(here.grid, here.memory, options.memory_limit); !fits)
+        return tl::unexpected(fits.error());
     return simulation;
 }
 
 Result<void> Simulation::start_stage(std::uint32_t k, const std::atomic<bool>& cancel) {
     self_->end_run();
+    self_->stages->look_back(k);
+    self_->stages->touch(k);
     if (!program().system_of(k).cells) {
-        return cascade::start_stage(*self_->environment, self_->states, k);
+        return cascade::start_stage(self_->stages->environment(k), self_->stages->states(k), k);
     }
-    return start_tissue(*self_->environment, self_->states, k, cancel);
+    return start_tissue(self_->environment(), self_->stages->in_domain(), k, cancel);
 }
 
 Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_step,
@@ -134,24 +142,32 @@ Result<StageEnd> Simulation::advance_stage(std::uint32_t k, std::int64_t last_st
                                            const std::function<void()>& observe,
                                            std::int64_t every) {
     Implementation& self = *self_;
-    TimeAccount* account = self.environment->account;
+    TimeAccount* account = self.environment().account;
     const TimeAccount::Scope spent(account, Spent::stepping, k);
     if (self.run && self.run->stage() != k) self.end_run();
     if (!self.run) {
         self.expect_stages_after(k);
         self.run = self.make_run(k);
     }
-    auto end = self.run->advance(last_step, control, observe, every);
+    std::function<void()> seen = observe;
+    if (seen && self.stages->has_own_cells(k)) {
+        seen = [&] {
+            self.stages->touch(k);
+            observe();
+        };
+    }
+    auto end = self.run->advance(last_step, control, seen, every);
+    self.stages->touch(k);
     if (!self.run->can_go_on()) self.end_run();
     self.warn_of_refused(control);
-    if (account != nullptr) account->kernels = self.environment->kernels->stepper()->counts();
+    if (account != nullptr) account->kernels = self.environment().kernels->stepper()->counts();
     return end;
 }
 
 std::string Simulation::remark_on(std::uint32_t k) const {
-    const StageView view = self_->view(k);
+    const StageView view = self_->stages->own_view(k);
     if (view.state().tissue) return remark_on_cells(view);
-    const Environment& here = *self_->environment;
+    const Environment& here = view.environment();
     const std::string remark = describe_end(view.stage(), view.system(), view.state(),
                                             k == here.script->final_stage(), here.counted());
     if (!remark.empty() || !has_stood_still(view)) return remark;
@@ -162,20 +178,24 @@ std::string Simulation::remark_on(std::uint32_t k) const {
 
 void Simulation::keep_with(std::function<bool()> is_due, std::function<void()> keep) {
     self_->end_run();
-    self_->keeping = {std::move(is_due), std::move(keep)};
+    self_->keeping = {std::move(is_due), [self = self_.get(), keep = std::move(keep)] {
+                          if (self->run) self->stages->touch(self->run->stage());
+                          keep();
+                      }};
 }
 
 void Simulation::settle(RunControl& control) {
     self_->end_run();
     if (self_->unsettled.empty()) return;
-    const TimeAccount::Scope spent(self_->environment->account, Spent::compiling);
-    self_->environment->kernels->stepper()->settle();
+    const TimeAccount::Scope spent(self_->environment().account, Spent::compiling);
+    self_->environment().kernels->stepper()->settle();
     self_->warn_of_refused(control);
 }
 
 void Simulation::restore(std::uint32_t stage, StageMoment moment) {
     self_->end_run();
-    StageState& state = self_->states[stage];
+    StageState& state = self_->stages->state(stage);
+    self_->stages->touch(stage);
     CHECK(moment.species.size() == state.species.size(), "every species of the stage is given");
     state.species = std::move(moment.species);
     state.course = {};
@@ -192,7 +212,7 @@ void Simulation::restore(std::uint32_t stage, StageMoment moment) {
 void Simulation::restore_cells(std::uint32_t stage, const TissueRecord& cells,
                                const StageMoment& moment) {
     self_->end_run();
-    StageState& state = self_->states[stage];
+    StageState& state = self_->stages->state(stage);
     state.tissue = std::make_shared<Tissue>(cells, program().domain.precision);
     state.go_to(moment.steps, cells.time.t);
     state.done = moment.done;
@@ -200,12 +220,12 @@ void Simulation::restore_cells(std::uint32_t stage, const TissueRecord& cells,
 }
 
 std::vector<std::vector<double>> Simulation::values_of_start(std::uint32_t stage) const {
-    return cascade::values_of_start(*self_->environment, self_->states, stage);
+    return cascade::values_of_start(self_->environment(), self_->stages->in_domain(), stage);
 }
 
 std::size_t Simulation::remove_cells(std::uint32_t stage, const Field& chosen) {
     self_->end_run();
-    Tissue& tissue = *self_->states[stage].tissue;
+    Tissue& tissue = *self_->stages->state(stage).tissue;
     std::vector<std::uint32_t> left;
     for (std::uint32_t cell = 0; cell < tissue.count(); ++cell) {
         if (value_in(chosen, tissue, cell) == 0) left.push_back(cell);
@@ -215,20 +235,23 @@ std::size_t Simulation::remove_cells(std::uint32_t stage, const Field& chosen) {
 }
 
 Result<void> Simulation::go_on_from(const Simulation& coarse, std::uint32_t stage) {
-    Environment& here = *self_->environment;
-    here.progress_note = ", on finer cells";
-    return go_on_in_finer_cells(*coarse.self_->environment, coarse.self_->states, here,
-                                self_->states, stage);
+    StagesOnGrids& stages = *self_->stages;
+    stages.take_divided(*coarse.self_->stages);
+    stages.look_back(stage);
+    stages.environment(stage).progress_note = ", on finer cells";
+    return settle_in_finer_cells(stages.environment(stage), stages.states(stage), stage);
 }
 
 void Simulation::end_stage(std::uint32_t stage) {
     self_->end_run();
-    self_->states[stage].done = true;
+    self_->stages->state(stage).done = true;
+    self_->stages->touch(stage);
 }
 
 void Simulation::set_field(std::uint32_t stage, ItemId item, Field values) {
     self_->end_run();
-    StageState& state = self_->states[stage];
+    self_->stages->touch(stage);
+    StageState& state = self_->stages->state(stage);
     const System& system = program().system_of(stage);
     if (Tissue* const tissue = state.tissue.get()) {
         const auto species = state.species_of_item[item];
@@ -247,35 +270,40 @@ void Simulation::set_field(std::uint32_t stage, ItemId item, Field values) {
     state.fields[item] = std::move(values);
 }
 
+Field Simulation::in_cells_of(std::uint32_t stage, ItemId item, Field values) const {
+    return self_->stages->in_cells_of(stage, item, std::move(values));
+}
+
 std::vector<Field> Simulation::evaluate(const Formula& formula, std::uint32_t stage) const {
-    return self_->view(stage).evaluate(formula);
+    return self_->stages->view(stage).evaluate(formula);
 }
 
 std::vector<Field> Simulation::evaluate(std::span<const Formula* const> formulas,
                                         std::uint32_t stage) const {
-    return self_->view(stage).evaluate(formulas);
+    return self_->stages->view(stage).evaluate(formulas);
 }
 
 std::unique_ptr<const FinerView> Simulation::finer(std::int64_t times) const {
-    const Environment& here = *self_->environment;
-    const bool has_tissue = std::any_of(self_->states.begin(), self_->states.end(),
+    const Environment& here = self_->environment();
+    const std::span<const StageState> states = self_->stages->in_domain();
+    const bool has_tissue = std::any_of(states.begin(), states.end(),
                                         [](const StageState& state) { return state.tissue; });
     const DomainSettings& domain = here.program->domain;
     if (has_tissue || here.mask || here.model || domain.surface || here.grid.depth > 1) {
         return nullptr;
     }
-    return std::make_unique<const FinerView>(here, self_->states, times);
+    return std::make_unique<const FinerView>(here, states, times);
 }
 
 StepWork Simulation::step_work(std::uint32_t k) {
     self_->end_run();
-    StageState& state = self_->states[k];
+    StageState& state = self_->stages->state(k);
     CHECK(state.started, "a stage is started before its steps are counted");
-    const StepInvariants invariants = find_step_invariants(self_->view(k));
-    const StageView view(*self_->environment, self_->states, k, &invariants);
+    const StepInvariants invariants = find_step_invariants(self_->stages->own_view(k));
+    const StageView view(self_->stages->environment(k), self_->stages->states(k), k, &invariants);
     KnownKernels kernels;
     // Nothing is run, so nothing is compiled.
-    const Compile note = [&kernels, interpret = self_->environment->kernels->interpreted()](
+    const Compile note = [&kernels, interpret = self_->environment().kernels->interpreted()](
                              const CellKernel& kernel) {
         KernelPointer made = interpret(kernel);
         kernels.emplace(made.get(), kernel);
@@ -285,21 +313,32 @@ StepWork Simulation::step_work(std::uint32_t k) {
     return work_of(timer.problem(), kernels);
 }
 
-const Program& Simulation::program() const { return *self_->environment->program; }
+const Program& Simulation::program() const { return *self_->environment().program; }
 const std::map<std::string, double>& Simulation::known_sizes() const {
-    return self_->environment->known_sizes;
+    return self_->environment().known_sizes;
 }
-const Grid& Simulation::grid() const { return self_->environment->grid; }
-std::shared_ptr<const ModelCells> Simulation::model() const { return self_->environment->model; }
-const DomainMask* Simulation::mask() const { return self_->environment->inside(); }
-double Simulation::memory() const { return self_->environment->memory; }
-const StageState& Simulation::state(std::uint32_t stage) const { return self_->states[stage]; }
+const Grid& Simulation::grid() const { return self_->environment().grid; }
+std::shared_ptr<const ModelCells> Simulation::model() const { return self_->environment().model; }
+const DomainMask* Simulation::mask() const { return self_->environment().inside(); }
+double Simulation::memory() const { return self_->environment().memory; }
+const Program& Simulation::program(std::uint32_t stage) const {
+    return *self_->stages->environment(stage).program;
+}
+const Grid& Simulation::grid(std::uint32_t stage) const {
+    return self_->stages->environment(stage).grid;
+}
+const StageState& Simulation::state(std::uint32_t stage) const {
+    return self_->stages->state(stage);
+}
+const Field& Simulation::field(std::uint32_t stage, ItemId item) const {
+    return self_->stages->in_domain()[stage].field(item);
+}
 
 std::optional<std::uint32_t> Simulation::shown_stage() const {
     std::optional<std::uint32_t> shown;
-    for (std::uint32_t k = 0; k < self_->states.size(); ++k) {
-        if (self_->states[k].started && !shown) shown = k;
-        if (self_->states[k].started && self_->states[k].steps > 0) shown = k;
+    for (std::uint32_t k = 0; k < program().stages.size(); ++k) {
+        if (state(k).started && !shown) shown = k;
+        if (state(k).started && state(k).steps > 0) shown = k;
     }
     return shown;
 }

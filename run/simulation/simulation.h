@@ -154,10 +154,13 @@ public:
     void end_stage(std::uint32_t stage);
 
     /// Gives a species other values, or a parameter or `frozen` that varies, in a started stage.
-    /// Values outside of a mask must be 0; those of cells that crawl are where evaluate() has them.
-    /// What was computed from the old values when the stage
-    /// started is kept: other parameters, and values of sides.
+    /// Values outside of a mask must be 0; those of cells that crawl are where evaluate() has them;
+    /// of a stage on a coarser grid they are in its own cells. What was computed from the old
+    /// values when the stage started is kept: other parameters, and values of sides.
     void set_field(std::uint32_t stage, ItemId item, Field values);
+    /// New values of an item, given in the cells of the domain, in those of the stage. Where they
+    /// are those of field(), the stage keeps its own.
+    Field in_cells_of(std::uint32_t stage, ItemId item, Field values) const;
 
     /// Evaluates a formula for pictures over the present state: one field, or three for a colour.
     /// Outside of the mask it is NaN, unless it is the same in all cells.
@@ -176,16 +179,22 @@ public:
 
     /// The program as it runs: lengths of stages with a size are scaled.
     const Program& program() const;
+    /// The same for the cells of a stage, which may lie on a coarser grid.
+    const Program& program(std::uint32_t stage) const;
     /// By what lengths of stages were multiplied, under keys that say for what.
     const std::map<std::string, double>& known_sizes() const;
-    const Grid& grid() const;
+    const Grid& grid() const;  ///< Of the domain.
+    const Grid& grid(std::uint32_t stage) const;
     /// The cells that belong to the domain; null if all do.
     const DomainMask* mask() const;
     /// The cells of the model that is the domain; null on grids.
     std::shared_ptr<const ModelCells> model() const;
     /// Bytes of all planes that it holds at one time.
     double memory() const;
+    /// In the stage's own cells.
     const StageState& state(std::uint32_t stage) const;
+    /// An item that varies, in the cells of the domain; of cells that crawl in theirs.
+    const Field& field(std::uint32_t stage, ItemId item) const;
     /// The last stage that took a step; if there is none, the last started one; empty before.
     std::optional<std::uint32_t> shown_stage() const;
     /// The surface of the body that a stage's cells crawl on, in lengths of scripts; null without

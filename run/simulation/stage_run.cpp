@@ -2,6 +2,7 @@
 #include "run/simulation/stage_run.h"
 
 #include "run/simulation/coarse_start.h"
+#include "run/simulation/coarser_grid.h"
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_failures.h"
 #include "run/simulation/stage_tools.h"
@@ -52,7 +53,10 @@ Result<StageEnd> StageRun::advance(std::int64_t last_step, RunControl& control,
     can_go_on_ = false;
     std::optional<Result<StageEnd>> over;
     if (!loop_) over = begin(last_step);
-    if (!over) over = take_steps(last_step, observe, every > 0 ? every : view_.stage().interval);
+    if (!over) {
+        over = take_steps(last_step, observe, every > 0 ? every : view_.stage().interval);
+        if (!*over) over->error().message += note_of_cells(view_.program());
+    }
     control_ = nullptr;
     return std::move(*over);
 }

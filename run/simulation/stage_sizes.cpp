@@ -111,8 +111,9 @@ Result<void> find_sizes(Environment& here, Script& script, const SimulationOptio
             script.diagnostics.error(stage.size->span, message, hint);
             return failure(fmt::format("stage '{}' cannot have its size", stage.name));
         };
-        const double cell = cell_width(here), cells = stage.size->wanted / cell;
-        if (const auto unfit = unfit_size(*stage.size, cell, most_cells(here)))
+        const auto times = static_cast<double>(stage.coarse);
+        const double cell = cell_width(here) * times, cells = stage.size->wanted / cell;
+        if (const auto unfit = unfit_size(*stage.size, cell, most_cells(here) / times))
             return refuse(unfit->message, unfit->hint);
         const auto trial = trial_program(*here.program, k);
         CHECK(trial, "the checker refuses sizes without a trial");

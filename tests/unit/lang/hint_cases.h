@@ -159,6 +159,7 @@ inline constexpr HintCase hint_cases[] = {
     {"stage", "until: u > 0.5", "take one number of all cells, as in mean(u over domain) > 0.5",
      "until: mean(u over domain) > 0.5"},
     {"stage", "start: coarse", "as in start: coarse(4)", "start: coarse(4)"},
+    {"stage", "grid: fine", "as in grid: coarse(4)", "grid: coarse(4)"},
     {"stage", "iterations: 100; duration: 5", "leave one of them out", "duration: 5"},
     {"stage", "speed: auto; iterations: 100", "write duration: … in place of iterations",
      "speed: auto; duration: 100"},

@@ -1,0 +1,97 @@
+// States in the cells of the domain are made when something asks for them.
+#include "run/simulation/stages_on_grids.h"
+
+#include "core/resample.h"
+#include "run/domain/field_values.h"
+#include "run/simulation/finer_run.h"
+#include "run/simulation/finer_state.h"
+#include "run/stage/memory.h"
+
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// Calls visit(row of `a`, row of `b`, width) for all rows of two planes of the same cells.
+template <typename Number, typename Visit>
+void visit_rows(Plane<Number>& a, const Plane<Number>& b, const Visit& visit) {
+    for (std::int64_t row = 0; row < a.layout().row_count(); ++row) {
+        for (std::int64_t i = 0; i < a.layout().width; ++i) visit(a.row(row)[i], b.row(row)[i]);
+    }
+}
+
+}  // namespace
+
+StagesOnGrids::StagesOnGrids(std::unique_ptr<Environment> domain, std::uint32_t stages_that_run)
+    : domain_(std::move(domain)), states_(domain_->program->stages.size()) {
+    for (std::uint32_t k = 0; k < stages_that_run; ++k) {
+        const std::int64_t times = domain_->stage(k).coarse;
+        if (times == 1) continue;
+        CoarserStage made{on_coarser_grid(*domain_, times, domain_->account),
+                          std::vector<StageState>(states_.size())};
+        domain_->memory += memory_of(*made.environment->program, *made.environment->plans);
+        coarser_.emplace(k, std::move(made));
+    }
+}
+
+std::span<StageState> StagesOnGrids::in_domain() {
+    for (const std::uint32_t k : std::exchange(ahead_, {}))
+        states_[k] = on_grid(state(k), environment(k).grid, domain_->grid);
+    return states_;
+}
+
+Environment& StagesOnGrids::environment(std::uint32_t stage) {
+    const auto own = coarser_.find(stage);
+    return own == coarser_.end() ? *domain_ : *own->second.environment;
+}
+
+std::span<StageState> StagesOnGrids::states(std::uint32_t stage) {
+    const auto own = coarser_.find(stage);
+    return own == coarser_.end() ? states_ : own->second.states;
+}
+
+void StagesOnGrids::touch(std::uint32_t stage) {
+    if (has_own_cells(stage)) ahead_.insert(stage);
+}
+
+void StagesOnGrids::look_back(std::uint32_t stage) {
+    if (!has_own_cells(stage)) {
+        in_domain();
+        return;
+    }
+    for (std::uint32_t before = 0; before < stage; ++before) {
+        states(stage)[before] =
+            on_grid(state(before), environment(before).grid, environment(stage).grid);
+    }
+}
+
+void StagesOnGrids::take_divided(StagesOnGrids& run) {
+    const auto of_domain = carrier_to_finer(*run.domain_, *domain_);
+    for (std::uint32_t k = 0; k < states_.size(); ++k) {
+        if (!run.state(k).started) continue;
+        const Environment &from = run.environment(k), &to = environment(k);
+        const auto own = has_own_cells(k) ? carrier_to_finer(from, to) : nullptr;
+        state(k) = finer_state(run.state(k), own ? *own : *of_domain, from.grid, to.grid,
+                               to.program->domain.detail);
+        touch(k);
+    }
+}
+
+Field StagesOnGrids::in_cells_of(std::uint32_t stage, ItemId item, Field values) {
+    if (!has_own_cells(stage)) return values;
+    const Grid &fine = domain_->grid, &grid = environment(stage).grid;
+    if (item == domain_->program->system_of(stage).frozen_item())
+        return restricted_flags(to_mask(values), fine, grid, values.precision());
+    // Where nothing changes the difference is 0, and cells keep their values exactly.
+    Field result(state(stage).field(item));
+    const Field& shown = in_domain()[stage].field(item);
+    values.visit([&]<typename Number>(Plane<Number>& plane) {
+        visit_rows(plane, shown.plane<Number>(), [](Number& to, Number from) { to -= from; });
+        const Plane<Number> change = restricted(plane, fine, grid);
+        visit_rows(result.plane<Number>(), change, [](Number& to, Number by) { to += by; });
+    });
+    return result;
+}
+
+}  // namespace cascade
