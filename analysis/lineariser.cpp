@@ -1,6 +1,7 @@
 // Numbers: items, operators, functions, and the kernels of convolutions.
 #include "analysis/lineariser.h"
 #include "lang/calculus/derivative_rules.h"
+#include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>
 
@@ -209,6 +210,11 @@ Result<std::size_t> Lineariser::kernel_of(const Node& node) {
     constexpr std::size_t most = UINT8_MAX;  // WaveOperator::axis.
     if (kernels.size() == most) return failure("it has too many convolutions");
     const ConvolutionKernel& written = model_.program->literals->kernel(literal);
+    const auto is_file_value = [](const Node& part) {
+        return part.is<Call>() && reads_file(part.function);
+    };
+    if (holds_in(written.weight, is_file_value))
+        return failure("the kernel of a convolution comes from a file");
     Flattening flattening(algebra_, FieldSpace::of(*model_.program, model_.system()));
     for (const Formula* formula : {&written.weight, &written.reach}) {
         for (const Node& each : formula->nodes) {

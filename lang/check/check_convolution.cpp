@@ -17,7 +17,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr const char* what_kernels_read =
-    "a kernel is made of numbers, parameters, distance and direction";
+    "a kernel is made of numbers, parameters, distance, direction and files";
 
 /// Calls visit(operand) for the operands of a node of the syntax tree.
 template <typename Visit>
@@ -37,13 +37,18 @@ void for_each_operand(const ast::Script& script, const ast::Expr& expression, co
     }
 }
 
-bool may_stand_in_kernel(const Node& node, const System& system, bool reads_lags) {
+bool may_stand_in_kernel(const Node& node, const System& system, const Literals& literals,
+                         bool reads_lags) {
     if (node.is<double>()) return true;
-    if (node.is<CellValue>()) return reads_lags;
+    if (node.is<CellValue>() || node.is<TextId>()) return reads_lags;
     if (const auto* item = node.as<ItemId>()) {
         return *item < system.quantities.next() && !system.is_species(*item);
     }
     if (!node.is<Call>()) return false;
+    if (reads_lags && reads_file(node.function)) {
+        return node.function != Function::attr &&
+               !literals.reading(node.as<Call>()->detail).is_direction;
+    }
     return is_elementary(node.function) || info(node.function).kind == FunctionKind::geometry ||
            node.function == Function::vector;
 }
@@ -95,7 +100,7 @@ bool ExpressionChecker::is_kernel(NodeId root, bool reads_lags) {
     const System& system =
         scope_.system == unknown_system ? none : work_.program.systems[scope_.system];
     for (const Node& node : formula_of(formula_.nodes, root).nodes) {
-        if (may_stand_in_kernel(node, system, reads_lags)) continue;
+        if (may_stand_in_kernel(node, system, *work_.program.literals, reads_lags)) continue;
         error(node.span,
               reads_lags ? "this cannot stand in the kernel of a convolution"
                          : "this cannot stand in the reach of a convolution",

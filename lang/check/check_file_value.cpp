@@ -19,15 +19,23 @@ bool is_of_place(const Node& node) {
 
 }  // namespace
 
-/// Can it be computed for each cell before the run? Reports an error if not.
+/// Can it be computed before the run, for each cell or, in a kernel, for each lag? Reports an error
+/// if not.
 bool ExpressionChecker::is_place_in_file(NodeId root) {
     need(root, ValueType::number);
     if (parts_.back().has_error) return false;
+    const bool in_kernel = in_kernel_[NodeId(parts_.size() - 1)];
+    const auto is_of_lag = [](const Node& node) {
+        return node.is(CellValue::distance) || node.is(CellValue::direction) ||
+               node.calls(Function::component);
+    };
     for (const Node& node : formula_of(formula_.nodes, root).nodes) {
         const bool is_elementary_call = node.is<Call>() && is_elementary(node.function);
-        if (node.is<double>() || is_of_place(node) || is_elementary_call) continue;
+        if (node.is<double>() || is_elementary_call) continue;
+        if (in_kernel ? is_of_lag(node) : is_of_place(node)) continue;
         error(node.span, "this cannot stand in a place in a file",
-              "a place is made of numbers and of x, y, z, sx, sy, sz, nx, ny and nz");
+              in_kernel ? "in a kernel a place is made of numbers, distance and direction"
+                        : "a place is made of numbers and of x, y, z, sx, sy, sz, nx, ny and nz");
         return false;
     }
     return true;
@@ -64,6 +72,10 @@ void ExpressionChecker::take_file_value(Function function, const ast::Call& call
         reading.place.push_back(formula_of(formula_.nodes, parts[at]));
     }
     Node& node = formula_.nodes.back();
+    if (in_kernel_[NodeId(parts_.size() - 1)] && reading.place.empty()) {
+        return error(node.span, "in a kernel a file is read at a place",
+                     "as in field(\"k.npy\", distance / 10, 0.5)");
+    }
     has_loose_nodes_ = has_loose_nodes_ || parts.size() > 1;
     node.kind = Call{work_.program.literals->add(std::move(reading))};
     node.function = function;

@@ -61,6 +61,11 @@ public:
                                         system.name),
                             "with size, equations are the same everywhere");
         }
+        if (has_kernel_of_file()) {
+            return obstacle(
+                size, fmt::format("a convolution of {} has a kernel from a file", system.name),
+                "with size, kernels are formulas");
+        }
         trial_.stages.resize(number_ + 1);
         make_domain();
         for (std::uint32_t k = 0; k < number_; ++k) make_earlier(k);
@@ -72,6 +77,14 @@ public:
 private:
     static tl::unexpected<SizeObstacle> obstacle(Span span, std::string message, std::string hint) {
         return tl::unexpected<SizeObstacle>({span, std::move(message), std::move(hint)});
+    }
+
+    bool has_kernel_of_file() const {
+        bool found = false;
+        for_each_kernel_of_stage(program_, number_, [&](const ConvolutionKernel& kernel) {
+            found = found || holds_in(kernel.weight, is_of_domain_alone);
+        });
+        return found;
     }
 
     void make_domain() {

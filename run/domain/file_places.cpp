@@ -160,6 +160,11 @@ double angle_of(double to_right, double upwards, std::array<double, 2> sides,
 
 }  // namespace
 
+double number_at_place(const std::vector<double>& values, std::array<std::int64_t, 3> sides,
+                       const FilePlace& place) {
+    return number_at(values, sides, place, false);
+}
+
 FilePlaces FilePlaces::by_formulas(std::vector<Formula> place, const Grid& grid,
                                    const ModelCells* model, bool with_slopes) {
     const auto each = [place = std::move(place), grid, model, with_slopes](const Visit& visit) {

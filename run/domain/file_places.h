@@ -21,6 +21,11 @@ namespace cascade {
 /// A place in a file, 0 … 1 from the left, from the top and from the first slice.
 using FilePlace = std::array<double, 3>;
 
+/// The number at a place of an array of slices of rows of columns, interpolated linearly between
+/// the middles of elements; beyond 0 … 1 as at the side. `sides` counts columns, rows and slices.
+double number_at_place(const std::vector<double>& values, std::array<std::int64_t, 3> sides,
+                       const FilePlace& place);
+
 /// How a place in a picture changes along the surface or the grid: by a step to the right and by
 /// one downwards (surface/cell_frames.h). The unit of steps does not matter.
 struct FileSlopes {

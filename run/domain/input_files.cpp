@@ -92,7 +92,31 @@ public:
         }
     }
 
+    /// A file that a kernel reads. Nothing with a diagnostic.
+    std::optional<KernelFile> read_kernel(const NamedPlane& name, const Node& text) const {
+        const FileReading& reading = script_.program->literals->reading(name.reading);
+        if (name.function == Function::image) {
+            const auto picture = read_picture(script_, text, reading.channel);
+            if (!picture) return std::nullopt;
+            return KernelFile(*picture, reading.place);
+        }
+        const auto array = read_array(script_, text);
+        if (!array || !knows_slices(*array, reading, text)) return std::nullopt;
+        return KernelFile(*array, reading.place);
+    }
+
 private:
+    /// A diagnostic if an array has slices, and the place does not say in which.
+    bool knows_slices(const NpyArray& array, const FileReading& reading, const Node& text) const {
+        if (array.slices == 1 || reading.place.size() == 3) return true;
+        script_.diagnostics.error(
+            text.span,
+            fmt::format("'{}' has {} slices, and the place in it has two numbers",
+                        script_.program->literals->text(text_of(text)), array.slices),
+            "a third number says where between the first slice and the last");
+        return false;
+    }
+
     std::optional<Field> or_error(Result<Field> plane, const Node& text) const {
         if (plane) return *std::move(plane);
         script_.diagnostics.error(text.span, plane.error().message, plane.error().hint);
@@ -116,14 +140,7 @@ private:
             if (detail == 1) return values;
             return carrier_on_grid(grid, detail, nullptr, nullptr)->carried(values);
         }
-        if (array->slices > 1 && reading.place.size() < 3) {
-            script_.diagnostics.error(
-                text.span,
-                fmt::format("'{}' has {} slices, and the place in it has two numbers",
-                            script_.program->literals->text(text_of(text)), array->slices),
-                "a third number says where between the first slice and the last");
-            return std::nullopt;
-        }
+        if (!knows_slices(*array, reading, text)) return std::nullopt;
         const auto places = FilePlaces::by_formulas(reading.place, grid_, model_, false);
         return plane(places.numbers(*array));
     }
@@ -171,18 +188,33 @@ private:
     const Grid& grid_;
 };
 
+/// Calls `read(name, text)` for each text that a formula reads and that is not yet `known`.
+template <typename Read>
+void each_text_of(const Formula& formula, std::set<NamedPlane>& known, const Read& read) {
+    for (const Node& node : formula.nodes) {
+        if (!node.is<Call>() || !reads_file(node.function)) continue;
+        const Node& text = formula.nodes[node.operands[0]];
+        const NamedPlane name{node.function, text_of(text), node.as<Call>()->detail};
+        if (known.insert(name).second) read(name, text);
+    }
+}
+
+/// The same for the kernels of all convolutions.
+template <typename Read>
+void each_kernel_file(const Script& script, const Read& read) {
+    std::set<NamedPlane> known;
+    for (const Formula* formula : formulas_of(*script.program)) {
+        for_each_kernel(*formula, *script.program->literals, [&](const ConvolutionKernel& kernel) {
+            each_text_of(kernel.weight, known, read);
+        });
+    }
+}
+
 /// Calls `read(name, text)` for each text that the script's formulas read, once.
 template <typename Read>
 void each_text_read(const Script& script, const Read& read) {
     std::set<NamedPlane> known;
-    const auto read_of = [&](const Formula& formula) {
-        for (const Node& node : formula.nodes) {
-            if (!node.is<Call>() || !reads_file(node.function)) continue;
-            const Node& text = formula.nodes[node.operands[0]];
-            const NamedPlane name{node.function, text_of(text), node.as<Call>()->detail};
-            if (known.insert(name).second) read(name, text);
-        }
-    };
+    const auto read_of = [&](const Formula& formula) { each_text_of(formula, known, read); };
     if (script.program->domain.mask) read_of(script.program->domain.mask->formula);
     for (const Formula* formula : formulas_of(*script.program)) read_of(*formula);
 }
@@ -191,14 +223,16 @@ void each_text_read(const Script& script, const Read& read) {
 
 std::map<std::string, std::set<PictureChannel>> input_files_of(const Script& script) {
     std::map<std::string, std::set<PictureChannel>> files;
-    each_text_read(script, [&](const NamedPlane& plane, const Node& text) {
+    const auto take = [&](const NamedPlane& plane, const Node& text) {
         if (plane.function == Function::attr) return;
         auto& channels = files[script.program->literals->text(text_of(text))];
         if (plane.function != Function::image) return;
         const FileReading& reading = script.program->literals->reading(plane.reading);
         if (!reading.is_direction) channels.insert(reading.channel);
         else channels.insert({PictureChannel::red, PictureChannel::green});
-    });
+    };
+    each_text_read(script, take);
+    each_kernel_file(script, take);
     return files;
 }
 
@@ -217,6 +251,10 @@ Result<InputFiles> read_input_files(Script& script, const ModelCells* model) {
     const FileReader reader(script, model);
     each_text_read(script, [&](const NamedPlane& name, const Node& text) {
         if (auto plane = reader.read(name, text)) files.add(name, *std::move(plane));
+    });
+    each_kernel_file(script, [&](const NamedPlane& name, const Node& text) {
+        if (auto kernel = reader.read_kernel(name, text))
+            files.add_kernel(name, *std::move(kernel));
     });
     if (script.diagnostics.has_errors()) return failure("the script's files cannot be used");
     return files;

@@ -6,12 +6,15 @@
 #include "core/plane.h"
 #include "core/result.h"
 #include "lang/lower/slot_source.h"
+#include "run/domain/kernel_file.h"
 #include "run/domain/model_cells.h"
 #include "run/script/script.h"
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace cascade {
 
@@ -20,6 +23,12 @@ public:
     void add(NamedPlane name, Field plane) { planes_[name] = std::move(plane); }
     const Field& plane(NamedPlane name) const { return planes_.at(name); }
 
+    void add_kernel(NamedPlane name, KernelFile file) {
+        kernels_[name] = std::make_shared<const KernelFile>(std::move(file));
+    }
+    /// What the kernel of a convolution reads.
+    const KernelFile& kernel(NamedPlane name) const { return *kernels_.at(name); }
+
     /// Calls `look` with the name and the plane of each that this function reads.
     template <typename Look>
     void each_of(Function function, const Look& look) const {
@@ -27,16 +36,18 @@ public:
             if (name.function == function) look(name, plane);
         }
     }
-    /// The same files, with a new plane made from each.
+    /// The same files, with a new plane made from each, and the same kernels.
     template <typename Make>
     InputFiles mapped(const Make& make) const {
         InputFiles result;
+        result.kernels_ = kernels_;
         for (const auto& [name, plane] : planes_) result.add(name, make(plane));
         return result;
     }
 
 private:
     std::map<NamedPlane, Field> planes_;
+    std::map<NamedPlane, std::shared_ptr<const KernelFile>> kernels_;
 };
 
 /// The names of the files that the mask and the formulas of stages read, and of pictures the

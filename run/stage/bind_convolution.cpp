@@ -5,6 +5,7 @@
 #include "core/enough_memory.h"
 #include "core/parallel.h"
 #include "ir/interpreter.h"
+#include "run/domain/file_places.h"
 #include "run/stage/plan_runner.h"
 
 #include <array>
@@ -51,6 +52,30 @@ std::array<Field, lag_part_count> parts_of(const std::vector<Lag>& lags, double 
     return parts;
 }
 
+/// What a plan on the line of lags reads of files there.
+InputFiles files_at_lags(const StepPlan& plan, const BindingContext& context, std::int64_t lags) {
+    InputFiles files;
+    for (const Pass& pass : plan.passes) {
+        for (const PlaneSource& source : pass.bound.fields) {
+            const auto* const name = std::get_if<NamedPlane>(&source);
+            if (name == nullptr) continue;
+            const KernelFile& file = context.files.kernel(*name);
+            const auto part = [&](LagPart each, std::int64_t n) {
+                return context.lags[static_cast<std::size_t>(each)].number_at(n, 0);
+            };
+            std::vector<double> values;
+            for (std::int64_t n = 0; n < lags; ++n) {
+                values.push_back(
+                    file.at(part(LagPart::distance, n),
+                            {part(LagPart::direction_x, n), part(LagPart::direction_y, n),
+                             part(LagPart::direction_z, n)}));
+            }
+            files.add(*name, plane_of(values, Grid{lags, 1}, nullptr, context.precision));
+        }
+    }
+    return files;
+}
+
 }  // namespace
 
 WeightedLags weights_of(const Convolution& convolution, const BindingContext& context) {
@@ -63,11 +88,14 @@ WeightedLags weights_of(const Convolution& convolution, const BindingContext& co
     auto lags = lags_within(grid, reach);
     if (!lags) lack_memory();  // The start of the stage has refused it.
     const auto parts = parts_of(*lags, grid.spacing, context.precision);
-    BindingContext here = context;
+    const auto count = static_cast<std::int64_t>(lags->size());
+    BindingContext at_lags = context;
+    at_lags.lags = parts;
+    const InputFiles files = files_at_lags(*convolution.weight, at_lags, count);
+    BindingContext here{context.states, files, context.steps, grid, context.precision, context.t};
     here.lags = parts;
     WeightedLags weighted;
-    weighted.weights =
-        values_on_line(*convolution.weight, here, static_cast<std::int64_t>(lags->size()));
+    weighted.weights = values_on_line(*convolution.weight, here, count);
     const Stencil stencil = grid.stencil();
     const double content = std::pow(grid.spacing, stencil.axes());
     for (double& weight : weighted.weights) weight *= content;

@@ -242,6 +242,11 @@ inline constexpr HintCase hint_cases[] = {
      "give the system's value another name",
      "system s { u: 0; width: 1; u' = convolve(distance, u) * width }\n"
      "stage only: s { iterations: 1 }"},
+    {"script",
+     "system s { u: 0; u' = convolve(field(\"k.npy\"), u) }\nstage only: s { iterations: 1 }",
+     "as in field(\"k.npy\", distance / 10, 0.5)",
+     "system s { u: 0; u' = convolve(field(\"k.npy\", distance / 10, 0.5), u) }\n"
+     "stage only: s { iterations: 1 }"},
     {"domain", "seeed: 1", "did you mean 'seed'?"},
     {"picture", "color: palette(u, 0, 1, 'grey')", "write \"grey\""},
     {"picture", "color: palette(u, 0, 1, \"gray\")", "did you mean 'grey'?",
