@@ -2,10 +2,12 @@
 #pragma once
 
 #include "lang/program/program.h"
+#include "run/domain/carried_cells.h"
 #include "run/simulation/environment.h"
 #include "run/stage/stage_state.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,16 +17,21 @@ namespace cascade {
 /// mask and without a surface, and its stages are of fields.
 class FinerView {
 public:
-    /// Each cell becomes times × times cells, of a line `times`. Throws std::bad_alloc.
+    /// Each cell becomes times × times cells, of a line `times`. The environment and the states
+    /// must outlive the view. Throws std::bad_alloc.
     FinerView(const Environment& environment, std::span<const StageState> states,
               std::int64_t times);
 
-    /// Evaluates a formula for pictures, as Simulation::evaluate() does.
+    /// Evaluates a formula for pictures, as Simulation::evaluate() does. One with a sum over the
+    /// domain, which depends on the number of cells, is evaluated in the cells of the run.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
 
 private:
+    const Environment& run_;
+    std::span<const StageState> run_states_;
     Environment environment_;
     std::vector<StageState> states_;
+    std::unique_ptr<const CellCarrier> carrier_;
 };
 
 }  // namespace cascade

@@ -95,6 +95,19 @@ TEST(SmoothPicture, OutlinesOfThresholdsAreRound) {
     }
 }
 
+TEST(SmoothPicture, SumsCountTheCellsOfTheRun) {
+    // Half of the plane is above the mean.
+    for (const char* mean : {"sum(u over domain) / 256", "integral(u over domain) / 64"}) {
+        const Image image =
+            drawn(plane("grid: 16, 16; spacing: 0.5; boundary: noflux", "x",
+                        std::string("color: if(u > ") + mean + ", rgb(1, 1, 1), rgb(0, 0, 0))"),
+                  smooth(160, 160));
+        double light = 0;
+        for (const Colour& pixel : image.pixels) light += static_cast<double>(pixel[0]);
+        EXPECT_NEAR(light / (160.0 * 160), 0.5, 0.03) << mean;
+    }
+}
+
 TEST(SmoothPicture, BordersOfMasksAreSoft) {
     const Image image =
         drawn(plane("grid: 24, 24; mask: disc(0.5, 0.5, 0.3)", "0.5"), smooth(240, 240));
