@@ -85,13 +85,26 @@ void make_scene(benchmark::State& state, Subject& subject) {
 
 /// Side of the picture and its quality.
 void draw_picture(benchmark::State& state, Subject& subject) {
-    const CellScene scene(subject.mesh, subject.cells, subject.team);
+    CellScene scene(subject.mesh, subject.cells, subject.team);
     const PaintedCells look = subject.look();
     DrawOptions options;
     options.width = options.height = state.range(0);
     options.quality = static_cast<Quality>(state.range(1));
     options.view.up = {0, 1, 0};
     for (auto _ : state) benchmark::DoNotOptimize(scene.draw(look, options, subject.team));
+}
+
+/// A run's picture as a file, from its cells: with all that is prepared for it.
+void whole_picture(benchmark::State& state, Subject& subject) {
+    const PaintedCells look = subject.look();
+    DrawOptions options;
+    options.quality = static_cast<Quality>(state.range(0));
+    options.view.up = {0, 1, 0};
+    for (auto _ : state) {
+        CellScene scene(subject.mesh, subject.cells, subject.team);
+        const Image image = scene.draw(look, options, subject.team);
+        benchmark::DoNotOptimize(encode_png(image, PngDepth::eight, {}, PngMeaning::colours));
+    }
 }
 
 void ask_filter(benchmark::State& state, Subject& subject) {
@@ -154,6 +167,7 @@ int main(int argc, char** argv) {
     };
     add("scene", bench::make_scene);
     add("draw", bench::draw_picture)->Args({512, 0})->Args({512, 1})->Args({512, 2})->Args({64, 1});
+    add("picture", bench::whole_picture)->Arg(0)->Arg(1);
     add("filter", bench::ask_filter);
     add("blur", bench::blur)->Arg(1)->Arg(8);
     benchmark::RunSpecifiedBenchmarks();

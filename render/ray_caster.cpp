@@ -9,6 +9,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
@@ -27,6 +28,7 @@ struct Embree {
     decltype(&rtcCommitGeometry) commit_geometry = library["rtcCommitGeometry"];
     decltype(&rtcCommitScene) commit_scene = library["rtcCommitScene"];
     decltype(&rtcGetDeviceError) get_device_error = library["rtcGetDeviceError"];
+    decltype(&rtcGetSceneBounds) get_scene_bounds = library["rtcGetSceneBounds"];
     decltype(&rtcIntersect1) intersect = library["rtcIntersect1"];
     decltype(&rtcNewDevice) new_device = library["rtcNewDevice"];
     decltype(&rtcNewGeometry) new_geometry = library["rtcNewGeometry"];
@@ -142,6 +144,11 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), tree_(std::make_unique
     }
     if (scene.body()) attach_mesh(*scene.body(), tree_->root, count);
     finish(tree_->root);
+    RTCBounds box;
+    embree().get_scene_bounds(tree_->root.get(), &box);
+    around_ = {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
+    const float more = 1e-3F * length(around_.high - around_.low);
+    around_ = {around_.low - Vector3{more, more, more}, around_.high + Vector3{more, more, more}};
 }
 
 bool RayCaster::is_available() { return true; }
@@ -165,7 +172,22 @@ RTCRay ray_of(const Ray& ray, float reach) {
 
 }  // namespace
 
+/// Whether a ray passes the box of all that is there, or ends before it. Most rays from the ground
+/// do, and this is far less work than asking Embree.
+bool RayCaster::misses_all(const Ray& ray, float reach) const {
+    float enters = 0, leaves = reach;
+    for (float Vector3::*axis : {&Vector3::x, &Vector3::y, &Vector3::z}) {
+        const float inverse = 1 / ray.direction.*axis;
+        const float low = (around_.low.*axis - ray.origin.*axis) * inverse;
+        const float high = (around_.high.*axis - ray.origin.*axis) * inverse;
+        enters = std::max(enters, std::min(low, high));
+        leaves = std::min(leaves, std::max(low, high));
+    }
+    return enters > leaves;
+}
+
 std::optional<Hit> RayCaster::nearest(const Ray& ray, float beyond) const {
+    if (misses_all(ray, INFINITY)) return std::nullopt;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
@@ -179,6 +201,7 @@ std::optional<Hit> RayCaster::nearest(const Ray& ray, float beyond) const {
 }
 
 bool RayCaster::is_blocked(const Ray& ray, float reach) const {
+    if (misses_all(ray, reach)) return false;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay query = ray_of(ray, reach);

@@ -27,8 +27,11 @@ public:
 
 private:
     struct Tree;
+    bool misses_all(const Ray& ray, float reach) const;
+
     Scene scene_;
     std::unique_ptr<Tree> tree_;
+    Box around_;  ///< A little larger than all that is there.
 };
 
 }  // namespace cascade

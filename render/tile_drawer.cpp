@@ -49,7 +49,7 @@ void TileDrawer::draw(std::int64_t left, std::int64_t top, Image& image) {
     top_ = top - margin;
     room_.assign(static_cast<std::size_t>(room_side * room_side), Pixel());
     visit(margin, [&](Pixel& pixel) { look(pixel); });
-    visit(margin - 1, [&](Pixel& pixel) {
+    visit(sky_reach, [&](Pixel& pixel) {
         look_beside(pixel);
         ask_more(Light::sky, pixel);
     });
@@ -237,6 +237,12 @@ TileDrawer::Rays TileDrawer::first_rays_of(const Pixel& pixel) const {
 float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
     if (pixel.seen.kind == Seen::Kind::background) return 1;
     Tally sum;
+    if (!pixel.is_partly_hidden[light]) {
+        // If all tests around agree, it does not matter which of them count.
+        visit_around(pixel, reach, [&](const Pixel& other) { sum += other.all[light]; });
+        if (!sum.is_partial()) return sum.share();
+        sum = {};
+    }
     visit_around(pixel, reach, [&](const Pixel& other) {
         if (&other != &pixel && !is_one_piece(pixel.seen, other.seen)) return;
         sum += other.all[light];

@@ -1,11 +1,13 @@
 // Each triangle is divided into boxes that list the images of cells within reach of a box.
 #include "surface/cell_filter.h"
 
+#include "core/enough_memory.h"
 #include "surface/point_index.h"
 #include "surface/relax.h"
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 namespace cascade {
 
@@ -13,6 +15,9 @@ namespace {
 
 /// With a smaller sum of weights, all cells are at the edge of their reach: no average is taken.
 constexpr float least_sum = 1e-5F;
+
+/// More would take more memory than machines have.
+constexpr std::size_t most_boxes = 0xffffffff;
 
 /// In radii: images of one cell that are no farther apart are merged.
 constexpr float same_point_distance = 0.004F;
@@ -52,13 +57,16 @@ std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
 
 CellFilter::CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team)
     : radius_(repulsion_radius(mesh.total_area(), cells.places.size())) {
-    lay_out(mesh, cells);
-    fill_boxes(cell_images(mesh, cells.places, radius_, team));
+    const std::vector<FlatTriangle> frames = longest_edge_frames(mesh);
+    lay_out(mesh, cells, frames);
+    fill_boxes(mesh, cells, frames, team);
     find_substitutes(mesh, cells);
 }
 
-void CellFilter::lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells) {
+void CellFilter::lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                         std::span<const FlatTriangle> frames) {
     const Vector3d middle = position_of(mesh, cells.places[0]);
+    positions_.reserve(cells.places.size());
     for (const SurfacePlace& place : cells.places) {
         positions_.push_back(single((position_of(mesh, place) - middle) * (1 / radius_)));
     }
@@ -67,7 +75,7 @@ void CellFilter::lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     for (std::uint32_t t = 0; t < patches_.size(); ++t) {
         Patch& patch = patches_[t];
         const std::uint32_t first = longest_edge(mesh, t), second = (first + 1) % 3;
-        const FlatTriangle flat = longest_edge_frame(mesh, t);
+        const FlatTriangle& flat = frames[t];
         const Vector2d third = flat[(first + 2) % 3];
         const Vector3d along = unit(mesh.corner(t, second) - mesh.corner(t, first));
         patch.origin = single((mesh.corner(t, first) - middle) * (1 / radius_));
@@ -83,8 +91,9 @@ void CellFilter::lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells) {
         };
         patch.columns = boxes_along(patch.second_x);
         patch.rows = boxes_along(patch.third_y);
-        patch.first_box = boxes;
+        patch.first_box = static_cast<std::uint32_t>(boxes);
         boxes += std::size_t{patch.columns} * patch.rows;
+        if (boxes > most_boxes) lack_memory();
     }
     box_ends_.assign(boxes, 0);
 }
@@ -111,22 +120,22 @@ CellFilter::FlatPoint CellFilter::flat_point(const Patch& patch, const SurfacePl
     return result;
 }
 
-std::size_t CellFilter::box_of(const Patch& patch, FlatPoint place) {
+std::uint32_t CellFilter::box_of(const Patch& patch, FlatPoint place) {
     const auto number = [](float at, std::uint32_t count) {
-        return static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(count - 1)));
+        return static_cast<std::uint32_t>(std::clamp(at, 0.0F, static_cast<float>(count - 1)));
     };
     return patch.first_box + number(place.y, patch.rows) * patch.columns +
            number(place.x, patch.columns);
 }
 
-std::span<const CellFilter::Sighting> CellFilter::sightings_of(std::size_t first_box,
-                                                               std::size_t boxes) const {
+std::span<const CellFilter::Sighting> CellFilter::sightings_of(std::uint32_t first_box,
+                                                               std::uint32_t boxes) const {
     const std::size_t first = first_box == 0 ? 0 : box_ends_[first_box - 1];
     return {sightings_.data() + first, box_ends_[first_box + boxes - 1] - first};
 }
 
 /// Edges from which an image is at nearly the same point share a sighting.
-CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
+CellFilter::Sightings CellFilter::sightings_in(const CellImage& image, std::uint32_t cell) {
     Sightings found;
     for (std::uint32_t k = 0; k < 3; ++k) {
         const auto [x, y] = image.from_edges[k];
@@ -138,7 +147,7 @@ CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
             is_shared = dx * dx + dy * dy < same_point_distance * same_point_distance;
             if (is_shared) other.edges |= bit;
         }
-        if (!is_shared) found.all[found.count++] = {image.cell, bit, x, y};
+        if (!is_shared) found.all[found.count++] = {cell, bit, x, y};
     }
     return found;
 }
@@ -147,6 +156,7 @@ CellFilter::Sightings CellFilter::sightings_in(const CellImage& image) {
 template <typename Visit>
 void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     const Patch& patch = patches_[image.triangle];
+    if (patch.columns == 1 && patch.rows == 1) return visit(patch.first_box);
     // A margin, because rounding decides in which box a place on a boundary falls.
     const float reach = 1 + 1e-3F;
     const auto number = [](float at, std::uint32_t count) {
@@ -161,15 +171,36 @@ void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     for (std::uint32_t row = number(bottom - reach, patch.rows); row <= last_row; ++row) {
         for (std::uint32_t column = number(left - reach, patch.columns); column <= last_column;
              ++column) {
-            visit(patch.first_box + std::size_t{row} * patch.columns + column);
+            visit(patch.first_box + row * patch.columns + column);
         }
     }
 }
 
-void CellFilter::fill_boxes(std::span<const CellImage> images) {
-    for (const CellImage& image : images) {
-        const std::size_t count = sightings_in(image).count;
-        visit_boxes(image, [&](std::size_t box) { box_ends_[box] += count; });
+void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                            std::span<const FlatTriangle> frames, Team& team) {
+    struct Found {
+        std::uint32_t box = 0;
+        Sighting sighting;
+    };
+    std::vector<std::deque<Found>> parts(static_cast<std::size_t>(team.size()));
+    team.run([&](int thread) {
+        const RowRange part =
+            split_rows(static_cast<std::int64_t>(cells.places.size()), thread, team.size());
+        ImageFinder finder(mesh, frames, radius_);
+        std::deque<Found>& found = parts[static_cast<std::size_t>(thread)];
+        for (std::int64_t k = part.begin; k < part.end; ++k) {
+            const auto cell = static_cast<std::uint32_t>(k);
+            for (const CellImage& image : finder.find(cells.places[cell])) {
+                const Sightings seen = sightings_in(image, cell);
+                visit_boxes(image, [&](std::uint32_t box) {
+                    for (std::size_t j = 0; j < seen.count; ++j)
+                        found.push_back({box, seen.all[j]});
+                });
+            }
+        }
+    });
+    for (const std::deque<Found>& part : parts) {
+        for (const Found& found : part) ++box_ends_[found.box];
     }
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
@@ -178,13 +209,9 @@ void CellFilter::fill_boxes(std::span<const CellImage> images) {
         sum += count;
     }
     sightings_.resize(sum);
-    for (const CellImage& image : images) {
-        const Sightings found = sightings_in(image);
-        visit_boxes(image, [&](std::size_t box) {
-            for (std::size_t k = 0; k < found.count; ++k) {
-                sightings_[box_ends_[box]++] = found.all[k];
-            }
-        });
+    for (std::deque<Found>& part : parts) {
+        for (const Found& found : part) sightings_[box_ends_[found.box]++] = found.sighting;
+        std::deque<Found>().swap(part);
     }
 }
 
@@ -194,14 +221,15 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
     std::vector<std::uint32_t> waiting;
     std::vector<bool> is_found(patches_.size());
     for (std::uint32_t t = 0; t < patches_.size(); ++t) {
-        Patch& patch = patches_[t];
-        if (sightings_of(patch.first_box, std::size_t{patch.columns} * patch.rows).empty())
-            continue;
-        patch.otherwise = nearest_cell(patch, flat_point(patch, {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}}));
-        is_found[t] = true;
-        waiting.push_back(t);
+        const Patch& patch = patches_[t];
+        is_found[t] = !sightings_of(patch.first_box, patch.columns * patch.rows).empty();
+        if (is_found[t]) waiting.push_back(t);
     }
     if (waiting.size() == patches_.size()) return;
+    for (const std::uint32_t t : waiting) {
+        const FlatPoint middle = flat_point(patches_[t], {t, {1.0 / 3, 1.0 / 3, 1.0 / 3}});
+        patches_[t].otherwise = nearest_cell(patches_[t], middle);
+    }
     const auto spread = [&] {
         for (std::size_t k = 0; k < waiting.size(); ++k) {
             for (const TriangleEdge& other : mesh.across[waiting[k]]) {
@@ -239,8 +267,7 @@ void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& c
 std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) const {
     std::uint32_t nearest = patch.otherwise;
     float least = INFINITY;
-    for (const Sighting& sighting :
-         sightings_of(patch.first_box, std::size_t{patch.columns} * patch.rows)) {
+    for (const Sighting& sighting : sightings_of(patch.first_box, patch.columns * patch.rows)) {
         const float x = place.x - sighting.x, y = place.y - sighting.y;
         const float square = x * x + y * y;
         if (square > least || (square == least && sighting.cell > nearest)) continue;

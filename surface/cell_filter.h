@@ -61,7 +61,7 @@ private:
         std::uint32_t first_corner = 0;                ///< The one at the origin.
         std::uint32_t columns = 1, rows = 1;
         std::uint32_t otherwise = 0;  ///< The cell to use if none is near.
-        std::size_t first_box = 0;
+        std::uint32_t first_box = 0;
     };
     /// The position of a cell unfolded into a triangle's plane, as seen near some of its edges.
     struct Sighting {
@@ -86,14 +86,16 @@ private:
     };
 
     static FlatPoint flat_point(const Patch& patch, const SurfacePlace& place);
-    static std::size_t box_of(const Patch& patch, FlatPoint place);
-    std::span<const Sighting> sightings_of(std::size_t first_box, std::size_t boxes) const;
+    static std::uint32_t box_of(const Patch& patch, FlatPoint place);
+    std::span<const Sighting> sightings_of(std::uint32_t first_box, std::uint32_t boxes) const;
     template <typename Visit>
     void visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const;
     std::uint32_t nearest_cell(const Patch& patch, FlatPoint place) const;
-    void lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells);
-    void fill_boxes(std::span<const CellImage> images);
-    static Sightings sightings_in(const CellImage& image);
+    void lay_out(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                 std::span<const FlatTriangle> frames);
+    void fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
+                    std::span<const FlatTriangle> frames, Team& team);
+    static Sightings sightings_in(const CellImage& image, std::uint32_t cell);
     template <typename Visit>
     void visit_boxes(const CellImage& image, const Visit& visit) const;
     void find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells);

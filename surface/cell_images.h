@@ -1,38 +1,79 @@
 // The positions of cells in the planes of triangles into which the surface is unfolded.
 #pragma once
 
-#include "core/parallel.h"
 #include "mesh/flat.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cascade {
 
-/// The index of a triangle's longest edge.
+/// Each triangle with the start of its longest edge at the origin and that edge along the x axis.
+std::vector<FlatTriangle> longest_edge_frames(const SurfaceMesh& mesh);
+
+/// The corner of a triangle at the origin of its frame.
 std::uint32_t longest_edge(const SurfaceMesh& mesh, std::uint32_t triangle);
 
-/// The triangle with the start of its longest edge at the origin and that edge along the x axis.
-FlatTriangle longest_edge_frame(const SurfaceMesh& mesh, std::uint32_t triangle);
-
-/// The position of a cell in the plane of a triangle (longest_edge_frame), in units of the radius,
+/// The position of a cell in the plane of a triangle (longest_edge_frames), in units of the radius,
 /// with the surface between them unfolded. Around a corner of a curved surface, several unfoldings
 /// lead to a triangle, so each edge has its own position, which both triangles at an edge share.
 struct CellImage {
     struct Point {
         float x = 0, y = 0;
     };
-    std::uint32_t cell = 0;
     std::uint32_t triangle = 0;
     std::array<Point, 3> from_edges;
 };
 
-/// The images of all places in all triangles reached within `radius` of them, along the surface and
-/// in space, in the order of places. An edge out of reach has the image of one that is reached,
-/// from which the place is farther than the radius. The same on any number of threads.
-std::vector<CellImage> cell_images(const SurfaceMesh& mesh, std::span<const SurfacePlace> places,
-                                   double radius, Team& team);
+/// Refers to its arguments, which must outlive it. For one thread.
+class ImageFinder {
+public:
+    ImageFinder(const SurfaceMesh& mesh, std::span<const FlatTriangle> frames, double radius);
+
+    /// The images of a cell at this place in all triangles reached within the radius, along the
+    /// surface and in space. An edge out of reach has the image of one that is reached, from which
+    /// the place is farther than the radius. They stay until the next call.
+    std::span<const CellImage> find(const SurfacePlace& place);
+
+private:
+    static constexpr std::uint32_t none = 3;
+
+    /// A visited triangle.
+    struct Seen {
+        std::uint32_t triangle = 0;
+        std::array<bool, 3> is_reached{};  ///< Edges crossed by an image.
+        std::array<Vector2d, 3> from_edges;
+    };
+    /// An edge of a visited triangle, as a number that sorts the nearest first: the square of the
+    /// distance (the bits of numbers ≥ 0 are in their order), then 4 times the index in seen_, plus
+    /// the edge's. Numbers of one word move faster than structures of two.
+    __extension__ using Front = unsigned __int128;
+    static Front front_at(double square_distance, std::uint32_t seen, std::uint32_t edge) {
+        return Front{std::bit_cast<std::uint64_t>(square_distance)} << 64 |
+               (std::uint64_t{seen} * 4 + edge);
+    }
+    /// The index in seen_ of a triangle's visit in a call.
+    struct LastSeen {
+        std::uint32_t call = 0;
+        std::uint32_t number = 0;
+    };
+
+    void enter(TriangleEdge edge, Vector2d source);
+    void hand_on(std::uint32_t seen, std::uint32_t edge);
+    Vector2d carried(TriangleEdge edge, TriangleEdge other, Vector2d point) const;
+
+    const SurfaceMesh& mesh_;
+    std::span<const FlatTriangle> frames_;
+    double radius_;
+    std::uint32_t call_ = 0;
+    Vector3d position_;
+    std::vector<LastSeen> last_seen_;  ///< Per triangle.
+    std::vector<Seen> seen_;
+    std::vector<Front> fronts_;  ///< A heap; the nearest comes first.
+    std::vector<CellImage> images_;
+};
 
 }  // namespace cascade

@@ -482,6 +482,25 @@ TEST(RayCaster, FindsTheNearestTriangle) {
     EXPECT_FALSE(caster.is_blocked({{1, 2, 10}, {0, 0, -1}}, 7));
 }
 
+/// A sheet's box has no thickness, and rays along axes have directions of 0 and −0.
+TEST(RayCaster, MissesNothingOfASheet) {
+    const auto place = [](float x, float y) { return Vector3{x, 0, y}; };
+    const TriangleMesh mesh = sheet(3, 3, place);
+    const RayCaster caster(mesh);
+    for (int k = 1; k < 60; ++k) {
+        for (const float side : {-1.0F, 1.0F}) {
+            const float x = static_cast<float>(k) / 60, zero = 0 * side;
+            const Vector3 straight = {zero, -side, zero};
+            EXPECT_TRUE(caster.nearest({{x, 5 * side, 1 - x}, straight}));
+            EXPECT_TRUE(caster.is_blocked({{x, 5 * side, 1 - x}, straight}, 5.001F));
+            EXPECT_FALSE(caster.is_blocked({{x, 5 * side, 1 - x}, straight}, 4.999F));
+            EXPECT_FALSE(caster.is_blocked({{x, 5 * side, 1 - x}, -straight}, INFINITY));
+            const Vector3 from = {-3, 4 * side, 7}, there = {x, 0, 1 - x};
+            EXPECT_TRUE(caster.nearest({from, unit(there - from)}));
+        }
+    }
+}
+
 TEST(Camera, EveryAxisCanPointUp) {
     const TriangleMesh mesh = sphere(2);
     for (const Vector3 up : {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}) {
