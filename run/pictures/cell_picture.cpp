@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace cascade {
@@ -274,16 +273,21 @@ float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
            std::sqrt(least_cosine);
 }
 
+}  // namespace
+
 /// A raised surface, drawn where the surface is.
-struct RaisedMesh {
+struct CellScene::Raised {
+    std::vector<float> heights;
     RefinedMesh fine;
     TriangleMesh drawn;
+    RayCaster caster;
 
-    RaisedMesh(RefinedMesh raised, const DrawnMesh& at)
-        : fine(std::move(raised)), drawn(creased_mesh(fine.mesh, at.middle, at.scale)) {}
+    Raised(std::span<const float> by, RefinedMesh raised, const DrawnMesh& at)
+        : heights(by.begin(), by.end()),
+          fine(std::move(raised)),
+          drawn(creased_mesh(fine.mesh, at.middle, at.scale)),
+          caster(drawn) {}
 };
-
-}  // namespace
 
 CellScene::CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team)
     : mesh_(mesh),
@@ -294,18 +298,27 @@ CellScene::CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& t
     spacing_ = static_cast<float>(cell_spacing(cells) * drawn_.scale);
 }
 
+CellScene::~CellScene() = default;
+
+const CellScene::Raised& CellScene::raise(std::span<const float> heights, Team& team) {
+    if (!raised_ || !std::ranges::equal(raised_->heights, heights)) {
+        raised_.reset();
+        raised_ = std::make_unique<const Raised>(heights,
+                                                 raised_model(refined_for_colours(mesh_, cells_),
+                                                              mesh_, filter_, heights, team),
+                                                 drawn_);
+    }
+    return *raised_;
+}
+
 Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
-                      const Instances* copies) const {
+                      const Instances* copies) {
     const std::size_t count = cells_.places.size();
     CHECK(look.values.size() == count * look.channels, "each cell has values of all channels");
     CHECK(look.heights.empty() || look.heights.size() == count, "each cell has a height");
     options.round_shadows = true;
-    std::optional<RaisedMesh> raised;
-    if (look.displaces && !look.heights.empty()) {
-        raised.emplace(raised_model(refined_for_colours(mesh_, cells_), mesh_, filter_,
-                                    look.heights, team),
-                       drawn_);
-    }
+    const bool is_raised = look.displaces && !look.heights.empty();
+    const Raised* const raised = is_raised ? &raise(look.heights, team) : nullptr;
     const Ground ground{raised ? raised->drawn : drawn_.mesh,
                         raised ? std::span<const TriangleOrigin>(raised->fine.origins)
                                : std::span<const TriangleOrigin>()};
@@ -337,7 +350,9 @@ Image CellScene::draw(const PaintedCells& look, DrawOptions options, Team& team,
         });
     }
     add_levels(cells_, parts, highest, levels, team);
-    if (copies == nullptr && !raised) return cascade::draw(caster_, shader, options, team);
+    if (copies == nullptr) {
+        return cascade::draw(raised ? raised->caster : caster_, shader, options, team);
+    }
     const cascade::Scene all(&ground.mesh, copies);
     return cascade::draw(RayCaster(all), shader, options, team);
 }

@@ -7,7 +7,8 @@
 #include "run/domain/creased_mesh.h"
 #include "surface/cell_filter.h"
 
-#include <vector>
+#include <memory>
+#include <span>
 
 namespace cascade {
 
@@ -16,27 +17,33 @@ class CellScene {
 public:
     /// Both must outlive it. There must be at least one cell. Throws std::bad_alloc.
     CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
+    ~CellScene();
 
     /// Colours are those of the filtered values. Where the footprint of a sample is larger than a
     /// cell, the colours of the cells are used, blurred by diffusion to the footprint's width. Sets
     /// `round_shadows` of the options. Bumps change the shading but not the outline. The picture
     /// does not depend on the number of threads. `copies` stand on the surface, in the coordinates
     /// of drawn(). Throws std::bad_alloc.
-    /// If the look displaces, heights move the surface instead, and copies stay where they are.
+    /// If the look displaces, heights move the surface instead, and copies stay where they are. The
+    /// raised surface is kept for the next picture with the same heights.
     Image draw(const PaintedCells& look, DrawOptions options, Team& team,
-               const Instances* copies = nullptr) const;
+               const Instances* copies = nullptr);
 
     const DrawnMesh& drawn() const { return drawn_; }
 
     const CellFilter& filter() const { return filter_; }
 
 private:
+    struct Raised;
+    const Raised& raise(std::span<const float> heights, Team& team);
+
     const SurfaceMesh& mesh_;
     const SurfaceCells& cells_;
     DrawnMesh drawn_;
     RayCaster caster_;
     CellFilter filter_;
-    float spacing_ = 0;  ///< Of cells, in units of the mesh.
+    std::unique_ptr<const Raised> raised_;  ///< By the last heights that displaced it.
+    float spacing_ = 0;                     ///< Of cells, in units of the mesh.
 };
 
 }  // namespace cascade

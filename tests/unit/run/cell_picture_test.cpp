@@ -118,6 +118,22 @@ TEST(CellPicture, BumpsAreLitFromTheLeftToo) {
     EXPECT_NEAR(mean_of_column(bumpy, 15), mean_of_column(plain, 15), 0.002);
 }
 
+TEST(CellPicture, RaisedSurfacesHaveTheLastHeights) {
+    Scene ball(sphere(8), 500);
+    const std::vector<float> values(500, 0.5F);
+    const auto drawn = [&](Scene& scene, float height) {
+        const std::vector<float> heights =
+            scene.values([&](Vector3d p) { return p.x > 0 ? static_cast<double>(height) : 0; });
+        PaintedCells look{1, values, grey, heights};
+        look.displaces = true;
+        return scene.scene.draw(look, small_picture(30), scene.team).pixels;
+    };
+    const auto low = drawn(ball, 0.05F), high = drawn(ball, 0.3F);
+    EXPECT_NE(low, high);
+    EXPECT_EQ(drawn(ball, 0.3F), high);
+    EXPECT_EQ(drawn(ball, 0.05F), low);
+}
+
 TEST(CellPicture, FarViewsKeepTheirLight) {
     Scene ball(sphere(20), 20'000);
     // Stripes three cells wide, most of them black.
