@@ -79,9 +79,9 @@ Result<std::unique_ptr<DetailedRun>> DetailedRun::create(Script& script, const R
     auto panels = panel_painters(finer, request);
     if (!panels) return tl::unexpected(panels.error());
     made->panels_ = std::move(*panels);
-    auto fits = check_picture_size(finer, request.picture,
-                                   coarse.memory() + made->simulation_->memory(),
-                                   request.simulation.memory_limit);
+    auto fits =
+        check_picture_size(finer, request.picture, coarse.memory() + made->simulation_->memory(),
+                           request.simulation.memory_limit);
     if (fits) fits = check_film_sizes(finer, request);
     if (!fits) return tl::unexpected(fits.error());
     return made;
