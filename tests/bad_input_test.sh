@@ -79,7 +79,7 @@ refused 2 "<--set>:1:5: error: one value ends before ';'" run good.cascade --set
 refused 2 "<--show>:1:1: error: the expression is missing" run good.cascade --show '}'
 refused 2 "<--stop-at>:1:3: error: stage 's' has 20 steps" run good.cascade --stop-at s:21
 refused 2 "<--until-stage>:1:1: error: no stage is called 't'" run good.cascade --until-stage t
-for nonsense in '--range 1' '--range 1,1' '--scale 0' '--detail 0' '--detail 9' '--depth 9' '--palette nope' '--seed -1' '--size 0x9' '--size 9' '--quality best' '--light moon' '--fov 0' '--ground maybe' '--background white' \
+for nonsense in '--range 1' '--range 1,1' '--scale 0' '--detail 0' '--detail 9' '--depth 9' '--palette nope' '--seed -1' '--size 0x9' '--size 9x' '--copies 0' '--copies 17' '--copies 2x2x2' '--quality best' '--light moon' '--fov 0' '--ground maybe' '--background white' \
     '--steps 1.5' '--threads 0' '--lanes 5' '--backend gpu' '--stop-at s' \
     '--dump nope' '-o picture.jpg' '--volume volume.txt' '--log-file numbers.csv' '--log-every 5'; do
     # shellcheck disable=SC2086

@@ -103,10 +103,13 @@ grep -q "the body of the picture is empty" out || fail "an empty body is not not
 
 # Options that mean nothing for a plane.
 echo 'system_name: turing_spots' > plane.cascade
-for option in '--slice z=0.2' --flat '--view 10,20' '--size 90x60' '--quality fine' '--light studio' '--fov 40' '--ground no' '--background none'; do
+for option in '--slice z=0.2' --flat '--view 10,20' '--quality fine' '--light studio' '--fov 40' '--ground no' '--background none'; do
     # shellcheck disable=SC2086
     "$CASCADE" run -q plane.cascade $option 2>err && fail "$option is taken for a plane"
     grep -qE "a plane has no slices|the domain is not a surface" err || fail "$option: $(cat err)"
     [ ! -e plane.png ] || fail "$option left a picture"
 done
+# A plane fits into its size.
+"$CASCADE" run -q plane.cascade --grid 12x8 --size 90 2>err || fail "a smooth picture: $(cat err)"
+[ "$(od -An -j16 -N8 -tu1 plane.png | tr -s ' ')" = " 0 0 0 90 0 0 0 60" ] || fail "a smooth picture has another size"
 exit 0
