@@ -330,10 +330,10 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
     if (canvas.body) return of_body(canvas, range);
     if (model_) return on_model(canvas, range);
     if (is_flat()) {
-        const auto [across, down] = request_.copies;
-        return repeated(request_.size ? smooth(canvas, range)
-                                      : enlarge(texture(canvas, range), request_.scale),
-                        across, down);
+        Image copy =
+            request_.size ? smooth(canvas, range) : enlarge(texture(canvas, range), request_.scale);
+        if (request_.copies == PictureCopies()) return copy;
+        return repeated(copy, request_.copies.across, request_.copies.down);
     }
     const Image flat = texture(canvas, range);
     const DomainSettings& domain = script_->program->domain;
