@@ -163,6 +163,9 @@ void for_each_formula(const Program& program, const Take& take) {
         for (const auto& sides : stage.sides) {
             for (const SideSetting& side : sides) add(side.value);
         }
+        for (const DefinitionSides& of : stage.definition_sides) {
+            for (const SideSetting& side : of.sides) add(side.value);
+        }
     }
 }
 

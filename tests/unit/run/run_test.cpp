@@ -285,5 +285,24 @@ TEST_F(RunTest, NativeCodeGivesTheBitsOfTheInterpreter) {
 }
 #endif
 
+TEST_F(RunTest, SidesOfDefinitionsReadFiles) {
+    Field field{PlaneLayout(Grid{8, 6})};
+    for (std::int64_t j = 0; j < 6; ++j) std::fill_n(field.row(j), 8, 0.25F);
+    ASSERT_TRUE(write_npy(path("quarter.npy"), field));
+    std::vector<std::string> grown;
+    for (const char* value : {"field(\"quarter.npy\")", "0.25"}) {
+        Script script = load(std::string("domain { grid: 8, 6; boundary: noflux }\n"
+                                         "system s { c: x; m = c - lap(c); c' = lap(m) }\n"
+                                         "stage only: s { iterations: 9; speed: 0.01; m.left: "
+                                         "fixed(") +
+                             value + ") }\n");
+        RunRequest wanted = request();
+        wanted.save = path("saved");
+        run_well(script, wanted);
+        grown.push_back(bytes("saved/only.c.npy"));
+    }
+    EXPECT_EQ(grown[0], grown[1]);
+}
+
 }  // namespace
 }  // namespace cascade
