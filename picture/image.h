@@ -94,7 +94,7 @@ void clear_where_nan(Image& image, const Field& field);
 /// Replaces every pixel by a square of `factor` × `factor` pixels, factor ≥ 1.
 Image enlarge(Image image, int factor);
 
-/// The image side by side with itself, so many times across and down, each ≥ 1.
+/// The image repeated `across` times in a row, in `down` such rows; both are at least 1.
 Image repeated(const Image& image, int across, int down);
 
 enum class PngDepth { eight = 8, sixteen = 16 };
