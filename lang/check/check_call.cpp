@@ -218,8 +218,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
             // A cell that crawls reads the domain where it is.
             if (in_cells() && at_step && reads_file(function)) return true;
             // The kernel of a convolution is computed before the stage.
-            if (in_kernel_[NodeId(parts_.size() - 1)] && at_step && reads_file(function))
-                return true;
+            if (stands_in_kernel() && at_step && reads_file(function)) return true;
             return at_start || refuse("it belongs in values (name: …)");
         case Contexts::noisy:
             return at_start || at_step || refuse("pictures have no randomness of their own");

@@ -124,7 +124,7 @@ void ExpressionChecker::visit(const ast::Name& name) {
     if (wants_text_[NodeId(parts_.size() - 1)]) {
         return error(span, "a text in quotes is expected here", fmt::format("\"{}\"", name.name));
     }
-    if (in_kernel_[NodeId(parts_.size() - 1)] && take_lag(name.name)) return;
+    if (stands_in_kernel() && take_lag(name.name)) return;
     if (is_direction_[NodeId(parts_.size() - 1)]) return take_direction(name.name, {});
     // In a function's body; a parameter of the system that calls it is not meant.
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {

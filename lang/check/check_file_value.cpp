@@ -24,7 +24,7 @@ bool is_of_place(const Node& node) {
 bool ExpressionChecker::is_place_in_file(NodeId root) {
     need(root, ValueType::number);
     if (parts_.back().has_error) return false;
-    const bool in_kernel = in_kernel_[NodeId(parts_.size() - 1)];
+    const bool in_kernel = stands_in_kernel();
     const auto is_of_lag = [](const Node& node) {
         return node.is(CellValue::distance) || node.is(CellValue::direction) ||
                node.calls(Function::component);
@@ -72,7 +72,7 @@ void ExpressionChecker::take_file_value(Function function, const ast::Call& call
         reading.place.push_back(formula_of(formula_.nodes, parts[at]));
     }
     Node& node = formula_.nodes.back();
-    if (in_kernel_[NodeId(parts_.size() - 1)] && reading.place.empty()) {
+    if (stands_in_kernel() && reading.place.empty()) {
         return error(node.span, "in a kernel a file is read at a place",
                      "as in field(\"k.npy\", distance / 10, 0.5)");
     }

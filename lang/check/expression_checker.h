@@ -107,6 +107,8 @@ private:
     bool is_same_everywhere(NodeId part);
     void need(NodeId part, ValueType type);
     void fold_constants(const Node& node);
+    /// Is the part that is being checked one of the kernel of a convolution?
+    bool stands_in_kernel() const { return in_kernel_[NodeId(parts_.size() - 1)]; }
 
     Workspace& work_;
     const ast::Script& script_;

@@ -1,12 +1,10 @@
 // Places are computed in binary64, like those in files that cells read.
 #include "run/domain/kernel_file.h"
 
-#include "core/check.h"
-#include "core/overloaded.h"
-#include "lang/program/fold.h"
+#include "lang/program/evaluate.h"
 #include "run/domain/file_places.h"
 
-#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace cascade {
@@ -15,28 +13,14 @@ namespace {
 
 /// The value of a formula of numbers, of a distance, and of components of a direction.
 double value_at(const Formula& formula, double distance, const std::array<double, 3>& direction) {
-    IdVector<NodeId, double> values;
-    values.reserve(formula.nodes.size());
-    for (const Node& node : formula.nodes) {
-        const Overloaded value{
-            [](double number) { return number; },
-            [&](CellValue known) { return known == CellValue::distance ? distance : 0; },
-            [&](Call) {
-                std::array<double, most_operands> operands{};
-                std::ranges::transform(node.reads(), operands.begin(),
-                                       [&](NodeId operand) { return values[operand]; });
-                // Only the direction is a vector here; the second operand is the axis.
-                if (node.function == Function::component)
-                    return direction[static_cast<std::size_t>(operands[1])];
-                const auto folded = fold(node.function, operands);
-                CHECK(folded, "a place in a kernel is made of functions of numbers");
-                return *folded;
-            },
-            [](auto) -> double { CHECK(false, "a place in a kernel is one of a lag"); },
-        };
-        values.push_back(std::visit(value, node.kind));
-    }
-    return values.back();
+    return evaluate(formula, [&](const Node& node, const auto& operands) -> std::optional<double> {
+        if (const auto* const lag = node.as<CellValue>()) {
+            return *lag == CellValue::distance ? distance : 0;
+        }
+        // Only the direction is a vector here; the second operand is the axis.
+        if (!node.calls(Function::component)) return std::nullopt;
+        return direction[static_cast<std::size_t>(operands[1])];
+    });
 }
 
 }  // namespace
