@@ -1,4 +1,4 @@
-// The sides of a grid, and the boundary conditions of a field there.
+// The sides of a grid and the border of a mask, and the boundary conditions of a field there.
 #pragma once
 
 #include "core/grid.h"
@@ -12,14 +12,17 @@
 
 namespace cascade {
 
-/// The sides in order of the axes: those before the first cells and those after the last.
-enum class Side : std::uint8_t { left, right, top, bottom, front, back };
+/// The sides in order of the axes: those before the first cells and those after the last. Then the
+/// border of a mask, which runs between cells of the grid.
+enum class Side : std::uint8_t { left, right, top, bottom, front, back, border };
 
-inline constexpr std::size_t side_count = 6;
-inline constexpr std::array<std::string_view, side_count> side_names{"left",   "right", "top",
-                                                                     "bottom", "front", "back"};
+inline constexpr std::size_t side_count = 6;               ///< Of the grid.
+inline constexpr std::size_t wall_count = side_count + 1;  ///< With the border.
+inline constexpr std::array<std::string_view, wall_count> side_names{"left",   "right", "top",
+                                                                     "bottom", "front", "back",
+                                                                     "border"};
 
-/// The side at the other end of the axis.
+/// The side of the grid at the other end of the axis.
 constexpr Side opposite(Side side) {
     return static_cast<Side>(static_cast<std::uint8_t>(side) ^ 1u);
 }

@@ -1,6 +1,8 @@
 // Maps rows of a plane to the cells beside each side and back.
 #include "core/side_cells.h"
 
+#include "core/check.h"
+
 #include <algorithm>
 
 namespace cascade {
@@ -35,6 +37,7 @@ SideCells SideCells::of_rows(const PlaneLayout& layout, Side side, RowRange rows
         case Side::bottom: return times_width(slices_with(rows, height - 1, height), 0);
         case Side::front: return times_width(common(rows, 0, height), 0);
         case Side::back: break;
+        case Side::border: CHECK(false, "no cells lie beside the border of a mask alone");
     }
     return times_width(common(rows, last_slice, last_slice + height), last_slice);
 }
@@ -49,6 +52,7 @@ std::int64_t SideCells::offset(const PlaneLayout& layout, Side side, std::int64_
             return layout.row_start(line * layout.height + layout.height - 1) + column;
         case Side::front: return layout.row_start(line) + column;
         case Side::back: break;
+        case Side::border: CHECK(false, "no cells lie beside the border of a mask alone");
     }
     return layout.row_start((layout.depth - 1) * layout.height + line) + column;
 }

@@ -180,27 +180,36 @@ IdVector<NodeId, bool> changing_nodes(const System& system, const Formula& formu
     return changes;
 }
 
+/// Replaces the rules at a side by those without fluxes, definitions and values at the face.
+void settle(IdVector<SpeciesId, SideSettings>& settings, const Program& program,
+            std::uint32_t stage, Side side) {
+    const System& system = program.system_of(stage);
+    std::unique_ptr<FaceEquations> equations;
+    for (const SpeciesId species : settings.ids()) {
+        SideSetting& setting = settings[species][static_cast<std::size_t>(side)];
+        if (!takes_value(setting.kind)) continue;
+        const bool stays =
+            setting.kind != SideKind::flux && !reads_definitions(setting.value) &&
+            !holds_in(setting.value, [&](const Node& node) { return is_species(system, node); });
+        if (stays) continue;
+        if (!equations) equations = std::make_unique<FaceEquations>(program, stage, side);
+        setting.value = equations->solve(species);
+        if (setting.kind == SideKind::flux) setting.kind = SideKind::slope;
+    }
+}
+
 }  // namespace
 
 IdVector<SpeciesId, SideSettings> side_settings(const Program& program, std::uint32_t stage) {
     IdVector<SpeciesId, SideSettings> settings = program.stages[stage].sides;
-    const System& system = program.system_of(stage);
-    for (std::size_t number = 0; number < side_count; ++number) {
-        std::unique_ptr<FaceEquations> equations;
-        for (const SpeciesId species : settings.ids()) {
-            SideSetting& setting = settings[species][number];
-            if (!takes_value(setting.kind)) continue;
-            const bool stays =
-                setting.kind != SideKind::flux && !reads_definitions(setting.value) &&
-                !holds_in(setting.value,
-                          [&](const Node& node) { return is_species(system, node); });
-            if (stays) continue;
-            const auto side = static_cast<Side>(number);
-            if (!equations) equations = std::make_unique<FaceEquations>(program, stage, side);
-            setting.value = equations->solve(species);
-            if (setting.kind == SideKind::flux) setting.kind = SideKind::slope;
-        }
-    }
+    for (std::size_t side = 0; side < side_count; ++side)
+        settle(settings, program, stage, static_cast<Side>(side));
+    return settings;
+}
+
+IdVector<SpeciesId, SideSettings> border_settings(const Program& program, std::uint32_t stage) {
+    IdVector<SpeciesId, SideSettings> settings = program.stages[stage].sides;
+    settle(settings, program, stage, Side::border);
     return settings;
 }
 
@@ -222,9 +231,13 @@ Conductivity conductivity_at(const System& system,
     const auto powers = diffusion.begin() + laplacian_powers;
     if (std::any_of(diffusion.begin() + 1, powers, is_there))
         return {std::nullopt, "has lap of lap in its rate"};
+    if (side == Side::border && std::any_of(powers, diffusion.end(), is_there))
+        return {std::nullopt, "diffuses along single axes"};
+    std::vector<std::size_t> terms{0};
+    if (side != Side::border)
+        terms.push_back(laplacian_powers + static_cast<std::size_t>(side) / 2);
     std::vector<NodeId> parts;
-    for (const std::size_t term :
-         {std::size_t{0}, laplacian_powers + static_cast<std::size_t>(side) / 2}) {
+    for (const std::size_t term : terms) {
         if (is_there(diffusion[term])) parts.push_back(rates.flattening.add(diffusion[term]));
     }
     if (parts.empty()) return {std::nullopt, "has no diffusion in its rate"};

@@ -19,15 +19,15 @@
 
 namespace cascade {
 
-using SideSettings = std::array<SideSetting, side_count>;
-
 /// The rules of a stage's species without fluxes and definitions; species in their formulas are
 /// those of the cell beside the side. A formula that reads no species stays as it was written. All
 /// rules must have passed check_side_values().
 IdVector<SpeciesId, SideSettings> side_settings(const Program& program, std::uint32_t stage);
+/// The same of the border of a mask; those at the sides are as they were written.
+IdVector<SpeciesId, SideSettings> border_settings(const Program& program, std::uint32_t stage);
 
 /// The factor d of a species' diffusion d * ∂u/∂n through a side: that of lap(u), of
-/// div(d * grad(u)) or of a second derivative across the side.
+/// div(d * grad(u)) or, at sides of the grid, of a second derivative across the side.
 struct Conductivity {
     std::optional<Formula> factor;
     std::string_view why_not;  ///< Why there is none, with the species as subject.

@@ -2,6 +2,7 @@
 #include "core/resample.h"
 #include "ir/multiply_add.h"
 #include "lang/check/check_blocks.h"
+#include "lang/check/side_rules.h"
 #include "lang/program/models.h"
 #include "lang/vocabulary/settings.h"
 
@@ -255,9 +256,9 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
         case Setting::grid: return check_grid(work, script, statement);
         case Setting::boundary: return check_boundary(work, script, statement);
         case Setting::spacing: return check_spacing(work, script, statement);
-        case Setting::extent: return;  // After the grid: see check_domain().
+        case Setting::extent:
+        case Setting::mask: return;  // After the grid and its lengths: see check_domain().
         case Setting::seed: return check_seed(work, script, statement);
-        case Setting::mask: return check_mask(work, script, statement);
         case Setting::precision: return check_precision(work, script, statement);
         default: return;  // Settings of surfaces and models: see check_domain().
     }
@@ -294,8 +295,22 @@ void check_domain(Workspace& work, const ast::Script& script) {
         report_twice(work, statement.name.span, seen.at("spacing"),
                      "a domain has an extent or a spacing, not both");
     }
+    for (const ast::Statement& statement : block.statements) {
+        if (statement.name.text == "mask" && !statement.values.empty() &&
+            statement.kind == ast::StatementKind::value) {
+            check_mask(work, script, statement);
+            break;
+        }
+    }
     if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
-    if (!check_model(work, script, block)) check_surface(work, script, block);
+    if (!check_model(work, script, block)) {
+        check_surface(work, script, block);
+        auto& border = work.draft->domain.sides.back();
+        if (border && !work.program.domain.mask) {
+            leave_border(work, *border);
+            border.reset();
+        }
+    }
     if (const auto* option = find_option(script, "detail")) check_detail(work, script, *option);
     if (const auto* option = find_option(script, "coarse"))
         check_coarse_domain(work, script, *option);

@@ -29,7 +29,7 @@ public:
         const auto& sides = program_.stages[stage].sides;
         bool is_sound = true;
         for (const SpeciesId species : sides.ids()) {
-            for (std::size_t side = 0; side < side_count; ++side) {
+            for (std::size_t side = 0; side < wall_count; ++side) {
                 if (takes_value(sides[species][side].kind))
                     is_sound = check_value(species, static_cast<Side>(side)) && is_sound;
             }
@@ -62,6 +62,7 @@ private:
         const SideSetting& setting =
             program_.stages[stage_].sides[species][static_cast<std::size_t>(side)];
         return check_definitions(setting) && check_draws(setting) &&
+               (side != Side::border || check_border(setting)) &&
                check_flux(species, side, setting) && check_coupling(species, side, setting);
     }
 
@@ -125,6 +126,7 @@ private:
                                           definition.name),
                               "");
             }
+            if (&setting == &sides.sides.back() && !check_border(setting)) return false;
             if (!takes_value(setting.kind)) continue;
             const Formula value = without_definitions(system(), setting.value);
             const auto read = std::ranges::find_if(value.nodes, [&](const Node& node) {
@@ -148,6 +150,26 @@ private:
         if (!changes) return true;
         return report(draw->span, "a side that reads species cannot draw random numbers",
                       "put them into a parameter: name: random(…)");
+    }
+
+    /// It is computed with the rates, from what has a value in a cell.
+    bool check_border(const SideSetting& setting) {
+        if (!takes_value(setting.kind)) return true;
+        const auto& surface = program_.domain.surface;
+        if (surface && surface->has_metric && setting.kind != SideKind::fixed) {
+            return report(setting.span, "on a surface a border is noflux or fixed(…)",
+                          "slope(…) and flux(…) need cells that are squares");
+        }
+        const Formula whole = without_definitions(system(), setting.value);
+        const auto found = std::ranges::find_if(whole.nodes, [](const Node& node) {
+            return node.is<Call>() && varies_by_cell(node.function) &&
+                   info(node.function).kind != FunctionKind::shape && !reads_file(node.function);
+        });
+        if (found == whole.nodes.end()) return true;
+        return report(setting.span,
+                      fmt::format("the value at a border cannot hold {}",
+                                  info(found->function).spelling),
+                      "it can read a parameter that does: name: …");
     }
 
     bool check_flux(SpeciesId species, Side side, const SideSetting& setting) {
@@ -194,7 +216,7 @@ private:
         const auto settings = side_settings(program_, stage_);
         const auto species = system().species();
         for (const SpeciesId own : settings.ids()) {
-            for (std::size_t side = 0; side < side_count; ++side) {
+            for (std::size_t side = 0; side < wall_count; ++side) {
                 const auto reads = [&](const Node& node) {
                     return is_species(system(), node) && !(is_in_turn && node.is(species[own]));
                 };

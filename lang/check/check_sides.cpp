@@ -17,21 +17,25 @@ namespace cascade::checking {
 
 namespace {
 
-using AllSides = std::array<SideSetting, side_count>;
+/// What the boundary says; nothing flows through the border of a mask.
+SideSettings sides_of_boundary(const DomainSettings& domain) {
+    SideSettings sides;
+    const SideRules boundary(domain.grid.boundary);
+    for (std::size_t side = 0; side < side_count; ++side) sides[side].kind = boundary.at[side].kind;
+    return sides;
+}
 
 /// The rules for species without rules of their own.
-AllSides sides_of_domain(const DomainSettings& domain) {
-    AllSides sides;
-    const SideRules boundary(domain.grid.boundary);
-    for (std::size_t side = 0; side < side_count; ++side) {
-        sides[side].kind = boundary.at[side].kind;
+SideSettings sides_of_domain(const DomainSettings& domain) {
+    SideSettings sides = sides_of_boundary(domain);
+    for (std::size_t side = 0; side < wall_count; ++side) {
         if (domain.sides[side]) sides[side] = *domain.sides[side];
     }
     return sides;
 }
 
 /// Both sides of an axis are periodic, or neither is. Reports an error and returns false otherwise.
-bool are_pairs(Workspace& work, const AllSides& sides) {
+bool are_pairs(Workspace& work, const SideSettings& sides) {
     for (std::size_t side = 0; side < side_count; side += 2) {
         const bool first = sides[side].kind == SideKind::periodic;
         const bool second = sides[side + 1].kind == SideKind::periodic;
@@ -55,7 +59,7 @@ bool are_pairs(Workspace& work, const AllSides& sides) {
 /// With a mask, the cell beyond a periodic side also depends on the mask, and there is one mask for
 /// all species. A definition is periodic where all species in it are. Reports an error and returns
 /// false if a species differs from the domain in what is periodic.
-bool are_periodic_as_boundary(Workspace& work, const AllSides& sides, std::string_view where) {
+bool are_periodic_as_boundary(Workspace& work, const SideSettings& sides, std::string_view where) {
     const SideRules boundary(work.program.domain.grid.boundary);
     for (std::size_t side = 0; side < side_count; ++side) {
         const bool is_periodic = sides[side].kind == SideKind::periodic;
@@ -71,20 +75,18 @@ bool are_periodic_as_boundary(Workspace& work, const AllSides& sides, std::strin
 
 /// Those of a definition, which are added if it has none. Mirrored or periodic where nothing else
 /// is said.
-AllSides& sides_of_definition(const DomainSettings& domain, Stage& stage, DefinitionId definition) {
+SideSettings& sides_of_definition(const DomainSettings& domain, Stage& stage,
+                                  DefinitionId definition) {
     auto& all = stage.definition_sides;
     const auto place = std::ranges::lower_bound(all, definition, {}, &DefinitionSides::definition);
     if (place != all.end() && place->definition == definition) return place->sides;
-    AllSides sides;
-    const SideRules boundary(domain.grid.boundary);
-    for (std::size_t side = 0; side < side_count; ++side) sides[side].kind = boundary.at[side].kind;
-    return all.insert(place, {definition, sides})->sides;
+    return all.insert(place, {definition, sides_of_boundary(domain)})->sides;
 }
 
 /// Combines the rules for each species and definition of a stage.
 void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own) {
     const System& system = work.program.systems[stage.system];
-    const AllSides base = sides_of_domain(work.program.domain);
+    const SideSettings base = sides_of_domain(work.program.domain);
     const bool is_plain =
         own.empty() && system.sides.empty() &&
         std::none_of(work.program.domain.sides.begin(), work.program.domain.sides.end(),
@@ -107,7 +109,7 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
     }
     if (work.program.domain.model) {
         // The boundary of a model has no flux.
-        for (const AllSides& sides : stage.sides) {
+        for (const SideSettings& sides : stage.sides) {
             for (const SideSetting& side : sides) {
                 if (!takes_value(side.kind)) continue;
                 work.diagnostics.warning(side.span, "a model has no sides: this is ignored");
@@ -116,7 +118,11 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
         stage.definition_sides.clear();
         return stage.sides.clear();
     }
-    for (const AllSides& sides : stage.sides) {
+    if (!work.program.domain.mask) {
+        for (SideSettings& sides : stage.sides) leave_border(work, sides.back());
+        for (DefinitionSides& each : stage.definition_sides) leave_border(work, each.sides.back());
+    }
+    for (const SideSettings& sides : stage.sides) {
         if (!are_pairs(work, sides)) return;
         if (work.program.domain.mask &&
             !are_periodic_as_boundary(work, sides, "in a domain with a mask")) {
@@ -205,7 +211,7 @@ void check_domain_side(Workspace& work, const ast::Script& script,
 }
 
 void check_stage_sides(Workspace& work, const ast::Script& script) {
-    AllSides domain = sides_of_domain(work.program.domain);
+    SideSettings domain = sides_of_domain(work.program.domain);
     if (!are_pairs(work, domain)) return;
     const SideOverrides overrides = distribute_side_overrides(work, script);
     std::uint32_t index = 0;

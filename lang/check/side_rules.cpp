@@ -49,6 +49,12 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
                                std::move(hint));
         return std::nullopt;
     }
+    const bool is_border = statement.side.text == "border" || statement.name.text == "border";
+    if (*kind == SideKind::periodic && is_border) {
+        work.diagnostics.error(value.span, "a border has no opposite side",
+                               "it is noflux, fixed(…), slope(…) or flux(…)");
+        return std::nullopt;
+    }
     if (takes_value(*kind) && (!call || call->argument_count != 1)) {
         work.diagnostics.error(value.span, fmt::format("{} takes one value", word),
                                fmt::format("write {}(0)", word));
@@ -65,10 +71,18 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
                        ast::Expression{written.first, script.arguments[call->first_argument]}};
 }
 
+void leave_border(Workspace& work, SideSetting& border) {
+    if (takes_value(border.kind)) {
+        work.diagnostics.warning(border.span, "without a mask there is no border: this is ignored");
+    }
+    border = {};
+}
+
 std::vector<Side> sides_of_word(std::string_view word) {
     std::vector<Side> sides;
-    for (std::size_t side = 0; side < side_count; ++side) {
-        if (word == side_names[side] || word == "sides") sides.push_back(static_cast<Side>(side));
+    for (std::size_t side = 0; side < wall_count; ++side) {
+        const bool is_meant = word == side_names[side] || (word == "sides" && side < side_count);
+        if (is_meant) sides.push_back(static_cast<Side>(side));
     }
     return sides;
 }

@@ -1,5 +1,5 @@
-// Rules at the sides of the grid (internal to the checker): `u.left: fixed(1)` in a system or a
-// stage, `left: fixed(0)` for all species in the domain.
+// Rules at the sides of the grid and the border of a mask (internal to the checker): `u.left:
+// fixed(1)` in a system or a stage, `left: fixed(0)` for all species in the domain.
 #pragma once
 
 #include "lang/check/check_expression.h"
@@ -20,6 +20,9 @@ struct WrittenSide {
 /// Parses `periodic`, `noflux`, `fixed(e)`, `slope(e)` or `flux(e)`; reports errors.
 std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
                                      const ast::Statement& statement);
+
+/// The border's rule where there is no mask: it has no effect, which is said once.
+void leave_border(Workspace& work, SideSetting& border);
 
 /// The sides that a word means; empty if it means none.
 std::vector<Side> sides_of_word(std::string_view word);

@@ -136,6 +136,20 @@ const Grid& PassContext::grid() const {
     return is_tissue() ? of_tissue : program.domain.grid;
 }
 
+bool PassContext::has_values_at_border() const {
+    const auto has_value = [](const SideSettings& sides) {
+        return takes_value(sides[static_cast<std::size_t>(Side::border)].kind);
+    };
+    const Stage& here = program.stages[stage];
+    return has_mask() && !is_start &&
+           (std::ranges::any_of(here.sides, has_value) ||
+            std::ranges::any_of(here.definition_sides, has_value, &DefinitionSides::sides));
+}
+
+PassContext context_of_start(const Program& program, std::uint32_t stage) {
+    return {program, stage, Extent::domain, false, true};
+}
+
 PassContext context_of_steps(const Program& program, std::uint32_t stage) {
     return {program, stage, Extent::domain, program.domain.fast};
 }

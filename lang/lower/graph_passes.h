@@ -37,6 +37,7 @@ struct PassContext {
     std::uint32_t stage = 0;
     Extent extent = Extent::domain;
     bool has_fewer_roundings = false;  ///< Of steps with --fast.
+    bool is_start = false;             ///< Of starting values, before there are values at borders.
 
     /// Do the cells crawl?
     bool is_tissue() const {
@@ -51,11 +52,14 @@ struct PassContext {
     bool has_mask() const {
         return program.domain.mask && extent == Extent::domain && !is_tissue();
     }
+    /// Has something values, slopes or fluxes at the border of the mask?
+    bool has_values_at_border() const;
     /// The grid of the cells; of cells that crawl one whose size does not matter.
     const Grid& grid() const;
 };
 
-/// That of a stage's steps.
+/// That of a stage's starting values, and of its steps.
+PassContext context_of_start(const Program& program, std::uint32_t stage);
 PassContext context_of_steps(const Program& program, std::uint32_t stage);
 
 /// A pass goes through the nodes that roots need, operands first, and replaces each by nodes of a
@@ -100,6 +104,7 @@ Expressions lay_on_tissue(const Expressions& from, const PassContext& context);
 Expressions write_out_tensors(const Expressions& from, const PassContext& context);
 Expressions lay_on_surface(const Expressions& from, const PassContext& context);
 Expressions write_out_limiters(const Expressions& from, const PassContext& context);
+Expressions find_beyond_border(const Expressions& from, const PassContext& context);
 Expressions spread_over_links(const Expressions& from, const PassContext& context);
 Expressions take_out_even_weights(const Expressions& from, const PassContext& context);
 Expressions weigh_by_areas(const Expressions& from, const PassContext& context);

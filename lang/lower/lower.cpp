@@ -55,7 +55,7 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
         if (is_of_place(program.system_of(stage), item)) continue;
         if ((source.uniform[item] && !late[item]) == before_cells) items.push_back(item);
     }
-    const PassContext context{program, stage};
+    const PassContext context = context_of_start(program, stage);
     const PlanGraph graph(lower_expressions(flat_start(program, stage, items), context), context);
     PlanBuilder builder({graph, graph.roots(), options});
     for (std::size_t k = 0; k < items.size(); ++k) {

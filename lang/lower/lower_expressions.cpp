@@ -16,6 +16,7 @@ bool is_on_model(const PassContext& context) { return context.has_links() && !co
 bool has_faces(const PassContext& context) { return !context.has_links(); }
 bool has_areas(const PassContext& context) { return context.has_metric() || context.has_links(); }
 bool has_mask(const PassContext& context) { return context.has_mask(); }
+bool has_border(const PassContext& context) { return context.has_values_at_border(); }
 bool has_fewer_roundings(const PassContext& context) { return context.has_fewer_roundings; }
 
 bool any_node(const Node&) { return true; }
@@ -49,6 +50,9 @@ constexpr std::array passes{
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
     // After this pass there are no limiters but slopes along an axis, in planes of their own.
     PassInfo{"limiters", has_faces, is_transport, write_out_limiters},
+    // After this pass an operand that operators read in the cells around is (bordered) if it has
+    // other values beyond the border of the mask than in the cell beside it.
+    PassInfo{"border", has_border, is_operator, find_beyond_border},
     // After this pass places and normals are planes of the model. There are no vectors: the operand
     // of div has become a sum of lap(weight, e).
     PassInfo{"links", is_on_model, is_of_cell, spread_over_links},
@@ -157,7 +161,8 @@ void watch_lowering(const Program& program, const LoweringWatch& watch) {
                                   watch(context, what, pass, after);
                               });
         };
-        lower("starting values", usual, flat_start(program, k, program.stages[k].order));
+        lower("starting values", context_of_start(program, k),
+              flat_start(program, k, program.stages[k].order));
         lower("one step", of_steps, flat_step(program, k));
         if (!view[0]->nodes.empty()) lower("picture", usual, flat_formulas(view, usual));
     }

@@ -89,6 +89,7 @@ Value PassLowering::compute_at(NodeId id, Offset offset) {
     if (node.is<Call>() && is_stencil(node.function)) {
         return {lower_stencil(pass_, assembly_, values_, id)};
     }
+    if (node.calls(Function::bordered)) return values_.at(node.operands[0], offset);
     NodeInCell in{graph, id, offset, {}};
     for (std::size_t k = 0; k < node.operand_count; ++k) {
         in.values[k] = values_.at(node.operands[k], offset);

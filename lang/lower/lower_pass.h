@@ -73,7 +73,6 @@ public:
     ValueId beside(NodeId id, Offset offset) const;
     /// The value in the cell one step along an axis from the cell at `from`.
     ValueId beside(NodeId id, Offset from, Offset step) const;
-    ValueId entry_beside(NodeId tensor, std::size_t entry, Offset offset) const;
     ValueId chosen(Offset inside, ValueId value, ValueId otherwise) const;
 
     /// Multiplies unless the factor is 1.
@@ -114,7 +113,7 @@ private:
     struct Crossing {
         bool goes_across = false;  ///< It may not be 0 even if everything is mirrored.
         bool has_species = false;
-        std::array<bool, side_count> is_open{};  ///< A species in it is not mirrored at this side.
+        std::array<bool, wall_count> is_open{};  ///< A species in it is not mirrored at this side.
     };
     void find_what_crosses_sides();
 

@@ -36,10 +36,7 @@ ValueId Fluxes::average(NodeId id, Face face) const {
 }
 
 ValueId Fluxes::tensor_entry(NodeId tensor, std::size_t entry, Face face) const {
-    if (graph_.is_uniform(tensor)) return values_.at(tensor, {})[entry];
-    return values_.scaled(builder_.add(values_.entry_beside(tensor, entry, face.cell()),
-                                       values_.entry_beside(tensor, entry, face.next())),
-                          0.5);
+    return average(graph_[tensor].operands[entry], face);
 }
 
 /// Across the face (E − c) / h; along it the mean of the central differences of both cells,
@@ -99,9 +96,9 @@ ValueId Fluxes::at_face(NodeId id, Face where) const {
     return builder_.multiply(average(a, where), values_.face(b, where));
 }
 
-/// Nothing flows out of the mask, nor through a side at which all species of a flux are mirrored.
-/// Differences across such a side are 0 anyway; other vectors, and components that a tensor turns
-/// towards the side, are set to 0 there.
+/// Nothing flows through a side, or the border of a mask, at which all species of a flux are
+/// mirrored. Differences across such a side are 0 anyway; other vectors, and components that a
+/// tensor turns towards the side, are set to 0 there.
 void Fluxes::find_what_crosses_sides() {
     const System& system = graph_.program().system_of(graph_.stage());
     IdVector<ItemId, SideKinds> of_item;
@@ -125,13 +122,18 @@ void Fluxes::find_what_crosses_sides() {
             crossing.has_species = true;
             crossing.is_open[side] = own->sides[side].kind != SideKind::no_flux;
         }
+        if (node.calls(Function::bordered)) {
+            crossing = crossings_[node.operands[0]];
+            crossing.is_open[static_cast<std::size_t>(Side::border)] = true;
+            continue;
+        }
         for (const NodeId read : node.reads()) {
             if (own != nullptr) break;
             const Crossing& operand = crossings_[read];
             const bool turns = graph_[read].type == ValueType::tensor;
             crossing.goes_across |= is_vector && (operand.goes_across || turns);
             crossing.has_species |= operand.has_species;
-            for (std::size_t side = 0; side < side_count; ++side) {
+            for (std::size_t side = 0; side < wall_count; ++side) {
                 crossing.is_open[side] |= operand.is_open[side];
             }
         }
@@ -142,7 +144,7 @@ ValueId Fluxes::through_sides(NodeId flux, Face face, ValueId value) {
     if (crossings_.empty()) find_what_crosses_sides();
     const Crossing& crossing = crossings_[flux];
     if (!crossing.goes_across) return value;
-    if (graph_.has_mask()) {
+    if (graph_.has_mask() && !crossing.is_open[static_cast<std::size_t>(Side::border)]) {
         const Offset other = face.side == 0 ? face.next() : face.cell();
         value = values_.chosen(other, value, builder_.number(0));
     }

@@ -30,6 +30,15 @@ public:
 private:
     void need(NodeId id, std::uint32_t where) { needs_[id] |= where; }
 
+    /// The value at neighbours, with what replaces it outside of the domain.
+    void need_beside(NodeId id, Offsets offsets) {
+        need(id, planner_.reach(offsets));
+        const Node& node = graph_[id];
+        if (!node.calls(Function::bordered)) return;
+        need(node.operands[1], stand_ins(offsets));
+        need(node.operands[2], own_cell);
+    }
+
     void need_operands(NodeId id, std::uint32_t where) {
         const Node& node = graph_[id];
         if (is_vector(node)) return need_of_vector(node, where);
@@ -42,6 +51,7 @@ private:
             return;
         }
         if (node.is<Call>() && is_stencil(node.function)) return need_of_stencil(node);
+        if (node.calls(Function::bordered)) return need(node.operands[0], where);
         for (const NodeId operand : node.reads()) need(operand, where);
     }
 
@@ -58,13 +68,19 @@ private:
         const bool reads_plane =
             graph_.is_linked() ||
             (node.calls(Function::lap) && !graph_.has_mask() && pass_.can_read_as_plane(last));
-        need(last, reads_plane ? own_cell : planner_.reach(stencil_offsets(node, planner_.axes())));
+        if (reads_plane) return need(last, own_cell);
+        need_beside(last, stencil_offsets(node, planner_.axes()));
     }
 
     /// The two cells beside each face.
     void need_at_faces(NodeId operand, std::uint32_t faces) {
-        for_each_face(faces,
-                      [&](Face face) { need(operand, only(face.cell()) | only(face.next())); });
+        if (graph_[operand].type == ValueType::tensor) {
+            for (const NodeId entry : graph_[operand].reads()) need_at_faces(entry, faces);
+            return;
+        }
+        for_each_face(faces, [&](Face face) {
+            need_beside(operand, only(face.cell()) | only(face.next()));
+        });
     }
 
     void need_of_gradient(NodeId operand, Face face) {
@@ -77,7 +93,7 @@ private:
                 offsets |= only(face.cell() + beside) | only(face.next() + beside);
             }
         }
-        need(operand, planner_.reach(offsets));
+        need_beside(operand, offsets);
     }
 
     void need_of_vector(const Node& node, std::uint32_t faces) {
@@ -85,7 +101,7 @@ private:
             for_each_face(faces, [&](Face face) {
                 const auto component = static_cast<std::size_t>(face.component);
                 if (component >= node.operand_count) return;
-                need(node.operands[component], only(face.cell()) | only(face.next()));
+                need_beside(node.operands[component], only(face.cell()) | only(face.next()));
             });
             return;
         }

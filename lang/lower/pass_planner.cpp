@@ -48,15 +48,15 @@ Offsets Axes::pair(int axis) const {
     return only(Offset::along(axis, 1)) | only(Offset::along(axis, -1));
 }
 
-Offsets with_stand_ins(Offsets offsets) {
-    Offsets all = offsets | own_cell;
+Offsets stand_ins(Offsets offsets) {
+    Offsets all = own_cell;
     for (std::uint32_t number = 0; number < Offset::count; ++number) {
         if ((offsets >> number & 1) == 0) continue;
         const Offset offset = Offset::of(number);
         for (const Offset between :
              {Offset{0, offset.dy, offset.dz}, Offset{offset.dx, 0, offset.dz},
               Offset{offset.dx, offset.dy, 0}}) {
-            all |= only(between);
+            if (between != offset) all |= only(between);
         }
     }
     return all;
@@ -223,6 +223,9 @@ std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
         }
         return pass;
     }
+    if (node.calls(Function::bordered)) {
+        return std::max(pass_beside(node.operands[0]), pass_beside(node.operands[1]));
+    }
     if (graph_.is_open(operand) && !is_plane(operand)) {
         for_each_closed(operand, [&](NodeId id) { pass = std::max(pass, pass_beside(id)); });
         return pass;
@@ -234,6 +237,13 @@ std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
 void PassPlanner::provide(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     if (places == 0 || graph_.is_uniform(operand) || is_plane(operand)) return;
+    if (const Node& node = graph_[operand]; node.calls(Function::bordered)) {
+        provide(node.operands[0], offsets, reader);
+        // Differences along a face are taken in the cells on both sides of it.
+        const bool is_at_faces = graph_[reader].type == ValueType::vector;
+        provide(node.operands[1], is_at_faces ? offsets : stand_ins(offsets) & ~own_cell, reader);
+        return;
+    }
     if (graph_.is_open(operand)) return provide_open(operand, offsets, reader);
     OperandChoice choice{operand, reader, places, false, stays_[operand], false};
     const bool wants = materialise_ == Materialise::always ||

@@ -39,9 +39,9 @@ using Offsets = std::uint32_t;
 constexpr Offsets only(Offset offset) { return Offsets{1} << offset.number(); }
 inline constexpr Offsets own_cell = only(Offset{});
 
-/// A set of offsets with those of the cells that may replace cells outside of the domain
+/// The cells that may replace cells at these offsets if those are outside of the domain
 /// (lower_mask.cpp): the cell itself and, for a diagonal neighbour, the two cells in between.
-Offsets with_stand_ins(Offsets offsets);
+Offsets stand_ins(Offsets offsets);
 
 /// A face between two cells and a component of a vector there. The face lies between cell `cell()`
 /// and the next one along `axis`; `side` 0 is the face after the cell itself, 1 the one before it.
@@ -120,7 +120,7 @@ public:
     const Axes& axes() const { return axes_; }
     /// The offsets at which an operand is needed if its value is read at `offsets`.
     Offsets reach(Offsets offsets) const {
-        return graph_.has_mask() ? with_stand_ins(offsets) : offsets;
+        return graph_.has_mask() ? offsets | stand_ins(offsets) : offsets;
     }
 
 private:

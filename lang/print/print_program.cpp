@@ -131,9 +131,9 @@ void print_start_of_cells(const Program& program, const System& system, const St
 }
 
 void print_sides(const Program& program, std::uint32_t index, std::string_view name,
-                 const std::array<SideSetting, side_count>& sides, Output out) {
+                 const SideSettings& sides, Output out) {
     const System& system = program.system_of(index);
-    for (std::size_t side = 0; side < side_count; ++side) {
+    for (std::size_t side = 0; side < wall_count; ++side) {
         const SideSetting& setting = sides[side];
         if (setting.span.end == 0) continue;  // Same as the boundary.
         fmt::format_to(out, "  {}.{}: {}", name, side_names[side],

@@ -19,7 +19,8 @@ bool is_linear_in(const Node& call, std::size_t k) {
         case Function::lap:
         case Function::grad:
         case Function::div:
-        case Function::curl: return true;
+        case Function::curl:
+        case Function::bordered: return true;
         case Function::divide:
         case Function::component:
         case Function::diffuse: return k == 0;
@@ -32,7 +33,8 @@ bool is_linear_in(const Node& call, std::size_t k) {
 
 bool is_jointly_linear(Function function) {
     return function == Function::add || function == Function::subtract ||
-           function == Function::vector || function == Function::if_ || function == Function::mix;
+           function == Function::vector || function == Function::if_ || function == Function::mix ||
+           function == Function::bordered;
 }
 
 }  // namespace cascade

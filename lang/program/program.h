@@ -311,10 +311,12 @@ struct SideSetting {
     Span span;      ///< Where it was written; empty if it comes from the boundary.
 };
 
+using SideSettings = std::array<SideSetting, wall_count>;
+
 /// The rules of a definition that has some. At the other sides it is mirrored.
 struct DefinitionSides {
     DefinitionId definition;
-    std::array<SideSetting, side_count> sides;
+    SideSettings sides;
 };
 
 /// What a rule at a side is about: a species or a definition.
@@ -422,7 +424,7 @@ struct Stage {
     Span coarse_span;  ///< Where that was written.
     std::optional<StageSize> size;
     /// By species, in their order; empty if the boundary holds at all sides.
-    IdVector<SpeciesId, std::array<SideSetting, side_count>> sides;
+    IdVector<SpeciesId, SideSettings> sides;
     std::vector<DefinitionSides> definition_sides;  ///< In order of their definitions.
     // Of a stage of cells that crawl.
     std::optional<Founders> founders;  ///< Empty: the cells of the stage of cells before it.
@@ -550,7 +552,7 @@ struct DomainSettings {
     std::int64_t detail = 1;
     /// Cells are this many times as wide as the script says, in a domain of the same lengths.
     std::int64_t coarse = 1;
-    std::array<std::optional<SideSetting>, side_count> sides;  ///< Of all species.
+    std::array<std::optional<SideSetting>, wall_count> sides;  ///< Of all species.
 };
 
 /// What formulas name by its number, as it does not fit into a Node. Entries never change; a view

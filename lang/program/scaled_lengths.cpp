@@ -79,9 +79,8 @@ Formula with_lengths(const Formula& formula, double factor, const DomainSettings
 }
 
 /// Slopes fall and fluxes grow with lengths.
-void scale_sides(std::array<SideSetting, side_count>& sides, const DomainSettings& domain,
-                 double factor) {
-    for (std::size_t side = 0; side < side_count; ++side) {
+void scale_sides(SideSettings& sides, const DomainSettings& domain, double factor) {
+    for (std::size_t side = 0; side < wall_count; ++side) {
         SideSetting& setting = sides[side];
         const auto& of_domain = domain.sides[side];
         if (of_domain && of_domain->span == setting.span) continue;

@@ -341,10 +341,19 @@ private:
             readable_.push_back("[" + name + "]");
         }
         if (stream_.chance(30) && !has_mask_) write_sides();
+        if (has_mask_ && mask_stream_.chance(50)) write_border();
         text_ += "}\n";
         previous_ = names.species;
         previous_.insert(previous_.end(), names.parameters.begin(), names.parameters.end());
         if (k == 0) previous_.push_back("g0.u0");
+    }
+
+    /// Of species u0, as its sides.
+    void write_border() {
+        static constexpr std::array<std::string_view, 4> rules = {"fixed(0.5)", "slope(0.01 * sx)",
+                                                                  "slope(0.5 * sin([u0] - t))",
+                                                                  "fixed(sin(t) - x)"};
+        text_ += fmt::format("  u0.border: {}\n", mask_stream_.pick<std::string_view>(rules));
     }
 
     /// Of species u0, which every system has.

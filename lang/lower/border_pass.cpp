@@ -1,0 +1,114 @@
+// Gives operators the values beyond the border of a mask, where they are not those of the cell
+// beside it.
+//
+// The rules are those of the sides of the grid (spec/domain.md, "Beyond the sides"): a species, or
+// a definition with a border of its own, has the value that its border says, and a function is
+// computed from such operands; operators, shapes, draws and files are mirrored. But there is no
+// halo between cells, so these values are expressions of the cell beside the border, which every
+// neighbour outside of it has in common.
+#include "lang/calculus/side_values.h"
+#include "lang/lower/graph_passes.h"
+
+#include <array>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace cascade::lowering {
+
+namespace {
+
+class Borders : public GraphPass {
+public:
+    Borders(const Expressions& from, const PassContext& context)
+        : GraphPass(from, context),
+          system_(context.program.system_of(context.stage)),
+          species_(border_settings(context.program, context.stage)),
+          definitions_(from.walls.begin(), from.walls.end()),
+          flattening_(graph()) {}
+
+private:
+    /// Beyond the border, and beyond it a second time, where it turns a corner.
+    using Beyond = std::array<NodeId, 2>;
+
+    NodeId image_of(const Node& node) override {
+        Node reader = node;
+        const bool is_at_faces = node.type == ValueType::vector || node.type == ValueType::tensor;
+        for (std::size_t k = 0; k < node.operand_count; ++k) {
+            const bool is_last = k + 1u == node.operand_count;
+            const bool is_beside =
+                is_at_faces || (is_last && node.is<Call>() && is_stencil(node.function));
+            if (is_beside) reader.operands[k] = bordered(node.operands[k]);
+        }
+        const NodeId id = keep(reader);
+        if (const auto beyond = beyond_of(id, node)) beyond_.emplace(id, *beyond);
+        return id;
+    }
+
+    NodeId bordered(NodeId operand) {
+        const auto found = beyond_.find(operand);
+        if (found == beyond_.end()) return operand;
+        return call(Function::bordered, {operand, found->second[0], found->second[1]});
+    }
+
+    /// Nothing if it is mirrored.
+    std::optional<Beyond> beyond_of(NodeId id, const Node& node) {
+        const SideSetting* const rule = rule_of(node);
+        if (rule != nullptr) {
+            if (!takes_value(rule->kind)) return std::nullopt;
+            const NodeId value = flattening_.add(rule->value);
+            const NodeId once = across(*rule, value, id);
+            return Beyond{once, across(*rule, value, once)};
+        }
+        if (!node.is<Call>() || node.type != ValueType::number || varies_by_cell(node.function) ||
+            info(node.function).is_aggregate) {
+            return std::nullopt;
+        }
+        Node once = node, twice = node;
+        bool is_mirrored = true;
+        for (std::size_t k = 0; k < node.operand_count; ++k) {
+            const auto found = beyond_.find(node.operands[k]);
+            if (found == beyond_.end()) continue;
+            is_mirrored = false;
+            once.operands[k] = found->second[0];
+            twice.operands[k] = found->second[1];
+        }
+        if (is_mirrored) return std::nullopt;
+        return Beyond{graph().add(once), graph().add(twice)};
+    }
+
+    /// The rule of what has one of its own.
+    const SideSetting* rule_of(const Node& node) const {
+        constexpr auto border = static_cast<std::size_t>(Side::border);
+        if (const auto wall = definitions_.find(at()); wall != definitions_.end()) {
+            const Stage& stage = context().program.stages[context().stage];
+            return &stage.definition_sides[wall->second].sides[border];
+        }
+        const auto* const item = node.as<ItemId>();
+        const auto species = item != nullptr ? system_.species_of(*item) : std::nullopt;
+        return species && !species_.empty() ? &species_[*species][border] : nullptr;
+    }
+
+    /// 2e − c or c + h e, rounded as in halos.
+    NodeId across(const SideSetting& rule, NodeId value, NodeId cell) {
+        if (rule.kind == SideKind::fixed) {
+            return call(Function::subtract, {times(graph().number(2), value), cell});
+        }
+        const NodeId spacing = graph().number(context().grid().spacing);
+        return call(Function::add, {cell, times(spacing, value)});
+    }
+
+    const System& system_;
+    IdVector<SpeciesId, SideSettings> species_;
+    std::unordered_map<NodeId, std::size_t> definitions_;  ///< By their nodes in the old graph.
+    Flattening flattening_;
+    std::unordered_map<NodeId, Beyond> beyond_;  ///< By node of the new graph.
+};
+
+}  // namespace
+
+Expressions find_beyond_border(const Expressions& from, const PassContext& context) {
+    return Borders(from, context).run();
+}
+
+}  // namespace cascade::lowering
