@@ -33,8 +33,11 @@ std::vector<std::size_t> axes_of(const Lattice& lattice) {
     return axes;
 }
 
-/// Do rates depend on the symbol of the Laplacian alone? Along the diagonal it has all its values.
+/// Do rates depend on the symbol of the Laplacian alone? Along the diagonal it has all its values,
+/// but for the isotropic one in space, which is largest where one of the three phases is 0.
 bool has_laplacian_alone(const LinearModel& model) {
+    const DomainSettings& domain = model.program->domain;
+    if (domain.stencil == StencilKind::isotropic && domain.grid.stencil().axes() == 3) return false;
     return std::all_of(model.terms.begin(), model.terms.end(), [](const JacobianTerm& term) {
         return std::all_of(term.operators.begin(), term.operators.end(), [](WaveOperator each) {
             return each.kind == WaveOperator::Kind::laplacian ||

@@ -17,29 +17,46 @@ double second_difference(const Lattice& lattice, double phase) {
     return -4 * sine * sine / (h * h);
 }
 
+/// As lang/lower/stencil_pass.cpp.
+double second_derivative(const Lattice& lattice, double phase) {
+    const double plain = second_difference(lattice, phase), h = lattice.spacing;
+    if (lattice.is_continuous || lattice.stencil != StencilKind::fourth) return plain;
+    return plain * (1 - h * h / 12 * plain);
+}
+
+double laplacian(const Lattice& lattice, const Phases& phases) {
+    double sum = 0, pairs = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!lattice.has_axis[axis]) continue;
+        const double along = second_derivative(lattice, phases[axis]);
+        pairs += sum * along;
+        sum += along;
+    }
+    if (lattice.is_continuous || lattice.stencil != StencilKind::isotropic) return sum;
+    return sum + lattice.spacing * lattice.spacing / 6 * pairs;
+}
+
 Complex symbol_of(WaveOperator each, const Lattice& lattice, const WaveKernels& kernels,
                   const Phases& phases) {
     if (each.kind == Kind::convolution) return kernels[each.axis]->symbol(phases);
     const double h = lattice.spacing, phase = phases[each.axis];
     const Complex i(0, 1);
     switch (each.kind) {
-        case Kind::laplacian: {
-            double sum = 0;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                if (lattice.has_axis[axis]) sum += second_difference(lattice, phases[axis]);
-            }
-            return sum;
-        }
+        case Kind::laplacian: return laplacian(lattice, phases);
         case Kind::mean: return phases == Phases{} ? 1.0 : 0.0;
         case Kind::average:
             return lattice.is_continuous || !lattice.has_axis[each.axis] ? 1 : std::cos(phase / 2);
         default: break;
     }
     if (!lattice.has_axis[each.axis]) return 0;
-    if (each.kind == Kind::second) return second_difference(lattice, phase);
+    if (each.kind == Kind::second) return second_derivative(lattice, phase);
     if (lattice.is_continuous) return i * phase / h;
     switch (each.kind) {
-        case Kind::central: return i * std::sin(phase) / h;
+        case Kind::central: {
+            const bool is_fourth = lattice.stencil == StencilKind::fourth;
+            const double less = is_fourth ? h * h / 6 * second_difference(lattice, phase) : 0;
+            return i * std::sin(phase) / h * (1 - less);
+        }
         case Kind::across: return 2.0 * i * std::sin(phase / 2) / h;
         case Kind::backward: return (1.0 - std::exp(-i * phase)) / h;
         default: return (std::exp(i * phase) - 1.0) / h;
@@ -67,6 +84,7 @@ Lattice lattice_of(const Program& program) {
         return lattice;
     }
     lattice.spacing = grid.spacing;
+    lattice.stencil = domain.stencil;
     const Stencil stencil = grid.stencil();
     lattice.has_axis = {stencil.x, stencil.y, stencil.z};
     lattice.cells = {static_cast<double>(grid.width), static_cast<double>(grid.height),

@@ -21,7 +21,7 @@ struct WaveOperator {
     enum class Kind : std::uint8_t {
         laplacian,  ///< The sum of the second differences along all axes.
         second,     ///< (E − 2c + W) / h².
-        central,    ///< (E − W) / 2h.
+        central,    ///< (E − W) / 2h. These three as the stencil of the domain has them.
         across,     ///< (E − c) / h at the face between them, and the same from faces to cells.
         average,    ///< (c + E) / 2 at the face.
         backward,   ///< (c − W) / h, of a flow along the axis.
@@ -50,6 +50,7 @@ struct Lattice {
     /// Are there no axes, as on a model or a curved surface? Then derivatives are those of
     /// calculus: lap is −k², along a first axis in place of any direction.
     bool is_continuous = false;
+    StencilKind stencil = StencilKind::cross;
 };
 Lattice lattice_of(const Program& program);
 

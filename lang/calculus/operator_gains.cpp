@@ -12,6 +12,7 @@ OperatorGains::OperatorGains(Algebra& algebra, const Program& program, const Mod
       grid_(model ? model->grid : program.domain.grid),
       has_metric_(program.domain.surface && program.domain.surface->has_metric),
       on_model_(program.domain.model.has_value()),
+      stencil_(program.domain.stencil),
       links_(model ? std::optional(model->largest_weight) : std::nullopt),
       zero_(algebra.number(0)) {}
 
@@ -36,6 +37,24 @@ NodeId OperatorGains::of_gradient(std::size_t axis) {
                                                 size(MetricPlane::inverse_22)));
 }
 
+/// By the symbols, with X = 4 sin²(θ/2) along each axis: the sum of X is at most 4 n, that of X +
+/// X²/12 at most 16/3 n, and the sum of X minus that of XY/6 over pairs of axes at most 16/3, where
+/// two are 4.
+double OperatorGains::of_stencil(int axes) const {
+    switch (stencil_) {
+        case StencilKind::cross: break;
+        case StencilKind::isotropic: return axes == 1 ? 1 : 4.0 / 3;
+        case StencilKind::fourth: return 4.0 / 3 * axes;
+    }
+    return axes;
+}
+
+/// sin θ is at most 1, and sin θ (1 + 2/3 sin²(θ/2)) at most 1.3723.
+NodeId OperatorGains::of_derivative(std::size_t axis) {
+    const double factor = stencil_ == StencilKind::fourth ? 11.0 / 8 : 1;
+    return algebra_.product(algebra_.number(factor / 2), of_gradient(axis));
+}
+
 /// For lap, each neighbour counts 1 and the cell as much as all of them; for a tensor, its trace
 /// counts (see SlopeRules::times_tensor).
 std::optional<NodeId> OperatorGains::of_diffusion(const Node& node) {
@@ -44,7 +63,8 @@ std::optional<NodeId> OperatorGains::of_diffusion(const Node& node) {
         case Function::lap: {
             // Gershgorin: the cell counts as much as its neighbours together.
             if (links_) return algebra_.number(2 * *links_);
-            if (!has_metric_) return algebra_.number(along_axis * grid_.stencil().axes());
+            if (!has_metric_)
+                return algebra_.number(along_axis * of_stencil(grid_.stencil().axes()));
             const NodeId trace =
                 algebra_.sum(metric(MetricPlane::flow_11), metric(MetricPlane::flow_22));
             return algebra_.product(algebra_.number(4),
@@ -54,7 +74,8 @@ std::optional<NodeId> OperatorGains::of_diffusion(const Node& node) {
         default: {
             const Derivative derivative = derivative_of(node.function);
             const bool decays = derivative.order == 2 && !derivative.is_mixed();
-            return decays ? std::optional(algebra_.number(along_axis)) : std::nullopt;
+            if (!decays) return std::nullopt;
+            return algebra_.number(along_axis * (stencil_ == StencilKind::fourth ? 4.0 / 3 : 1));
         }
     }
     const NodeId a1 = node.operands[1], a2 = node.operands[2];
@@ -80,10 +101,12 @@ std::optional<NodeId> OperatorGains::of_other(const Node& node) {
     const double h = grid_.spacing;
     const Derivative derivative = derivative_of(node.function);
     if (derivative.order == 1) {
-        return algebra_.product(algebra_.number(0.5),
-                                of_gradient(static_cast<std::size_t>(derivative.first)));
+        return of_derivative(static_cast<std::size_t>(derivative.first));
     }
-    if (derivative.is_mixed()) return algebra_.number(1 / (h * h));
+    if (derivative.is_mixed()) {
+        const double factor = stencil_ == StencilKind::fourth ? 11.0 / 8 : 1;
+        return algebra_.number(factor * factor / (h * h));
+    }
     if (!info(node.function).is_aggregate) return std::nullopt;
     const bool adds = node.function == Function::domain_sum;
     return algebra_.number(adds ? static_cast<double>(grid_.cell_count()) : 1);

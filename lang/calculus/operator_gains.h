@@ -25,8 +25,9 @@ public:
     std::optional<NodeId> of_diffusion(const Node& node);
     /// The gain of another operator or an aggregate; none for other functions.
     std::optional<NodeId> of_other(const Node& node);
-    /// Of the derivative along a direction, with faces.
+    /// Of the derivative along a direction, with faces, and of the central difference.
     NodeId of_gradient(std::size_t axis);
+    NodeId of_derivative(std::size_t axis);
 
     /// Records the components of a vector at the cell itself. Operands come before their readers.
     void note_components(NodeId vector, const Node& node);
@@ -37,11 +38,13 @@ public:
 
 private:
     NodeId metric(MetricPlane plane);
+    double of_stencil(int axes) const;
     std::array<NodeId, 3> components_of(const Node& node);
 
     Algebra& algebra_;
     const Grid& grid_;
     bool has_metric_, on_model_;
+    StencilKind stencil_;
     std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
     NodeId zero_;
     std::unordered_map<NodeId, std::array<NodeId, 3>> components_;

@@ -131,9 +131,9 @@ Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     Slope slope = zero();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!gains_.has_axis(axis)) continue;
-        // A central difference spans two faces and has half the gain of one.
         const NodeId along = algebra_.magnitude(gains_.derivative(node.operands[0], axis));
-        add(slope, through_other(inner, algebra_.product(along, gains_.of_gradient(axis))));
+        const NodeId twice = algebra_.product(algebra_.number(2), gains_.of_derivative(axis));
+        add(slope, through_other(inner, algebra_.product(along, twice)));
     }
     return slope;
 }

@@ -189,6 +189,42 @@ void check_precision(Workspace& work, const ast::Script& script, const ast::Stat
                            did_you_mean(work, word, words_taken_by(Setting::precision)));
 }
 
+/// The words in order of StencilKind.
+constexpr std::array<std::string_view, 3> stencil_words{"cross", "isotropic", "fourth"};
+
+void check_stencil(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return;
+    const ast::Expr& value = script.expressions[statement.values[0].root];
+    if (std::holds_alternative<ast::Garbage>(value.node)) return;
+    const auto* name = std::get_if<ast::Name>(&value.node);
+    const std::string_view word = name != nullptr ? name->name : std::string_view();
+    const auto found = std::find(stencil_words.begin(), stencil_words.end(), word);
+    if (found == stencil_words.end()) {
+        work.diagnostics.error(value.span, "a stencil is cross, isotropic or fourth",
+                               did_you_mean(work, word, words_taken_by(Setting::stencil)));
+        return;
+    }
+    work.draft->domain.stencil = static_cast<StencilKind>(found - stencil_words.begin());
+}
+
+/// Other stencils than the cross need cells in straight rows.
+void check_place_of_stencil(Workspace& work, const ast::Block& block) {
+    const DomainSettings& domain = work.program.domain;
+    if (domain.stencil == StencilKind::cross) return;
+    const bool is_bent = domain.surface && domain.surface->has_metric;
+    if (!is_bent && !domain.mask) return;
+    for (const ast::Statement& statement : block.statements) {
+        if (statement.name.text != "stencil") continue;
+        work.diagnostics.error(
+            statement.span,
+            fmt::format("the stencil {} needs {}",
+                        stencil_words[static_cast<std::size_t>(domain.stencil)],
+                        is_bent ? "cells that are squares, and these lie on a surface"
+                                : "all cells of the grid, and the domain has a mask"),
+            "stencil: cross works there");
+    }
+}
+
 /// --fast has no effect on a processor without a multiply-add instruction.
 void check_fast(Workspace& work, const ast::Statement& option) {
     work.draft->domain.fast = has_multiply_add();
@@ -237,7 +273,8 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
                                   settings_of({SettingBlock::domain, SettingBlock::side}));
     if (hint.empty()) {
         hint =
-            "a domain has grid, extent, spacing, boundary, sides, mask, precision, seed, surface and mesh";
+            "a domain has grid, extent, spacing, boundary, sides, mask, stencil, precision, seed, surface and "
+            "mesh";
     }
     work.diagnostics.error(name.span, fmt::format("'{}' is not a setting of the domain", name.text),
                            std::move(hint));
@@ -259,6 +296,7 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
         case Setting::extent:
         case Setting::mask: return;  // After the grid and its lengths: see check_domain().
         case Setting::seed: return check_seed(work, script, statement);
+        case Setting::stencil: return check_stencil(work, script, statement);
         case Setting::precision: return check_precision(work, script, statement);
         default: return;  // Settings of surfaces and models: see check_domain().
     }
@@ -305,6 +343,7 @@ void check_domain(Workspace& work, const ast::Script& script) {
     if (const auto* option = find_option(script, "fast")) check_fast(work, *option);
     if (!check_model(work, script, block)) {
         check_surface(work, script, block);
+        check_place_of_stencil(work, block);
         auto& border = work.draft->domain.sides.back();
         if (border && !work.program.domain.mask) {
             leave_border(work, *border);

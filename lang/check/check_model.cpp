@@ -142,6 +142,7 @@ private:
         DomainSettings& domain = work_.draft->domain;
         domain.grid = rows_of_cells(model_->count);
         domain.mask.reset();
+        domain.stencil = StencilKind::cross;
         domain.surface.reset();
         domain.sides = {};
         domain.model = std::move(model_);

@@ -69,6 +69,13 @@ void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
             "rkl1 takes long steps there");
         return;
     }
+    if (program.domain.stencil != StencilKind::cross) {
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} knows the waves of stencil: cross alone",
+                                      checked.name, name_of(solver)),
+                          "rkl2 takes long steps with any stencil");
+        return;
+    }
     if (!checked.uniform[system.frozen_item()]) {
         diagnostics.error(span,
                           fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "

@@ -37,6 +37,7 @@ public:
         for (const DefinitionSides& each : program_.stages[stage].definition_sides) {
             is_sound = check_definition(each) && is_sound;
         }
+        if (is_sound && program_.domain.stencil == StencilKind::fourth) check_reach();
         if (is_sound) check_solver();
     }
 
@@ -140,6 +141,20 @@ private:
             }
         }
         return true;
+    }
+
+    /// Differences of differences are mirrored at sides, which is right where the species are.
+    void check_reach() {
+        const auto check = [&](const SideSettings& sides) {
+            for (const SideSetting& setting : sides) {
+                if (!takes_value(setting.kind)) continue;
+                report(setting.span, "stencil: fourth needs sides that are periodic or noflux",
+                       "isotropic and cross take values, slopes and fluxes");
+            }
+        };
+        for (const SideSettings& sides : program_.stages[stage_].sides) check(sides);
+        for (const DefinitionSides& each : program_.stages[stage_].definition_sides)
+            check(each.sides);
     }
 
     bool check_draws(const SideSetting& setting) {

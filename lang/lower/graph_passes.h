@@ -103,6 +103,7 @@ private:
 Expressions lay_on_tissue(const Expressions& from, const PassContext& context);
 Expressions write_out_tensors(const Expressions& from, const PassContext& context);
 Expressions lay_on_surface(const Expressions& from, const PassContext& context);
+Expressions write_out_stencils(const Expressions& from, const PassContext& context);
 Expressions write_out_limiters(const Expressions& from, const PassContext& context);
 Expressions find_beyond_border(const Expressions& from, const PassContext& context);
 Expressions spread_over_links(const Expressions& from, const PassContext& context);

@@ -16,6 +16,9 @@ bool is_on_model(const PassContext& context) { return context.has_links() && !co
 bool has_faces(const PassContext& context) { return !context.has_links(); }
 bool has_areas(const PassContext& context) { return context.has_metric() || context.has_links(); }
 bool has_mask(const PassContext& context) { return context.has_mask(); }
+bool has_other_stencil(const PassContext& context) {
+    return !context.has_links() && context.program.domain.stencil != StencilKind::cross;
+}
 bool has_border(const PassContext& context) { return context.has_values_at_border(); }
 bool has_fewer_roundings(const PassContext& context) { return context.has_fewer_roundings; }
 
@@ -48,6 +51,10 @@ constexpr std::array passes{
     // and rows times planes of the metric. Vectors are fluxes through faces, not directions along
     // the surface.
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
+    // Not on surfaces. After this pass lap is (isotropic), and derivatives of fourth order are
+    // written out
+    // by those of second order, some of them of planes of others.
+    PassInfo{"stencils", has_other_stencil, is_operator, write_out_stencils},
     // After this pass there are no limiters but slopes along an axis, in planes of their own.
     PassInfo{"limiters", has_faces, is_transport, write_out_limiters},
     // After this pass an operand that operators read in the cells around is (bordered) if it has

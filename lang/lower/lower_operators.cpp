@@ -24,6 +24,8 @@ public:
 private:
     ValueId over_links(const Node& node);
     ValueId laplacian(NodeId operand);
+    ValueId isotropic(NodeId operand);
+    ValueId sum_of_neighbours(NodeId operand);
     ValueId difference(NodeId operand, int axis);
     ValueId second_difference(NodeId operand, int axis);
     ValueId cross_difference(NodeId operand, int first, int second);
@@ -59,6 +61,7 @@ ValueId Stencils::stencil(const Node& node) {
     if (order == 2) return cross_difference(operand, first, second);
     switch (node.function) {
         case Function::lap: return laplacian(operand);
+        case Function::isotropic: return isotropic(operand);
         case Function::grad2: return squared_gradient(operand);
         case Function::advect: return advection(node);
         case Function::diffuse: return anisotropic(node);
@@ -87,12 +90,8 @@ ValueId Stencils::over_links(const Node& node) {
     CHECK(false, "lowering: operators without a meaning on a model are refused");
 }
 
-/// (((((N + S) + E) + W) + U) + D − 2n·c) / h² of n axes_.
-ValueId Stencils::laplacian(NodeId operand) {
-    const double factor = 1 / (grid_.spacing * grid_.spacing);
-    if (!graph_.has_mask() && pass_.can_read_as_plane(operand)) {
-        return scaled(builder_.laplacian(slot_of_plane(operand)), factor);
-    }
+/// ((((N + S) + E) + W) + U) + D.
+ValueId Stencils::sum_of_neighbours(NodeId operand) {
     std::optional<ValueId> sum;
     const auto add = [&](int axis, int by) {
         const ValueId value = beside(operand, Offset::along(axis, by));
@@ -101,12 +100,41 @@ ValueId Stencils::laplacian(NodeId operand) {
     if (axes_.has(1)) add(1, -1), add(1, 1);
     if (axes_.has(0)) add(0, 1), add(0, -1);
     if (axes_.has(2)) add(2, -1), add(2, 1);
+    return *sum;
+}
+
+/// (((((N + S) + E) + W) + U) + D − 2n·c) / h² of n axes_.
+ValueId Stencils::laplacian(NodeId operand) {
+    const double factor = 1 / (grid_.spacing * grid_.spacing);
+    if (!graph_.has_mask() && pass_.can_read_as_plane(operand)) {
+        return scaled(builder_.laplacian(slot_of_plane(operand)), factor);
+    }
+    const ValueId sum = sum_of_neighbours(operand);
     const auto neighbours = static_cast<double>(2 * axes_.present.size());
     const ValueId centre = builder_.multiply(builder_.number(neighbours), own(operand));
     // Rounded like the operation on a plane, so that contraction cannot tell which of the two is in
     // use.
     builder_.keep(centre);
-    return scaled(builder_.subtract(*sum, centre), factor);
+    return scaled(builder_.subtract(sum, centre), factor);
+}
+
+/// (w (N + S + …) + (NE + …) − 4 (3 n − p) c) / 6h² of n axes and p pairs of axes, with w = 6 − 2
+/// (n − 1): 4, 1 and 20 in the plane, 2, 1 and 24 in space (Patra & Karttunen 2006).
+ValueId Stencils::isotropic(NodeId operand) {
+    const auto n = static_cast<int>(axes_.present.size());
+    const int pairs = n * (n - 1) / 2;
+    const auto times = [&](int number, ValueId value) {
+        return builder_.multiply(builder_.number(number), value);
+    };
+    ValueId sum = times(8 - 2 * n, sum_of_neighbours(operand));
+    std::optional<ValueId> edges;
+    for_each_offset(axes_.edges(), [&](Offset offset) {
+        const ValueId value = beside(operand, offset);
+        edges = edges ? builder_.add(*edges, value) : value;
+    });
+    if (edges) sum = builder_.add(sum, *edges);
+    const ValueId centre = times(4 * (3 * n - pairs), own(operand));
+    return scaled(builder_.subtract(sum, centre), 1 / (6 * grid_.spacing * grid_.spacing));
 }
 
 /// (E − W) / 2h.

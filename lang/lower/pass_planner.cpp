@@ -43,6 +43,8 @@ Offsets Axes::diagonal(int first, int second) const {
     return offsets;
 }
 
+Offsets Axes::edges() const { return diagonal(0, 1) | diagonal(0, 2) | diagonal(1, 2); }
+
 Offsets Axes::pair(int axis) const {
     if (!has(axis)) return 0;
     return only(Offset::along(axis, 1)) | only(Offset::along(axis, -1));
@@ -70,6 +72,7 @@ Offsets stencil_offsets(const Node& stencil, const Axes& axes) {
     if (stencil.calls(Function::limited) || stencil.calls(Function::upwind)) {
         return own_cell | axes.pair(std::get<Call>(stencil.kind).detail);
     }
+    if (stencil.calls(Function::isotropic)) return axes.crosswise() | axes.edges();
     if (!stencil.calls(Function::diffuse)) return axes.crosswise();
     return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
 }

@@ -69,6 +69,7 @@ struct Axes {
     explicit Axes(const Grid& grid);
     bool has(int axis) const;
     Offsets crosswise() const;     ///< The cell itself and its neighbours along all axes.
+    Offsets edges() const;         ///< The neighbours across any two axes.
     Offsets pair(int axis) const;  ///< The two neighbours along an axis.
     Offsets diagonal(int first, int second) const;  ///< The four cells across two axes.
 };

@@ -183,6 +183,10 @@ void print_grid(const Program& program, Output out) {
     if (grid.depth > 1) fmt::format_to(out, ", {}", grid.depth);
     if (grid.spacing != 1) fmt::format_to(out, "\n  spacing: {}", grid.spacing);
     fmt::format_to(out, "\n  boundary: {}\n", boundary_words(grid.boundary));
+    if (program.domain.stencil != StencilKind::cross) {
+        fmt::format_to(out, "  stencil: {}\n",
+                       program.domain.stencil == StencilKind::fourth ? "fourth" : "isotropic");
+    }
     if (const auto& mask = program.domain.mask) {
         fmt::format_to(out, "  mask: {}\n", print_formula(program, {}, mask->formula));
     }

@@ -17,6 +17,7 @@ bool is_linear_in(const Node& call, std::size_t k) {
         case Function::domain_sum:
         case Function::convolve:
         case Function::lap:
+        case Function::isotropic:
         case Function::grad:
         case Function::div:
         case Function::curl:

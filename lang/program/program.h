@@ -539,11 +539,19 @@ struct ConvolutionKernel {
     Formula reach;  ///< Cells up to this distance count; empty: all cells of the domain.
 };
 
+/// The cells that operators of derivatives read on a grid.
+enum class StencilKind : std::uint8_t {
+    cross,      ///< Those beside the cell along the axes.
+    isotropic,  ///< Those across two axes as well, in lap.
+    fourth,     ///< Two cells along each axis, for errors of fourth order.
+};
+
 struct DomainSettings {
     Grid grid;                               ///< 64 × 64, periodic, unless said otherwise.
     std::optional<ModelSettings> model;      ///< Then the grid is linked.
     std::optional<MaskSettings> mask;        ///< Without one all cells of the grid.
     std::optional<SurfaceSettings> surface;  ///< Without one the plane.
+    StencilKind stencil = StencilKind::cross;
     std::uint32_t seed = 1;
     Precision precision = Precision::single;  ///< Of all numbers of a run.
     bool fast = false;  ///< Steps are computed with fewer roundings (ir/contraction.h).

@@ -10,9 +10,10 @@ namespace {
 using analysis::Complex;
 
 /// The rate of a wave for a system of one species `u` with this rate.
-Complex rate_of(const std::string& rate, double x, double y) {
+Complex rate_of(const std::string& rate, double x, double y, const std::string& stencil = "cross") {
     const auto analysed = analyse("system s { u: 0.5; u' = " + rate +
-                                  " }\ndomain { grid: 64, 64; spacing: 0.5 }\n"
+                                  " }\ndomain { grid: 64, 64; spacing: 0.5; stencil: " + stencil +
+                                  " }\n"
                                   "stage a: s { iterations: 1; speed: 1e-6 }");
     if (!analysed.analysis || analysed.analysis->states.empty()) return 1e300;
     const auto& model = analysed.analysis->model;
@@ -56,6 +57,32 @@ TEST(OperatorsOfWaves, HaveTheSymbolsOfTheirDifferences) {
     expect_rate("div(symmetric(4, 0, 1) * grad(u))", 4 * sx + sy);
     expect_rate("div((symmetric(1, 0, 1) + 2 * symmetric(0, 1, 0)) * grad(u))",
                 sx + sy - 4 * cx * cy);
+}
+
+TEST(OperatorsOfWaves, FollowTheStencil) {
+    constexpr double h = 0.5, x = 0.7, y = 0.3;
+    const Complex i(0, 1);
+    const auto expect = [&](const char* stencil, const char* rate, Complex expected) {
+        EXPECT_NEAR(std::abs(rate_of(rate, x, y, stencil) - expected), 0, 1e-9)
+            << stencil << " " << rate;
+    };
+    // The nine weights of Patra and Karttunen.
+    const double nine =
+        (8 * (std::cos(x) + std::cos(y)) + 4 * std::cos(x) * std::cos(y) - 20) / (6 * h * h);
+    expect("isotropic", "lap(u)", nine);
+    expect("isotropic", "dx(u)", i * std::sin(x) / h);
+    // The wide differences, -1 16 -30 16 -1 and 1 -8 0 8 -1.
+    const auto second = [&](double phase) {
+        return (32 * std::cos(phase) - 2 * std::cos(2 * phase) - 30) / (12 * h * h);
+    };
+    const auto first = [&](double phase) {
+        return i * (8 * std::sin(phase) - std::sin(2 * phase)) / (6 * h);
+    };
+    expect("fourth", "lap(u)", second(x) + second(y));
+    expect("fourth", "dyy(u)", second(y));
+    expect("fourth", "dx(u)", first(x));
+    expect("fourth", "dxy(u)", first(x) * first(y));
+    expect("fourth", "dot(vector(2, -1), grad(u))", 2.0 * first(x) - first(y));
 }
 
 TEST(OperatorsOfWaves, OfConvolutionsAreTransformsOfTheirKernels) {

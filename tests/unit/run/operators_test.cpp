@@ -84,7 +84,7 @@ double largest_error(const std::string& operation, const std::string& extra, int
     double largest = 0;
     for (int j = 0; j < side; ++j) {
         for (int i = 0; i < side; ++i) {
-            const double found = scale * static_cast<double>(run.field("r").at(i, j));
+            const double found = scale * run.field("r").number_at(i, j);
             largest =
                 std::max(largest, std::abs(found - exact((i + 0.5) / side, (j + 0.5) / side)));
         }
@@ -201,6 +201,70 @@ TEST(Operators, ConvergeAtSidesThatMirror) {
          {"dx(f)", 1, 2,
           [](double x, double y) { return -pi * std::sin(pi * x) * std::cos(2 * pi * y); }}},
         "f: cos(pi * x) * cos(2 * pi * y)", "noflux");
+}
+
+TEST(Operators, OfTheStencilFourthConvergeAtThatOrder) {
+    const double p2 = pi * pi;
+    const auto tried = [&](const Function2& f, const Function2& fx, const Function2& fy,
+                           const Function2& fxx, const Function2& fyy, const Function2& fxy) {
+        const auto both = [](const Function2& a, const Function2& b, double p, double q) {
+            return Function2([=](double x, double y) { return p * a(x, y) + q * b(x, y); });
+        };
+        return std::vector<Case>{
+            {"lap(f)", 2, 4, both(fxx, fyy, 1, 1)},
+            {"lap(2 * f + 1)", 2, 4, both(fxx, fyy, 2, 2)},
+            {"lap(lap(f))", 4, 4,
+             [=](double x, double y) {
+                 return std::pow((fxx(x, y) + fyy(x, y)) / f(x, y), 2) * f(x, y);
+             }},
+            {"dx(f)", 1, 4, fx},
+            {"dy(f)", 1, 4, fy},
+            {"dyy(f)", 2, 4, fyy},
+            {"dxy(f)", 2, 4, fxy},
+            {"grad2(f)", 2, 4,
+             [=](double x, double y) { return fx(x, y) * fx(x, y) + fy(x, y) * fy(x, y); }},
+            {"dot(grad(f), vector(2, -1))", 1, 4, both(fx, fy, 2, -1)},
+            {"div(grad(f))", 2, 2, both(fxx, fyy, 1, 1)},
+        };
+    };
+    const auto s = [](double x, double y) { return std::sin(2 * pi * (x + 2 * y)); };
+    const auto c = [](double x, double y) { return std::cos(2 * pi * (x + 2 * y)); };
+    const auto times = [](double factor, auto of) {
+        return Function2([=](double x, double y) { return factor * of(x, y); });
+    };
+    expect_orders(tried(s, times(2 * pi, c), times(4 * pi, c), times(-4 * p2, s),
+                        times(-16 * p2, s), times(-8 * p2, s)),
+                  "f: sin(2 * pi * (x + 2 * y))", "periodic; stencil: fourth; precision: double");
+    const auto mirrored = [](double x, double y) {
+        return std::cos(pi * x) * std::cos(2 * pi * y);
+    };
+    const auto in_x = [](double x, double y) { return std::sin(pi * x) * std::cos(2 * pi * y); };
+    const auto in_y = [](double x, double y) { return std::cos(pi * x) * std::sin(2 * pi * y); };
+    const auto in_both = [](double x, double y) { return std::sin(pi * x) * std::sin(2 * pi * y); };
+    expect_orders(tried(mirrored, times(-pi, in_x), times(-2 * pi, in_y), times(-p2, mirrored),
+                        times(-4 * p2, mirrored), times(2 * p2, in_both)),
+                  "f: cos(pi * x) * cos(2 * pi * y)", "noflux; stencil: fourth; precision: double");
+}
+
+/// The error of the isotropic Laplacian is h²/12 lap(lap(f)), the same in all directions.
+TEST(Operators, OfTheIsotropicStencilFavourNoDirection) {
+    const auto error = [](const std::string& stencil, int across) {
+        // Waves of equal length: (5, 0) and (3, 4) periods.
+        const double a = across == 0 ? 5 : 3, b = across == 0 ? 0 : 4;
+        const Function2 exact = [=](double x, double y) {
+            return -100 * pi * pi * std::sin(2 * pi * (a * x + b * y));
+        };
+        return largest_error("lap(f)", fmt::format("f: sin(2 * pi * ({} * x + {} * y))", a, b), 96,
+                             2, exact, "periodic; precision: double; stencil: " + stencil);
+    };
+    EXPECT_GT(error("cross", 0) / error("cross", 1), 1.5);
+    EXPECT_NEAR(error("isotropic", 0) / error("isotropic", 1), 1, 0.02);
+    // The leading error, with 100 pi^2 in place of the Laplacian.
+    EXPECT_NEAR(error("isotropic", 1), std::pow(100 * pi * pi, 2) / 12 / (96 * 96), 60);
+    expect_orders(
+        {{"lap(f)", 2, 2,
+          [](double x, double y) { return -20 * pi * pi * std::sin(2 * pi * (x + 2 * y)); }}},
+        "f: sin(2 * pi * (x + 2 * y))", "periodic; stencil: isotropic; precision: double");
 }
 
 /// Waves along and across the direction theta decay with a1² and a2² (Witkin & Kass, section 3).
