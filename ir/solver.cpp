@@ -17,11 +17,12 @@ struct Row {
 };
 
 /// In the order of Solver. Semi-implicit solvers have the interval of their explicit part: two of
-/// them are Euler's method without diffusion, etdrk4 is the classical one of fourth order. The
+/// them are Euler's method without diffusion, etdrk4 is the classical one of fourth order. ros2 is
+/// Heun's method without a reaction, and no reaction that decays makes its interval shorter. The
 /// intervals are the zeros of |R(z)| = 1 on the negative axis, where R is the stability polynomial
 /// (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996, section IV.2); for
 /// Dormand-Prince, that of its formula of fifth order.
-constexpr std::array<Row, 11> rows{{{"euler", 1, 2.0},
+constexpr std::array<Row, 12> rows{{{"euler", 1, 2.0},
                                     {"symplectic", 1, 2.0},
                                     {"rk2", 2, 2.0},
                                     {"rk4", 4, 2.785},
@@ -31,7 +32,8 @@ constexpr std::array<Row, 11> rows{{{"euler", 1, 2.0},
                                     {"rkl2", 2, 0},
                                     {"imex", 1, 2.0},
                                     {"etdrk4", 4, 2.785},
-                                    {"gauss", 1, 2.0}}};
+                                    {"gauss", 1, 2.0},
+                                    {"ros2", 2, 2.0}}};
 
 const Row& row(Solver solver) { return rows[static_cast<std::size_t>(solver)]; }
 
@@ -58,6 +60,7 @@ bool is_stabilised(Solver solver) { return solver == Solver::rkl1 || solver == S
 bool is_semi_implicit(Solver solver) {
     return solver == Solver::imex || solver == Solver::etdrk4 || solver == Solver::gauss;
 }
+bool is_locally_implicit(Solver solver) { return solver == Solver::ros2; }
 bool takes_speed_by_cell(Solver solver) {
     return solver == Solver::euler || solver == Solver::symplectic;
 }
@@ -65,6 +68,7 @@ int order_of(Solver solver) { return row(solver).order; }
 
 int order_of_estimate(Solver solver) {
     if (is_adaptive(solver)) return order_of(solver);
+    if (is_locally_implicit(solver)) return 2;  // The embedded method is of first order.
     return std::min(order_of(solver) + 1, 3);
 }
 

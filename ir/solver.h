@@ -21,7 +21,8 @@ enum class Solver : std::uint8_t {
     rkl2,
     imex,
     etdrk4,
-    gauss
+    gauss,
+    ros2
 };
 
 std::string_view name_of(Solver solver);
@@ -35,19 +36,26 @@ bool is_adaptive(Solver solver);
 bool is_stabilised(Solver solver);
 /// Whether it takes diffusion implicitly or exactly, and only the rest by its rate at the old step.
 bool is_semi_implicit(Solver solver);
-/// Whether its steps are as long as the reaction allows, however fast diffusion is.
+/// Whether it takes the reaction in each cell implicitly, and diffusion by its rate.
+bool is_locally_implicit(Solver solver);
+/// Whether a part of the rates limits no step by its stability.
+inline bool is_partly_implicit(Solver solver) {
+    return is_semi_implicit(solver) || is_locally_implicit(solver);
+}
+/// Whether its steps may be many times as long as those of explicit Euler: as long as the reaction
+/// allows, however fast diffusion is, or the other way round.
 inline bool takes_long_steps(Solver solver) {
-    return is_stabilised(solver) || is_semi_implicit(solver);
+    return is_stabilised(solver) || is_partly_implicit(solver);
 }
 /// Whether the time step may vary by cell.
 bool takes_speed_by_cell(Solver solver);
 /// The order p: the error of a whole run is proportional to step^p.
 int order_of(Solver solver);
 /// The p for which the estimated error of a step is proportional to step^p: the embedded pair of an
-/// adaptive solver, for others as in solvers/error_estimate.h.
+/// adaptive solver or of `ros2`, for others as in solvers/error_estimate.h.
 int order_of_estimate(Solver solver);
 /// The solver is stable if −λ · step is below this for every negative eigenvalue λ of the rates'
-/// Jacobian. `stages` is that of a stabilised solver.
+/// Jacobian, or of the part that is taken explicitly. `stages` is that of a stabilised solver.
 double stability_interval(Solver solver, std::uint32_t stages = 1);
 
 /// The smallest odd number of stages with which a stabilised solver is stable for steps `ratio`

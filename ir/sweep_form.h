@@ -32,6 +32,7 @@ struct SweepTerm {
                      ///< a scheme's coefficients exact, so that a state without change stays the
                      ///< same to the bit.
         rate,        ///< The species' rate, evaluated at input 0.
+        solution,    ///< The species' part of the solution of the form's `equations`.
     };
     enum class Weight : std::uint8_t {
         one,          ///< No factor.
@@ -76,8 +77,20 @@ struct SweepForm {
     /// For rates of negative weight, which would lift the value off its bound.
     bool ignores_held_rates = false;
 
+    /// x of (1 − c J) x = Σ terms, a system of equations of the species in each cell: J are the
+    /// derivatives of their rates by their values in the cell itself, at input 0. A rate that would
+    /// carry a value beyond the bound that holds it counts as 0, and so do its derivatives.
+    struct Equations {
+        std::vector<SweepTerm> terms;
+        std::uint32_t coefficient = 0;  ///< The number of c.
+
+        friend bool operator==(const Equations&, const Equations&) = default;
+    };
+    std::optional<Equations> equations;
+
     /// Whether it evaluates the rates, instead of only combining earlier results.
     bool uses_rates() const {
+        if (equations) return true;
         for (const SweepOutput& output : outputs) {
             for (const SweepTerm& term : output.terms) {
                 if (term.source == SweepTerm::Source::rate) return true;

@@ -1,7 +1,9 @@
 // The other solution comes from the trapezoidal rule: the error is the mean of the rates at both
-// ends times the step, minus the change of the step. The last filter of etdrk4 has an estimate of
-// its own.
+// ends times the step, minus the change of the step. The last filter of etdrk4 and the last
+// equations of ros2 have an estimate of their own.
 #include "solvers/error_estimate.h"
+
+#include "solvers/rosenbrock.h"
 
 #include <algorithm>
 #include <optional>
@@ -72,6 +74,7 @@ Scheme with_error_of_filter(Scheme scheme) {
 }  // namespace
 
 Scheme with_error_estimate(Scheme scheme) {
+    if (scheme.forms.back().equations) return with_embedded_error(std::move(scheme));
     const std::optional<SweepFilter>& filter = scheme.sweeps.back().filter;
     if (filter && filter->response == WaveResponse::etd_last) {
         return with_error_of_filter(std::move(scheme));

@@ -17,11 +17,12 @@ namespace cascade {
 ///
 /// For fine grids that is useless to `etdrk4`: f amplifies the rounding errors of `new`. Its e is
 /// the difference from a method of second order that the last stage knows (solvers/etd_stages.h),
-/// whose waves are damped as those of the step.
+/// whose waves are damped as those of the step. It is as useless to `ros2`, whose f amplifies the
+/// errors of fast reactions; its e is that of solvers/rosenbrock.h.
 ///
 /// The rates at `new` are the first rates of the next step, which reads them and does not evaluate
 /// them again. So the estimate costs a sweep without an evaluation, and three more registers
-/// (`etdrk4`: one). e is 0 where a value is frozen or held at a bound.
+/// (`etdrk4` and `ros2`: one). e is 0 where a value is frozen or held at a bound.
 Scheme with_error_estimate(Scheme scheme);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // Schemes of one sweep and stabilised schemes. Butcher tableaux are in runge_kutta.cpp, schemes
-// that filter waves in semi_implicit.cpp.
+// that filter waves in semi_implicit.cpp, one that solves equations in cells in rosenbrock.cpp.
 //
 // Stabilised Runge-Kutta-Legendre: C. D. Meyer, D. S. Balsara, T. D. Aslam, "A stabilized
 // Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed equations",
@@ -7,6 +7,7 @@
 #include "solvers/scheme.h"
 
 #include "core/check.h"
+#include "solvers/rosenbrock.h"
 #include "solvers/runge_kutta.h"
 #include "solvers/semi_implicit.h"
 
@@ -213,6 +214,7 @@ Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint
         case Solver::imex: return one_filter(WaveResponse::implicit);
         case Solver::gauss: return one_filter(WaveResponse::exponential);
         case Solver::etdrk4: return etdrk4();
+        case Solver::ros2: return ros2();
     }
     CHECK(false, "every solver has a scheme");
 }

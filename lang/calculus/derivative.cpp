@@ -3,7 +3,6 @@
 #include "lang/calculus/derivative.h"
 
 #include "core/check.h"
-#include "lang/calculus/algebra.h"
 #include "lang/calculus/slopes.h"
 
 #include <algorithm>
@@ -34,11 +33,17 @@ std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& 
 class LineBound {
 public:
     explicit LineBound(Algebra& algebra)
-        : algebra_(algebra), zero_(algebra.number(0)), whole_(zero_), others_(zero_), own_(zero_) {}
+        : algebra_(algebra),
+          zero_(algebra.number(0)),
+          whole_(zero_),
+          far_(zero_),
+          others_(zero_),
+          own_(zero_) {}
 
     void add(const Slope& slope, bool is_own_species) {
         const NodeId size = algebra_.magnitude(slope.own);
         whole_ = algebra_.sum(whole_, algebra_.sum(size, slope.far));
+        far_ = algebra_.sum(far_, slope.far);
         others_ = algebra_.sum(others_, slope.other);
         if (is_own_species) {
             own_ = slope.own;
@@ -50,6 +55,8 @@ public:
     }
 
     NodeId whole() const { return whole_; }
+    NodeId far() const { return far_; }
+    NodeId own() const { return own_; }
     /// Without growth of waves.
     NodeId at_rest() { return algebra_.sum(algebra_.magnitude(own_), others_); }
     bool has_cross_diffusion() const { return !cross_diffusion_.empty(); }
@@ -96,7 +103,7 @@ private:
     }
 
     Algebra& algebra_;
-    NodeId zero_, whole_, others_, own_;
+    NodeId zero_, whole_, far_, others_, own_;
     std::vector<std::vector<NodeId>> own_diffusion_, cross_diffusion_;
 };
 
@@ -134,6 +141,18 @@ public:
         return largest(algebra_, parts);
     }
 
+    NodeId spread() {
+        std::vector<NodeId> parts;
+        for (LineBound& row : rows_) parts.push_back(row.far());
+        return largest(algebra_, parts);
+    }
+
+    NodeId growth() {
+        std::vector<NodeId> parts{algebra_.number(0)};
+        for (LineBound& row : rows_) parts.push_back(row.own());
+        return largest(algebra_, parts);
+    }
+
     /// A matrix has the eigenvalues of its transpose. If one species drags another along, as bait
     /// does cells, its column may give a smaller bound than the other's row.
     NodeId reaction() {
@@ -159,14 +178,22 @@ private:
 
 }  // namespace
 
-std::optional<Formula> rate_derivative(const Program& program, std::uint32_t stage, ItemId of,
-                                       ItemId by) {
+std::optional<LocalJacobian> local_jacobian(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     FlatRates rates(system, FieldSpace::of(program, system));
     SlopeRules rules(rates.algebra, program, nullptr);
-    const auto slopes = slopes_of(rates, rules, by);
-    if (!slopes) return std::nullopt;
-    return rates.algebra.formula((*slopes)[rates.rate(of)][0].own);
+    const auto species = system.species();
+    LocalJacobian jacobian;
+    jacobian.rows.resize(species.size());
+    for (const SpeciesId by : species.ids()) {
+        const auto slopes = slopes_of(rates, rules, species[by]);
+        if (!slopes) return std::nullopt;
+        for (const SpeciesId of : species.ids()) {
+            jacobian.rows[of].push_back((*slopes)[rates.rate(species[of])][0].own);
+        }
+    }
+    jacobian.algebra = std::move(rates.algebra);
+    return jacobian;
 }
 
 std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_t stage,
@@ -186,8 +213,10 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
         }
     }
     const NodeId whole = matrix.whole(), reaction = matrix.reaction();
+    const NodeId spread = matrix.spread(), growth = matrix.growth();
     if (algebra.size() > most_calculus_nodes) return std::nullopt;
     return JacobianBound{over_domain(algebra, whole), over_domain(algebra, reaction),
+                         over_domain(algebra, spread), over_domain(algebra, growth),
                          matrix.jumps()};
 }
 

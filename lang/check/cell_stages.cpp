@@ -193,7 +193,7 @@ std::string_view read_of_surface(const System& system, bool is_plane) {
 }
 
 void check_solver(Workspace& work, const StageTime& time) {
-    if (time.solver != Solver::symplectic && !is_semi_implicit(time.solver)) return;
+    if (time.solver != Solver::symplectic && !is_partly_implicit(time.solver)) return;
     work.diagnostics.error(time.solver_span,
                            fmt::format("the solver {} is one of fields", name_of(time.solver)),
                            "cells take rkl2, rkl1, euler, rk2, rk4, rk23 or rk45");

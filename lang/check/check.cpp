@@ -7,6 +7,7 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_coarse.h"
 #include "lang/check/check_shape.h"
+#include "lang/check/check_local_solver.h"
 #include "lang/check/check_semi_implicit.h"
 #include "lang/check/check_side_values.h"
 #include "lang/check/check_size.h"
@@ -114,7 +115,9 @@ std::optional<Program> check(const ast::Script& script, Sources& sources,
             checking::warn_unread(work);
             checking::check_side_values(program, own);
             for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
-                checking::check_semi_implicit(program, k, program.stages[k].time.solver_span, own);
+                const Span solver = program.stages[k].time.solver_span;
+                checking::check_semi_implicit(program, k, solver, own);
+                checking::check_local_solver(program, k, solver, own);
             }
             checking::check_coarse_grids(program, own);
             if (has_meaning_on_domain(program, own)) checking::check_sizes(program, own);

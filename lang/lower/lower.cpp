@@ -25,7 +25,12 @@ StepGraph::StepGraph(const Program& program, std::uint32_t stage, const PlanOpti
     const std::vector<NodeId>& roots = graph.roots();
     rates.resize(system.quantities.size());
     for (std::size_t k = 0; k < rate_count; ++k) rates[system.rate_order[k]] = roots[k];
-    bounds.assign(roots.begin() + static_cast<std::ptrdiff_t>(rate_count), roots.end());
+    auto next = roots.begin() + static_cast<std::ptrdiff_t>(rate_count);
+    for (std::size_t k = 0; k < system.invariants.size(); ++k) bounds.push_back(*next++);
+    if (next != roots.end()) derivatives.resize(system.species_count());
+    for (std::vector<NodeId>& row : derivatives) {
+        for (std::size_t k = 0; k < derivatives.size(); ++k) row.push_back(*next++);
+    }
     if (options.keeps_step_invariants) step_invariants = step_invariant_nodes(graph, roots);
 }
 

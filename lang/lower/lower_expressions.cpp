@@ -1,6 +1,9 @@
 // The list of passes from flat formulas to the expressions that cells compute.
 #include "lang/lower/lower_expressions.h"
 
+#include "core/check.h"
+#include "lang/calculus/derivative.h"
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -91,6 +94,28 @@ void add_walls_of_constraints(Expressions& expressions, const PassContext& conte
     }
 }
 
+/// Copies the derivatives of the rates by the species of the cell into the graph of the rates,
+/// which has the nodes that both have in common. They were written in the same formulas of it, so
+/// that random numbers are those of the rates.
+void add_derivatives(ExpressionGraph& graph, const Program& program, std::uint32_t stage,
+                     std::vector<NodeId>& roots) {
+    const auto jacobian = local_jacobian(program, stage);
+    CHECK(jacobian, "lowering: the solver has been checked");
+    std::vector<NodeId> derivatives;
+    for (const auto& row : jacobian->rows)
+        derivatives.insert(derivatives.end(), row.begin(), row.end());
+    const ExpressionGraph& from = jacobian->algebra;
+    const auto needed = needed_by(from, derivatives);
+    IdVector<NodeId, NodeId> images(needed.size());
+    for (const NodeId id : needed.ids()) {
+        if (!needed[id]) continue;
+        Node node = from[id];
+        for (NodeId& operand : node.reads()) operand = images[operand];
+        images[id] = graph.add(node, from.written(id));
+    }
+    for (const NodeId id : derivatives) roots.push_back(images[id]);
+}
+
 /// The flattening refers to the graph, so that the expressions move last.
 Expressions with_roots(Expressions&& expressions, const Flattening& flattening,
                        std::vector<NodeId> roots) {
@@ -128,6 +153,9 @@ Expressions flat_step(const Program& program, std::uint32_t stage) {
         flat.walls.emplace_back(flattening.definition(sides[k].definition), k);
     }
     add_walls_of_constraints(flat, {program, stage});
+    if (is_locally_implicit(program.stages[stage].time.solver)) {
+        add_derivatives(flat.graph, program, stage, roots);
+    }
     return with_roots(std::move(flat), flattening, std::move(roots));
 }
 

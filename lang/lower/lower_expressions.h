@@ -15,7 +15,8 @@ namespace cascade::lowering {
 /// The starting values of items of a stage. Each may read those before it.
 Expressions flat_start(const Program& program, std::uint32_t stage, std::span<const ItemId> items);
 /// The rates of a stage's species, in the order of System::rate_order, then the bounds of its
-/// invariants. All plans of a step thus number their nodes alike.
+/// invariants, then for a solver that is implicit in each cell their derivatives by its species,
+/// row by row. All plans of a step thus number their nodes alike.
 Expressions flat_step(const Program& program, std::uint32_t stage);
 /// The values of formulas.
 Expressions flat_formulas(std::span<const Formula* const> formulas, const PassContext& context,

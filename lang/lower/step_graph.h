@@ -12,7 +12,10 @@ namespace cascade::lowering {
 struct StepGraph {
     PlanGraph graph;
     IdVector<ItemId, NodeId> rates;
-    std::vector<NodeId> bounds;           ///< By invariant.
+    std::vector<NodeId> bounds;  ///< By invariant.
+    /// By row and column: the derivative of a species' rate by another species in the cell. Empty
+    /// unless the solver needs them.
+    IdVector<SpeciesId, std::vector<NodeId>> derivatives;
     std::vector<NodeId> step_invariants;  ///< The values that are computed once.
 
     StepGraph(const Program& program, std::uint32_t stage, const PlanOptions& options);

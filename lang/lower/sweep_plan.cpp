@@ -1,5 +1,6 @@
 // The plans of sweeps: the form applied to the rates and inputs of every species.
 #include "core/check.h"
+#include "lang/lower/cell_equations.h"
 #include "lang/lower/lower.h"
 #include "lang/lower/step_graph.h"
 
@@ -37,9 +38,15 @@ public:
             bounds_.push_back({&system_.invariants[k], step.bounds[k]});
             wanted.push_back(step.bounds[k]);
         }
+        if (form_.equations) {
+            derivatives_ = step.derivatives;
+            for (const auto& row : derivatives_)
+                wanted.insert(wanted.end(), row.begin(), row.end());
+        }
         const auto slots = system_.species();
         PlanBuilder builder(
             {step.graph, wanted, options, true, slots, step.step_invariants, program_.domain.fast});
+        if (form_.equations) solve(builder);
         for (const SweepOutput& output : form_.outputs) emit(builder, output);
         StepPlan plan = std::move(builder).finish();
         for (std::size_t o = 0; o < form_.outputs.size(); ++o) {
@@ -86,6 +93,7 @@ private:
                     value = builder.select(*held, builder.number(0), value);
                 }
                 break;
+            case SweepTerm::Source::solution: value = solution_[item]; break;
         }
         switch (term.weight) {
             case SweepTerm::Weight::one: return value;
@@ -98,17 +106,49 @@ private:
         CHECK(false, "lowering: every weight has a meaning");
     }
 
+    ValueId sum_of(PlanBuilder& plan, const std::vector<SweepTerm>& terms, SweepOutput::Kind kind,
+                   ItemId item) const {
+        std::optional<ValueId> sum;
+        for (const SweepTerm& each : terms) {
+            const ValueId value = term(plan, each, kind, item);
+            sum = sum ? plan.last_pass().builder().add(*sum, value) : value;
+        }
+        CHECK(sum, "lowering: an output has terms");
+        return *sum;
+    }
+
+    /// Solves the form's equations; all species are written.
+    void solve(PlanBuilder& plan) {
+        KernelBuilder& builder = plan.last_pass().builder();
+        const SweepForm::Equations& equations = *form_.equations;
+        const ValueId c = plan.last_pass().uniform(CoefficientId(equations.coefficient));
+        std::vector<std::vector<ValueId>> rows;
+        for (const SpeciesId of : derivatives_.ids()) {
+            const ItemId item = species_[of.index()];
+            const auto held = is_held(plan, item);
+            std::vector<ValueId>& row = rows.emplace_back();
+            for (std::size_t by = 0; by < derivatives_.size(); ++by) {
+                const ValueId slope = plan.value(derivatives_[of][by])[0];
+                const ValueId one = builder.number(by == of.index() ? 1 : 0);
+                if (is_zero(builder, slope)) {
+                    row.push_back(one);
+                    continue;
+                }
+                const ValueId entry = builder.subtract(one, builder.multiply(c, slope));
+                row.push_back(held ? builder.select(*held, one, entry) : entry);
+            }
+            row.push_back(sum_of(plan, equations.terms, SweepOutput::Kind::change, item));
+        }
+        const std::vector<ValueId> x = solve_equations(builder, std::move(rows));
+        solution_.resize(system_.quantities.size());
+        for (std::size_t k = 0; k < x.size(); ++k) solution_[species_[k]] = x[k];
+    }
+
     void emit(PlanBuilder& plan, const SweepOutput& output) const {
         KernelBuilder& builder = plan.last_pass().builder();
         IdVector<ItemId, ValueId> next(system_.quantities.size());
         for (const ItemId item : species_) {
-            std::optional<ValueId> sum;
-            for (const SweepTerm& each : output.terms) {
-                const ValueId value = term(plan, each, output.kind, item);
-                sum = sum ? builder.add(*sum, value) : value;
-            }
-            CHECK(sum, "lowering: an output has terms");
-            next[item] = *sum;
+            next[item] = sum_of(plan, output.terms, output.kind, item);
         }
         if (output.kind == SweepOutput::Kind::state) {
             if (form_.holds) hold(plan, next);
@@ -173,6 +213,8 @@ private:
     const System& system_;
     std::vector<ItemId> species_;  ///< Items that are written.
     IdVector<ItemId, NodeId> rates_;
+    IdVector<SpeciesId, std::vector<NodeId>> derivatives_;     ///< For equations.
+    IdVector<ItemId, ValueId> solution_;                       ///< Of them.
     std::vector<std::pair<const Invariant*, NodeId>> bounds_;  ///< Of species that are written.
 };
 

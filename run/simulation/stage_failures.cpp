@@ -36,7 +36,7 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
     report.found = *outcome.not_finite;
     report.place = view.environment().place_in_words(report.found.column, report.found.row);
     report.use = view.step_in_use();
-    if (report.found.at_start() || is_semi_implicit(report.use.solver)) return describe(report);
+    if (report.found.at_start() || is_partly_implicit(report.use.solver)) return describe(report);
     const std::size_t count = state.species.size();
     // Without a kept copy the values are the spoiled ones, even if two checks are one step apart.
     const bool keeps = !outcome.last_checked.empty();

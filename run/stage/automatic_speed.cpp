@@ -20,7 +20,7 @@ double reaction_part_at(Solver solver, double tolerance) {
     constexpr double most = 6;
     const double part = reaction_part * std::pow(tolerance / StageTime::default_automatic_tolerance,
                                                  1.0 / order_of_estimate(solver));
-    return std::min(part, is_semi_implicit(solver) ? reaction_part : most);
+    return std::min(part, is_partly_implicit(solver) ? reaction_part : most);
 }
 
 std::int64_t choose_every(Solver solver, bool by_rule) {
@@ -40,6 +40,7 @@ double stable_step(Solver solver, const RateBounds& bounds, std::uint32_t stages
 SafeStep safe_step(Solver solver, const RateBounds& bounds, double wanted, double part) {
     if (!takes_long_steps(solver)) return {std::min(wanted, stable_step(solver, bounds, 1)), 0};
     if (limits(bounds.reaction)) wanted = std::min(wanted, part / bounds.reaction);
+    if (is_locally_implicit(solver)) return {std::min(wanted, stable_step(solver, bounds, 1)), 0};
     if (is_semi_implicit(solver)) return {wanted, 0};
     SafeStep best{0, least_stages(solver)};
     double most_per_stage = 0;

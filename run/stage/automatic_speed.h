@@ -21,7 +21,8 @@ inline constexpr double step_safety = 0.9;
 /// perturbation grows too slowly; this limit does.
 inline constexpr double reaction_part = 1.8;
 /// The same at a tolerance: proportional to the step that has this error. At most `reaction_part`
-/// for semi-implicit solvers, whose explicit part is unstable beyond 2, and at most 6 for others.
+/// for partly implicit solvers, whose explicit part is unstable beyond 2 or whose equations are
+/// singular a little farther on, and at most 6 for others.
 double reaction_part_at(Solver solver, double tolerance);
 
 /// Steps between two computations of the bounds. An estimate costs more than a bound by rule.
@@ -31,7 +32,9 @@ std::int64_t choose_every(Solver solver, bool by_rule);
 /// `step_safety` times the limit of stability. For a stabilised or semi-implicit solver diffusion
 /// is stable at any length, and a step is at most `part` / (bound of the reaction) long. A
 /// stabilised solver takes that length, or the longest step of fewer stages, whichever needs fewer
-/// evaluations of the rates for the same time. Bounds are finite; a bound of 0 limits nothing.
+/// evaluations of the rates for the same time. For a solver that is implicit in each cell the
+/// bounds are those of what is read in other cells and of growth. Bounds are finite; a bound of 0
+/// limits nothing.
 SafeStep safe_step(Solver solver, const RateBounds& bounds, double wanted,
                    double part = reaction_part);
 

@@ -74,6 +74,13 @@ Failure describe(const NotFiniteReport& report) {
             name_of(use.solver), use.speed / 2);
         return failure;
     }
+    if (is_locally_implicit(use.solver)) {
+        failure.hint = fmt::format(
+            "{} is stable for a reaction that decays at any step, but not for diffusion and for "
+            "growth; try 'speed: {:.2g}'",
+            name_of(use.solver), use.speed / 2);
+        return failure;
+    }
     const auto largest = limit(report);
     if (largest && is_too_long(use, *largest)) {
         failure.hint = advise(*largest, use);

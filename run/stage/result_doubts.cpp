@@ -22,7 +22,7 @@ std::optional<std::string> describe(const ChequerboardReport& report) {
                           "large; try 'speed: {:.2g}'",
                           report.use.speed / 2);
     }
-    if (!limit && report.estimate.eigenvalue > 0 && !is_semi_implicit(report.use.solver)) {
+    if (!limit && report.estimate.eigenvalue > 0 && !is_partly_implicit(report.use.solver)) {
         return text +
                ", because its rate makes differences of neighbours grow, the faster the finer they "
                "are: is a sign wrong?";

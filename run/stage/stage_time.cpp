@@ -63,7 +63,9 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     duration_ = duration_of(stage_, system, state);
     if (chooses()) {
         if (const auto bound = jacobian_bound(program, stage, tools_.model)) {
-            const Formula* const formulas[] = {&bound->whole, &bound->reaction};
+            const bool is_local = is_locally_implicit(stage_.time.solver);
+            const Formula* const formulas[] = {is_local ? &bound->spread : &bound->whole,
+                                               is_local ? &bound->growth : &bound->reaction};
             bounds_by_rule_ = tools_.numbers(formulas);
             jumps_ = bound->jumps;
         }
@@ -176,7 +178,7 @@ RateBounds StageTimer::bounds() const {
     }
     const double whole = tools_.estimate();
     // The explicit part may be as fast as the whole, because advection is not diffusion.
-    if (is_semi_implicit(stage_.time.solver)) return {whole, whole, jumps_};
+    if (is_partly_implicit(stage_.time.solver)) return {whole, whole, jumps_};
     return {whole, share_of_reaction * whole, jumps_};
 }
 
@@ -227,7 +229,8 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     }
     time.stages = safe.stages;
     time.least_step = least_of_duration * expected_duration();
-    if (time.bounds.whole > 0)
+    // A fast reaction changes in a time that the bound of the other cells does not know.
+    if (time.bounds.whole > 0 && !is_locally_implicit(solver))
         time.least_step = std::min(time.least_step, least_part * 2 / time.bounds.whole);
     time.stretch = is_long ? 1 : stretch_after(before, time, rejected, safe.length, by_time);
     time.next_judged = step + time.stretch;

@@ -22,7 +22,7 @@ std::string iterations_for(double speed, const StepInUse& use) {
 }  // namespace
 
 std::optional<double> longest_step(const StabilityEstimate& estimate, const StepInUse& use) {
-    if (!estimate.largest_speed || is_semi_implicit(use.solver)) return std::nullopt;
+    if (!estimate.largest_speed || is_partly_implicit(use.solver)) return std::nullopt;
     const std::uint32_t stages = is_stabilised(use.solver) ? most_stages : 1;
     const double limit = *estimate.largest_speed * stability_interval(use.solver, stages) / 2;
     if (limit < 1e-9 * use.speed) return std::nullopt;

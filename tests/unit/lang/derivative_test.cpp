@@ -34,10 +34,12 @@ void expect_derivatives(const std::string& rate) {
     ScriptRun run(program);
     run.start(0);
     const ItemId u(0), v(1);
+    const auto jacobian = local_jacobian(program, 0);
+    ASSERT_TRUE(jacobian) << rate;
     for (const ItemId by : {u, v}) {
-        const auto derivative = rate_derivative(program, 0, u, by);
-        ASSERT_TRUE(derivative) << rate;
-        const Field found = std::move(run.view(*derivative, 0)[0]);
+        const Formula derivative =
+            jacobian->algebra.formula(jacobian->rows[SpeciesId(0)][SpeciesId(by.index())]);
+        const Field found = std::move(run.view(derivative, 0)[0]);
         Field& species = run.field(0, by == u ? "u" : "v");
         constexpr float h = 0.005f;
         shift(species, h);

@@ -84,7 +84,7 @@ TEST_P(AutomaticSteps, AgreeWithATightAdaptiveSolver) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, AutomaticSteps,
                          ::testing::Values("euler", "symplectic", "rk2", "rk4", "rkl1", "rkl2",
-                                           "imex", "etdrk4", "gauss"),
+                                           "imex", "etdrk4", "gauss", "ros2"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(ChosenSteps, AreNoLongerThanTheLargest) {

@@ -57,9 +57,10 @@ TEST(Solvers, OrdersThroughTheLanguage) {
         const char* solver;
         int steps;
     };
-    for (const auto& [solver, steps] : {Case{"euler", 64}, Case{"symplectic", 64}, Case{"rk2", 16},
-                                        Case{"rk4", 8}, Case{"rkl1", 64}, Case{"rkl2", 16},
-                                        Case{"imex", 64}, Case{"etdrk4", 4}, Case{"gauss", 64}}) {
+    for (const auto& [solver, steps] :
+         {Case{"euler", 64}, Case{"symplectic", 64}, Case{"rk2", 16}, Case{"rk4", 8},
+          Case{"rkl1", 64}, Case{"rkl2", 16}, Case{"imex", 64}, Case{"etdrk4", 4},
+          Case{"gauss", 64}, Case{"ros2", 32}}) {
         const double order = std::log2(error_of(solver, steps) / error_of(solver, 2 * steps));
         RecordProperty(solver, fmt::format("{:.2f}", order));
         // Steps must be long enough for errors to show beside the rounding of floats.
@@ -103,6 +104,8 @@ const std::vector<std::string>& all_settings() {
                                                    "solver: rk45; duration: 60",
                                                    "solver: rkl1; speed: 7; iterations: 25",
                                                    "solver: rkl2; speed: auto; duration: 200",
+                                                   "solver: ros2; speed: 0.5; iterations: 60",
+                                                   "solver: ros2; speed: auto; duration: 60",
                                                    "speed: auto; duration: 150.3",
                                                    "iterations: 5000; until: steady(0.5)"};
     return settings;

@@ -16,6 +16,9 @@ namespace cascade::testing {
 /// One entry for each species, each a vector of cells.
 using PlainState = std::vector<std::vector<double>>;
 using PlainRates = std::function<PlainState(const PlainState& state, double t)>;
+/// Of the rates of a cell by its values.
+using PlainMatrix = std::vector<std::vector<double>>;
+using PlainJacobian = std::function<PlainMatrix(const std::vector<double>& cell, double t)>;
 
 class SchemeRunner {
 public:
@@ -25,6 +28,9 @@ public:
                           PlainState(start.size(), std::vector<double>(start[0].size())));
         registers_[old_register] = std::move(start);
     }
+
+    /// For equations; otherwise their matrix is 1.
+    void set_jacobian(PlainJacobian jacobian) { jacobian_ = std::move(jacobian); }
 
     /// Takes a step and stays at the old one; accept() goes on to the new one.
     void attempt(double step) {
@@ -81,6 +87,21 @@ private:
         }
     }
 
+    /// x of matrix · x = right, by elimination without pivots.
+    static std::vector<double> solved(PlainMatrix matrix, std::vector<double> right) {
+        const std::size_t n = right.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            for (std::size_t i = 0; i < n; ++i) {
+                if (i == k) continue;
+                const double factor = matrix[i][k] / matrix[k][k];
+                for (std::size_t j = k; j < n; ++j) matrix[i][j] -= factor * matrix[k][j];
+                right[i] -= factor * right[k];
+            }
+        }
+        for (std::size_t k = 0; k < n; ++k) right[k] /= matrix[k][k];
+        return right;
+    }
+
     void run(const Sweep& sweep, double step) {
         const SweepForm& form = scheme_.forms[sweep.form];
         if (sweep.filter) filter(*sweep.filter);
@@ -100,25 +121,54 @@ private:
         if (species.empty()) {
             for (std::size_t s = 0; s < rates.size(); ++s) species.push_back(s);
         }
+        const auto coefficient = [&](std::uint32_t number) {
+            const auto& [value, times_step] = sweep.coefficients[number];
+            return value * (times_step ? step : 1);
+        };
+        PlainState solution = rates;
+        const auto sum_of = [&](const std::vector<SweepTerm>& terms, std::size_t s,
+                                std::size_t cell) {
+            double sum = 0;
+            for (const SweepTerm& term : terms) {
+                double value = rates[s][cell];
+                if (term.source == SweepTerm::Source::solution) {
+                    value = solution[s][cell];
+                } else if (term.source != SweepTerm::Source::rate) {
+                    value = inputs[term.input][s][cell];
+                }
+                if (term.source == SweepTerm::Source::difference) {
+                    value -= inputs[form.base_input][s][cell];
+                }
+                if (term.weight == SweepTerm::Weight::speed) value *= speed_;
+                if (term.weight == SweepTerm::Weight::coefficient) {
+                    value *= coefficient(term.coefficient);
+                }
+                sum += value;
+            }
+            return sum;
+        };
+        for (std::size_t cell = 0; form.equations && cell < rates[0].size(); ++cell) {
+            const std::size_t n = rates.size();
+            std::vector<double> values, right;
+            for (std::size_t s = 0; s < n; ++s) {
+                values.push_back(evaluated[s][cell]);
+                right.push_back(sum_of(form.equations->terms, s, cell));
+            }
+            PlainMatrix matrix(n, std::vector<double>(n, 0));
+            if (jacobian_) matrix = jacobian_(values, time_ + sweep.time * step);
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t j = 0; j < n; ++j) {
+                    matrix[i][j] *= -coefficient(form.equations->coefficient);
+                }
+                matrix[i][i] += 1;
+            }
+            right = solved(std::move(matrix), std::move(right));
+            for (std::size_t s = 0; s < n; ++s) solution[s][cell] = right[s];
+        }
         for (std::size_t o = 0; o < form.outputs.size(); ++o) {
             for (const std::size_t s : species) {
                 for (std::size_t cell = 0; cell < rates[s].size(); ++cell) {
-                    double sum = 0;
-                    for (const SweepTerm& term : form.outputs[o].terms) {
-                        double value = rates[s][cell];
-                        if (term.source != SweepTerm::Source::rate)
-                            value = inputs[term.input][s][cell];
-                        if (term.source == SweepTerm::Source::difference) {
-                            value -= inputs[form.base_input][s][cell];
-                        }
-                        if (term.weight == SweepTerm::Weight::speed) value *= speed_;
-                        if (term.weight == SweepTerm::Weight::coefficient) {
-                            const auto& coefficient = sweep.coefficients[term.coefficient];
-                            value *= coefficient.value * (coefficient.times_step ? step : 1);
-                        }
-                        sum += value;
-                    }
-                    registers_[sweep.outputs[o]][s][cell] = sum;
+                    registers_[sweep.outputs[o]][s][cell] = sum_of(form.outputs[o].terms, s, cell);
                 }
             }
         }
@@ -126,6 +176,7 @@ private:
 
     Scheme scheme_;
     PlainRates rates_;
+    PlainJacobian jacobian_;
     double speed_;
     IdVector<RegisterId, PlainState> registers_;
     double time_ = 0, step_ = 0;

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Order,
                          ::testing::Values(Solver::euler, Solver::symplectic, Solver::rk2,
                                            Solver::rk4, Solver::rk23, Solver::rk45, Solver::rkl1,
                                            Solver::rkl2, Solver::imex, Solver::etdrk4,
-                                           Solver::gauss),
+                                           Solver::gauss, Solver::ros2),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 /// What a step costs: the classical methods as many evaluations as stages, embedded ones one less
