@@ -67,6 +67,20 @@ std::vector<Number> second_differences(const AxisWaves& waves, std::int64_t cell
     return values;
 }
 
+/// sin(the phase from cell to cell)/h: the factor, over i, by which the central difference
+/// multiplies each wave of a periodic axis. 0 for others, whose waves it changes into others.
+template <typename Number>
+std::vector<Number> first_differences(const AxisWaves& waves, std::int64_t cells, double spacing) {
+    std::vector<Number> values(static_cast<std::size_t>(cells), Number{0});
+    if (!waves.is_periodic) return values;
+    for (std::int64_t n = 0; n < cells; ++n) {
+        const double phase =
+            2 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(cells);
+        values[static_cast<std::size_t>(n)] = static_cast<Number>(std::sin(phase) / spacing);
+    }
+    return values;
+}
+
 /// The factor by which a transform and its inverse together multiply.
 double gain_of(const AxisWaves& waves, std::int64_t cells) {
     return static_cast<double>(cells) * (waves.is_periodic ? 1 : 2);
@@ -88,6 +102,7 @@ struct WaveTransforms<Number>::Implementation {
         double gain = 1;
         std::array<FftwTransform<Number>, 3> forward, backward;
         std::array<std::vector<Number>, 3> differences;  ///< Along x by line of the buffer.
+        std::array<std::vector<Number>, 2> slopes;       ///< Likewise.
     };
     struct Free {
         void operator()(Number* data) const { free_plane(data); }
@@ -159,12 +174,16 @@ struct WaveTransforms<Number>::Implementation {
             made.differences[axis] =
                 second_differences<Number>(waves[axis], cells(axis), grid.spacing);
         }
+        for (const std::uint8_t axis : {x, y}) {
+            made.slopes[axis] = first_differences<Number>(waves[axis], cells(axis), grid.spacing);
+        }
         if (rows_complex && !made.lines_complex) {
             // The real and the imaginary part of a wave are columns of their own.
-            std::vector<Number>& along_x = made.differences[x];
-            const std::vector<Number> of_waves = std::exchange(along_x, {});
-            for (std::int64_t n = 0; n < made.columns; ++n) {
-                along_x.push_back(of_waves[static_cast<std::size_t>(n / 2)]);
+            for (std::vector<Number>* along_x : {&made.differences[x], &made.slopes[x]}) {
+                const std::vector<Number> of_waves = std::exchange(*along_x, {});
+                for (std::int64_t n = 0; n < made.columns; ++n) {
+                    along_x->push_back(of_waves[static_cast<std::size_t>(n / 2)]);
+                }
             }
         }
         return made;
@@ -200,6 +219,8 @@ struct WaveTransforms<Number>::Implementation {
         const std::int64_t row = last == z ? piece / blocks(one) : 0;
         made.differences[y] = one.differences[y].data() + row;
         made.differences[z] = one.differences[z].data();
+        made.slopes[x] = one.slopes[x].data() + first / part;
+        made.slopes[y] = one.slopes[y].data() + row;
         made.gain = one.gain;
         made.waves = waves;
         return made;
@@ -214,6 +235,7 @@ struct WaveTransforms<Number>::Implementation {
         for (std::uint8_t axis = x; axis <= z; ++axis) {
             made.differences[axis] = one.differences[axis].data();
         }
+        for (const std::uint8_t axis : {x, y}) made.slopes[axis] = one.slopes[axis].data();
         made.waves = cells;
         return made;
     }

@@ -30,6 +30,9 @@ struct WaveBlock {
     /// The factors by which the second differences along x, y and z multiply a wave: of each line
     /// along x, of each wave along `axis`, and else the same in all of the block.
     const Number* differences[3] = {};
+    /// The same for the central differences along periodic x and y, as multiples of i: the product
+    /// of both is the factor of dxy, negated.
+    const Number* slopes[2] = {};
     double gain = 1;  ///< The factor by which the transform and its inverse together multiply.
     std::span<Number* const> waves;  ///< Those that were transformed, then room for others.
 

@@ -7,6 +7,7 @@
 #include "lang/program/nodes_of_rates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -21,10 +22,23 @@ struct Operators {
     DiffusionTerms<NodeId> terms{};
 };
 
+/// Has a node the same value in all cells? False for aggregates of what differs, too.
+bool is_even(const ExpressionGraph& graph, NodeId root, const Program& program,
+             std::uint32_t stage) {
+    return std::ranges::none_of(formula_of(graph.nodes(), root).nodes, [&](const Node& node) {
+        return differs_by_cell(node, false, program, stage);
+    });
+}
+
 class Linearisation {
 public:
-    Linearisation(FlatRates& rates, ItemId species)
-        : rates_(rates), algebra_(rates.algebra), species_(species), zero_(algebra_.number(0)) {}
+    Linearisation(FlatRates& rates, ItemId species, const Program& program, std::uint32_t stage)
+        : rates_(rates),
+          algebra_(rates.algebra),
+          species_(species),
+          program_(program),
+          stage_(stage),
+          zero_(algebra_.number(0)) {}
 
     /// The operators of all parts; fewer if there are too many nodes.
     IdVector<NodeId, Operators> run() && {
@@ -101,13 +115,25 @@ private:
     }
 
     /// a11 dxx + a22 dyy + 2 a12 dxy damps no wave more than (a11 + |a12|) dxx + (a22 + |a12|) dyy:
-    /// the symbol of dxy is no larger than the mean of those of dxx and dyy.
+    /// the symbol of dxy is no larger than the mean of those of dxx and dyy. Between periodic sides
+    /// it is known for each wave; between others dxy makes other waves of a wave.
     Operators directed(const Node& node) {
         Operators result = nothing();
         const NodeId own = found_[node.operands[0]].own;
         if (algebra_.is_number(own, 0)) return result;
         const auto [a11, mixed, a22] =
             tensor_entries(algebra_, node.operands[1], node.operands[2], node.operands[3]);
+        const Boundaries& sides = program_.domain.grid.boundary;
+        const bool is_periodic = sides.x == Boundary::periodic && sides.y == Boundary::periodic;
+        if (is_periodic && std::ranges::all_of(std::array{a11, mixed, a22, own}, [&](NodeId id) {
+                return is_even(algebra_, id, program_, stage_);
+            })) {
+            const auto factor = [&](NodeId a) { return algebra_.product(a, own); };
+            result.terms[laplacian_powers] = factor(a11);
+            result.terms[laplacian_powers + 1] = factor(a22);
+            result.terms[mixed_term] = algebra_.product(algebra_.number(2), factor(mixed));
+            return result;
+        }
         const NodeId a12 = algebra_.magnitude(mixed);
         const auto factor = [&](NodeId a) { return algebra_.product(algebra_.sum(a, a12), own); };
         result.terms[laplacian_powers] = factor(a11);
@@ -118,6 +144,8 @@ private:
     FlatRates& rates_;
     Algebra& algebra_;
     ItemId species_;
+    const Program& program_;
+    std::uint32_t stage_;
     NodeId zero_;
     IdVector<NodeId, Operators> found_;
 };
@@ -130,7 +158,7 @@ IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::
     for (const ItemId item : system.species()) {
         SpeciesDiffusion& of_species = result.emplace_back();
         FlatRates rates(system, FieldSpace::of(program, system));
-        const IdVector<NodeId, Operators> found = Linearisation(rates, item).run();
+        const IdVector<NodeId, Operators> found = Linearisation(rates, item, program, stage).run();
         if (rates.rate(item) >= found.next()) continue;
         for (std::size_t k = 0; k < diffusion_terms; ++k) {
             Algebra& algebra = rates.algebra;
@@ -141,6 +169,16 @@ IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::
             Formula formula = algebra.formula(factor);
             if (!holds_in(formula, is_draw)) of_species[k] = std::move(formula);
         }
+        const bool diffuses = std::ranges::any_of(of_species, [](const Formula& factor) {
+            return !factor.nodes.empty();
+        });
+        const NodeId own = found[rates.rate(item)].own;
+        if (!diffuses || rates.algebra.is_number(own, 0) ||
+            !is_even(rates.algebra, own, program, stage)) {
+            continue;
+        }
+        Formula decay = rates.algebra.formula(rates.algebra.negative(own));
+        if (!holds_in(decay, is_draw)) of_species[decay_term] = std::move(decay);
     }
     return result;
 }

@@ -231,7 +231,7 @@ Conductivity conductivity_at(const System& system,
     const auto powers = diffusion.begin() + laplacian_powers;
     if (std::any_of(diffusion.begin() + 1, powers, is_there))
         return {std::nullopt, "has lap of lap in its rate"};
-    if (side == Side::border && std::any_of(powers, diffusion.end(), is_there))
+    if (side == Side::border && std::any_of(powers, diffusion.begin() + decay_term, is_there))
         return {std::nullopt, "diffuses along single axes"};
     std::vector<std::size_t> terms{0};
     if (side != Side::border)

@@ -62,10 +62,23 @@ TEST(Diffusion, OfFluxesAndDirections) {
     EXPECT_EQ(factors_of("div(u * grad(v))"), Texts{});
     EXPECT_EQ(factors_of("cos(t) * lap(u)"), Texts{"0: 1. changing"});
     EXPECT_EQ(factors_of("diffuse(u, 2, 1, 0)"), (Texts{"4: 4.", "5: 1."}));
-    // At 45° both axes get 2.5 and the 1.5 across them.
-    EXPECT_EQ(factors_of("diffuse(u, 2, 1, pi / 4)"), (Texts{"4: 4.", "5: 4."}));
+    // At 45° both axes get 2.5, and twice 1.5 across them.
+    EXPECT_EQ(factors_of("diffuse(u, 2, 1, pi / 4)"), (Texts{"4: 2.5", "5: 2.5", "7: 3."}));
+    EXPECT_EQ(factors_of("diffuse(u, 1, 2, pi / 4)"), (Texts{"4: 2.5", "5: 2.5", "7: -3."}));
+    // Where the angle differs from cell to cell, 1.5 is added to those of both axes.
+    EXPECT_EQ(factors_of("diffuse(u, 2, 1, pi / 4 + 0 * h)"), (Texts{"4: 4.", "5: 4."}));
     EXPECT_EQ(factors_of("random(1, 0.1) * lap(u)"), Texts{});
     EXPECT_EQ(factors_of("advect(1, 2, u) + grad2(u) + mean(u over domain)"), Texts{});
+}
+
+/// A reaction is no diffusion, and decays beside it only if it does so alike in all cells.
+TEST(Diffusion, OfWhatDecays) {
+    EXPECT_EQ(factors_of("-3 * u"), Texts{});
+    EXPECT_EQ(factors_of("k * lap(u) - 3 * u + v^2"), (Texts{"0: 2.", "8: 3."}));
+    EXPECT_EQ(factors_of("k * lap(u) + u"), (Texts{"0: 2.", "8: -1."}));
+    EXPECT_EQ(factors_of("k * lap(u) - h * u"), Texts{"0: 2."});
+    EXPECT_EQ(factors_of("k * lap(u) - u^2"), Texts{"0: 2."});
+    EXPECT_EQ(factors_of("k * lap(u) - random(1, 0.1) * u"), Texts{"0: 2."});
 }
 
 }  // namespace
