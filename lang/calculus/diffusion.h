@@ -16,8 +16,8 @@ using SpeciesDiffusion = DiffusionTerms<Formula>;
 
 /// The diffusion of each species: its rate is linearised by the species itself at the present
 /// state, as if factors were the same in all cells, and the factors of lap, lap(lap), …, dxx, dyy,
-/// dzz are collected. div(k * grad(e)) counts as k lap(e). The part of diffuse across the axes has a
-/// factor of its own where its coefficients are the same in all cells and x and y are periodic;
+/// dzz are collected. div(k * grad(e)) counts as k lap(e). The part of diffuse across the axes has
+/// a factor of its own where its coefficients are the same in all cells and x and y are periodic;
 /// elsewhere it is added to both diagonal entries, so that they damp at least as much as the whole.
 /// A derivative by the own value that is the same in all cells is decay, if there is any diffusion.
 /// Everything else (advection, tensors in fluxes, random numbers, other species) is left out.

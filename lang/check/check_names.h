@@ -98,7 +98,7 @@ struct Scope {
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: the name of the value in messages.
     bool is_side = false;  ///< For a value of a side, which may read t, step and definitions.
-    std::optional<IndexValue> index = std::nullopt;  ///< Of a statement of a family.
+    std::vector<IndexValue> indices = {};  ///< Of a statement of a family.
 };
 
 /// Words that the language gives a meaning, so that a script cannot declare them.

@@ -87,8 +87,9 @@ std::vector<Declaration> StageChecker::collect(
         if (is_new) return declarations.push_back(std::move(declaration));
         Declaration& before = declarations[first->second];
         // u[2]: … overrides u[i]: …; of two overrides the last one counts.
-        const bool replaces = from_outside || (before.index && !declaration.index);
-        const bool is_replaced = !from_outside && !before.index && declaration.index;
+        const bool replaces = from_outside || before.indices.size() > declaration.indices.size();
+        const bool is_replaced =
+            !from_outside && before.indices.size() < declaration.indices.size();
         if (!replaces && !is_replaced) {
             report_twice(work_, declaration.span(), before.span(),
                          fmt::format("'{}' is given a value twice", declaration.name));
@@ -216,7 +217,7 @@ void StageChecker::set(const Declaration& declaration) {
     }
     if (!has_one_value(work_, declaration)) return;
     Scope own = scope();
-    own.index = declaration.index;
+    own.indices = declaration.indices;
     auto checked = check_number(work_, script_, declaration.value(), own);
     if (!checked) return;
     const ItemId item = meaning->item();

@@ -133,9 +133,11 @@ std::optional<Explanation> explain_family(Workspace& work, const System& system,
                            fmt::format("write {} without an index", family)};
     }
     if (!first.empty()) {
+        const bool is_matrix = first.find(',') != std::string::npos;
         return Explanation{fmt::format("'{}' is a family", name),
-                           fmt::format("write {0}[{1}], or {0}[i] where i has a value", name,
-                                       first)};
+                           fmt::format("write {0}[{1}], or {0}[{2}] where {3} a value", name, first,
+                                       is_matrix ? "i, j" : "i",
+                                       is_matrix ? "i and j have" : "i has")};
     }
     for (const Index& index : system.indices) {
         if (index.name != name) continue;

@@ -5,6 +5,7 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_expression.h"
 #include "lang/check/expand.h"
+#include "lang/syntax/index_words.h"
 
 #include <fmt/format.h>
 
@@ -99,8 +100,6 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemStat
     }
 }
 
-bool is_number(std::string_view word) { return word[0] >= '0' && word[0] <= '9'; }
-
 /// The 2 of u[2]; reports an error if it is not a number.
 std::optional<std::int64_t> member_number(Workspace& work, const ast::Word& word) {
     std::int64_t value = 0;
@@ -130,10 +129,36 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
                            std::move(hint));
 }
 
+/// The indices of a statement, a number being one of a single value and no name; none after an
+/// error.
+std::vector<Index> indices_of(Workspace& work, const System& system, const ast::Word& of) {
+    std::vector<Index> indices;
+    for (const ast::Word& word : words_of_index(of)) {
+        if (is_number(word)) {
+            const auto number = member_number(work, word);
+            if (!number) return {};
+            indices.push_back({{}, word.span, *number, *number});
+            continue;
+        }
+        const auto index = std::ranges::find(system.indices, word.text, &Index::name);
+        if (index == system.indices.end()) {
+            report_unknown_index(work, system, word);
+            return {};
+        }
+        if (!indices.empty() && indices.front().name == word.text) {
+            work.diagnostics.error(word.span, "the two indices of a family have different names",
+                                   fmt::format("declare another one for the second: {}2: {}..{}",
+                                               word.text, index->low, index->high));
+            return {};
+        }
+        indices.push_back(*index);
+    }
+    return indices;
+}
+
 /// Reports a list that has not one value for each member.
 void check_list(Workspace& work, const ast::Script& script, const ast::Statement& statement,
-                const Index& index) {
-    const std::int64_t members = index.high - index.low + 1;
+                std::int64_t members) {
     const auto values = static_cast<std::int64_t>(statement.values.size());
     if (values == members) return;
     const ast::Expression last = values > members
@@ -141,9 +166,15 @@ void check_list(Workspace& work, const ast::Script& script, const ast::Statement
                                      : statement.values.back();
     work.diagnostics.error(script.expressions[last.root].span,
                            fmt::format("{}[{}] has {}, and the list {}", statement.name.text,
-                                       index.name, counted(members, "member"),
+                                       statement.index.text, counted(members, "member"),
                                        counted(values, "value")),
                            "a family takes one value for all members, or one for each");
+}
+
+void report_too_many(Workspace& work, const System& system, const ast::Statement& statement) {
+    work.diagnostics.error(statement.name.span,
+                           fmt::format("the families of {} are too large together", system.name),
+                           fmt::format("a system has at most {} statements", most_declarations));
 }
 
 std::vector<Declaration> expand_statement(Workspace& work, const System& system,
@@ -156,32 +187,38 @@ std::vector<Declaration> expand_statement(Workspace& work, const System& system,
     declaration.doc = statement.doc;
     if (statement.range) declaration.range = &*statement.range;
     declaration.range_script = &script;
-    const ast::Word& word = statement.index;
-    if (word.empty()) {
+    if (statement.index.empty()) {
         declaration.name = std::string(statement.name.text);
         return {std::move(declaration)};
     }
-    if (is_number(word.text)) {
-        const auto number = member_number(work, word);
-        if (!number) return {};
-        declaration.name = member_name(statement.name.text, *number);
-        return {std::move(declaration)};
-    }
-    const auto index = std::find_if(system.indices.begin(), system.indices.end(),
-                                    [&](const Index& each) { return each.name == word.text; });
-    if (index == system.indices.end()) {
-        report_unknown_index(work, system, word);
+    const std::vector<ast::Word> words = words_of_index(statement.index);
+    const auto indices = indices_of(work, system, statement.index);
+    if (indices.empty()) return {};
+    std::int64_t members = 1;
+    for (const Index& index : indices) members *= index.high - index.low + 1;
+    if (members > static_cast<std::int64_t>(most_declarations)) {
+        report_too_many(work, system, statement);
         return {};
     }
     const std::size_t count = statement.values.size();
-    const bool is_list = statement.kind == Kind::value && count > 1;
-    if (is_list) check_list(work, script, statement, *index);
+    const bool is_one_member = std::ranges::all_of(words, is_number);
+    const bool is_list = statement.kind == Kind::value && count > 1 && !is_one_member;
+    if (is_list) check_list(work, script, statement, members);
     std::vector<Declaration> declarations;
-    for (std::int64_t value = index->low; value <= index->high; ++value) {
-        declaration.name = member_name(statement.name.text, value);
-        declaration.index = IndexValue{word.text, value};
+    std::vector<std::int64_t> values;
+    for (const Index& index : indices) values.push_back(index.low);
+    for (std::int64_t member = 0; member < members; ++member) {
+        declaration.name = member_name(statement.name.text, values);
+        declaration.indices.clear();
+        for (std::size_t k = 0; k < words.size(); ++k) {
+            if (!is_number(words[k])) declaration.indices.push_back({words[k].text, values[k]});
+        }
         if (is_list) declaration.listed = std::min(declarations.size(), count - 1);
         declarations.push_back(declaration);
+        // The last index changes first.
+        for (std::size_t k = values.size(); k-- > 0 && ++values[k] > indices[k].high;) {
+            values[k] = indices[k].low;
+        }
     }
     return declarations;
 }
@@ -217,9 +254,10 @@ private:
         all_.push_back(std::move(declaration));
         dropped_.push_back(false);
     }
-    /// True if `later`, of the same level, is about one member and `earlier` about all of them.
+    /// True if `later`, of the same level, is about one member and `earlier` about all of them, or
+    /// about a row of them.
     static bool is_finer(const Declaration& later, const Declaration& earlier) {
-        return !later.index && earlier.index;
+        return later.indices.size() < earlier.indices.size();
     }
 
     void add_declaration(Declaration declaration) {
@@ -289,10 +327,7 @@ std::vector<Declaration> system_declarations(Workspace& work, System& system,
             list.add(std::move(declaration));
         }
         if (list.size() > most_declarations && !statement.index.empty()) {
-            work.diagnostics.error(
-                statement.name.span,
-                fmt::format("the families of {} are too large together", system.name),
-                fmt::format("a system has at most {} statements", most_declarations));
+            report_too_many(work, system, statement);
             break;
         }
     }

@@ -1,6 +1,6 @@
 // Declarations: the statements of a system or a stage, one for each name (internal to the checker).
 // `u[i]: e` is one statement; with `i: 1..3` it becomes three declarations, of u[1], u[2] and u[3].
-// In a list, `u[i]: e, e, e`, each has a value of its own.
+// In a list, `u[i]: e, e, e`, each has a value of its own; the last index of A[i, j] changes first.
 #pragma once
 
 #include "lang/check/check_names.h"
@@ -22,8 +22,8 @@ struct SystemStatement {
 struct Declaration {
     const ast::Script* script = nullptr;
     const ast::Statement* statement = nullptr;
-    std::string name;                   ///< `ka`, or `u[2]` for a member.
-    std::optional<IndexValue> index;    ///< The value of i for u[i]; empty for u[2] and ka.
+    std::string name;  ///< `ka`, `u[2]` for a member, `A[1,2]` for one of two indices.
+    std::vector<IndexValue> indices;    ///< The value of i for u[i]; none for u[2] and ka.
     std::optional<std::size_t> listed;  ///< Its place in the list of the statement, if it has one.
     std::uint32_t level = 0;
     std::string doc;  ///< Its own doc comment, or that of the declaration it has replaced.

@@ -29,7 +29,7 @@ public:
     Expander(Workspace& work, const ast::Script& script, const Scope& scope)
         : work_(work), scope_(scope) {
         frames_.push_back({&script, nullptr, 0, std::nullopt});
-        if (scope.index) values_[scope.index->name].push_back(scope.index->value);
+        for (const IndexValue& index : scope.indices) values_[index.name].push_back(index.value);
     }
 
     Expanded run(ast::ExprId root);
@@ -169,6 +169,7 @@ void Expander::visit(ast::ExprId part) {
     if (const auto* member = std::get_if<ast::Indexed>(&here.node)) {
         ++open_indices_;
         push(TaskKind::finish, part, static_cast<std::int64_t>(out_.parts.expressions.size()));
+        if (member->second) push(TaskKind::visit, *member->second);
         return push(TaskKind::visit, member->index);
     }
     emit(here.span, here.node);
@@ -339,17 +340,27 @@ void Expander::finish_call(const ast::Expr& here, const ast::Call& call) {
     emit(here.span, ast::Call{call.function, first, call.argument_count});
 }
 
-/// Folds the nodes of the index, [before, …), and removes them: only its value is needed.
+/// Folds the nodes of the indices, [before, …), and removes them: only their values are needed.
 void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
                              std::size_t before) {
     --open_indices_;
-    const ast::ExprId last = take();
-    const auto value = index_value(static_cast<ast::ExprId>(before), last, expr(member.index).span);
+    std::vector<ast::ExprId> roots{take()}, parts{member.index};
+    if (member.second) {
+        roots.insert(roots.begin(), take());
+        parts.push_back(*member.second);
+    }
+    std::vector<std::int64_t> values;
+    auto first = static_cast<ast::ExprId>(before);
+    for (std::size_t k = 0; k < roots.size(); ++k) {
+        const auto value = index_value(first, roots[k], expr(parts[k]).span);
+        if (value) values.push_back(*value);
+        first = roots[k] + 1;
+    }
     out_.parts.expressions.resize(before, {{}, ast::Garbage{}});
     out_.calls.resize(before);
-    if (!value) return emit(here.span, ast::Garbage{});
+    if (values.size() < roots.size()) return emit(here.span, ast::Garbage{});
     const auto named = [&](std::string_view family) -> std::string_view {
-        return out_.names.emplace_back(member_name(family, *value));
+        return out_.names.emplace_back(member_name(family, values));
     };
     const ast::Expr& base = expr(member.base);
     if (const auto* name = std::get_if<ast::Name>(&base.node)) {
@@ -394,8 +405,8 @@ const Index* find_index(const Workspace& work, const Scope& scope, std::string_v
     return nullptr;
 }
 
-std::string member_name(std::string_view family, std::int64_t index) {
-    return fmt::format("{}[{}]", family, index);
+std::string member_name(std::string_view family, const std::vector<std::int64_t>& indices) {
+    return fmt::format("{}[{}]", family, fmt::join(indices, ","));
 }
 
 bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression expression,
@@ -409,7 +420,8 @@ bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression
         if (const auto* over = std::get_if<ast::Over>(&node)) {
             if (over->index.text != domain_word || is_integral(*over)) return true;
         } else if (const auto* name = std::get_if<ast::Name>(&node)) {
-            if (scope.index && scope.index->name == name->name) return true;
+            const auto is_it = [&](const IndexValue& index) { return index.name == name->name; };
+            if (std::ranges::any_of(scope.indices, is_it)) return true;
             if (has_functions && functions_of(work, script).find_constant(name->name)) return true;
         } else if (const auto* call = std::get_if<ast::Call>(&node)) {
             if (has_functions && find_function(work, script, call->function.text)) return true;

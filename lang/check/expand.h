@@ -38,7 +38,7 @@ Expanded expand(Workspace& work, const ast::Script& script, ast::Expression expr
 /// The index of this name of a scope's system; null if there is none.
 const Index* find_index(const Workspace& work, const Scope& scope, std::string_view name);
 
-/// "u[2]"
-std::string member_name(std::string_view family, std::int64_t index);
+/// "u[2]", "A[1,2]"
+std::string member_name(std::string_view family, const std::vector<std::int64_t>& indices);
 
 }  // namespace cascade::checking

@@ -1,6 +1,7 @@
 // Statements are compared by what they are about and, where two bases disagree, by their text.
 #include "lang/check/join_statements.h"
 
+#include "lang/syntax/index_words.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
@@ -27,15 +28,10 @@ std::string subject_of(const ast::Statement& statement) {
                        statement.after.text);
 }
 
-bool is_of_one_member(const ast::Statement& statement) {
-    const std::string_view index = statement.index.text;
-    return !index.empty() && index[0] >= '0' && index[0] <= '9';
-}
-
 /// Does `later` replace `earlier`, if it is of a higher level and about the same subject?
 bool replaces(const ast::Statement& later, const ast::Statement& earlier) {
     if (later.kind == Kind::rate_term || later.kind == Kind::constraint) return false;
-    return !is_of_one_member(later) || later.index.text == earlier.index.text;
+    return !is_of_some_members(later.index) || later.index.text == earlier.index.text;
 }
 
 /// The text of a statement, without its doc comment.

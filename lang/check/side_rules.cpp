@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <unordered_map>
 
@@ -134,8 +135,7 @@ public:
             }
         }
         // u[2].left overrides u[i].left.
-        std::stable_partition(rules_.begin(), rules_.end(),
-                              [](const Rule& rule) { return rule.is_of_family; });
+        std::ranges::stable_sort(rules_, std::greater(), &Rule::indices);
         std::vector<SubjectSide> sides;
         for (const bool of_all : {true, false}) {
             for (Rule& rule : rules_) {
@@ -148,8 +148,8 @@ public:
 private:
     struct Rule {
         SubjectSide side;
-        bool is_of_family = false;  ///< Of u[i], not of u[2].
-        bool is_of_all = false;     ///< Of `sides`, not of one of them.
+        std::size_t indices = 0;  ///< That have a name: of u[i] one, of u[2] none.
+        bool is_of_all = false;   ///< Of `sides`, not of one of them.
     };
 
     /// A second statement about the same side is an error.
@@ -157,7 +157,8 @@ private:
         const std::string side(declaration.statement->side.text);
         const std::string what = declaration.name + "." + side;
         const Span span = head_of(*declaration.statement);
-        const auto [first, is_new] = seen_.try_emplace(what + (declaration.index ? "*" : ""), span);
+        const auto [first, is_new] =
+            seen_.try_emplace(what + std::string(declaration.indices.size(), '*'), span);
         if (!is_new) {
             report_twice(work_, span, first->second, fmt::format("'{}' is given twice", what));
         }
@@ -191,7 +192,7 @@ private:
         SideSetting setting{written->kind, {}, statement.span};
         if (written->value) {
             Scope scope = scope_;
-            scope.index = declaration.index;
+            scope.indices = declaration.indices;
             auto checked = check_number(work_, script_, *written->value, scope);
             if (!checked || !is_known_along_side(work_, system_, checked->formula)) return;
             setting.value = std::move(checked->formula);
@@ -199,7 +200,7 @@ private:
         }
         for (const Side side : sides_of_word(statement.side.text)) {
             rules_.push_back({{*subject, side, setting},
-                              declaration.index.has_value(),
+                              declaration.indices.size(),
                               statement.side.text == "sides"});
         }
     }

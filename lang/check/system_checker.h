@@ -40,7 +40,7 @@ private:
         Scope result;
         result.context = context;
         result.system = index_;
-        result.index = declaration.index;
+        result.indices = declaration.indices;
         return result;
     }
 

@@ -3,6 +3,7 @@
 #include "lang/check/system_statements.h"
 
 #include "lang/library/library.h"
+#include "lang/syntax/index_words.h"
 #include "lang/syntax/parse.h"
 
 #include <fmt/format.h>
@@ -29,11 +30,10 @@ std::string subject_of(const ast::Statement& statement) {
                        statement.after.text);
 }
 
-/// "[2]" for a statement about one member of a family, else "".
+/// "[2]" for a statement about one member of a family, "[i,2]" for one about some, else "".
 std::string member_of(const ast::Statement& statement) {
-    const std::string_view index = statement.index.text;
-    const bool is_one = !index.empty() && index[0] >= '0' && index[0] <= '9';
-    return is_one ? fmt::format("[{}]", index) : "";
+    if (!is_of_some_members(statement.index)) return "";
+    return fmt::format("[{}]", statement.index.text);
 }
 
 SaidStatement said(const ast::Script& script, const Sources& sources,

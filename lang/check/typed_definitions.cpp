@@ -97,7 +97,7 @@ void check_definition(Workspace& work, SystemId system, Context context, Definit
     Scope scope;
     scope.context = context;
     scope.system = system;
-    scope.index = declaration.index;
+    scope.indices = declaration.indices;
     auto checked = check_expression(work, *declaration.script, statement.values[0], scope);
     Meaning& meaning = work.names[system].find(declaration.name)->second;
     if (!checked) {

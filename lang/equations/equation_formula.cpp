@@ -128,12 +128,18 @@ private:
         if (rate) family = rate->name.text;
         if (tex_) {
             std::vector<Piece> pieces = {symbols_.family_in_tex(family) + "_{",
-                                         Operand{node.index, anything}, "}"};
+                                         Operand{node.index, anything}};
+            if (node.second) {
+                pieces.emplace_back(", ");
+                pieces.emplace_back(Operand{*node.second, anything});
+            }
+            pieces.emplace_back("}");
             if (rate) pieces.insert(pieces.begin(), "\\partial_t ");
             return push_operator(std::move(pieces), rate ? a_power : an_atom, least);
         }
-        const std::string symbol =
-            symbols_.member(family, sources_.text(script_.expressions[node.index].span));
+        const Span indices = join(script_.expressions[node.index].span,
+                                  script_.expressions[node.second.value_or(node.index)].span);
+        const std::string symbol = symbols_.member(family, sources_.text(indices));
         if (rate) write_rate(symbol, least);
         else text_ += symbol;
     }

@@ -145,7 +145,12 @@ std::string Symbols::member(std::string_view family, std::string_view index) con
     for (const char c : index) {
         if (c != ' ' && c != '\t' && c != '\n' && c != '\r') tight += c;
     }
-    if (notation == Notation::tex) return family_in_tex(family) + "_{" + tex_word(tight) + "}";
+    if (notation == Notation::tex) {
+        const std::size_t comma = tight.find(',');
+        std::string words = tex_word(tight.substr(0, comma));
+        if (comma != std::string::npos) words += ", " + tex_word(tight.substr(comma + 1));
+        return family_in_tex(family) + "_{" + words + "}";
+    }
     const auto under = subscript(tight);
     const bool is_free = parts_of(family).below.empty();
     return under && is_free ? name(family) + *under : name(family) + "[" + tight + "]";

@@ -80,7 +80,11 @@ private:
         if (node.distance) operands.push_back(*node.distance);
         begin(fmt::format("{} over {}", node.function.text, node.index.text), std::move(operands));
     }
-    void print_head(const ast::Indexed& node) { begin("member", {node.base, node.index}); }
+    void print_head(const ast::Indexed& node) {
+        std::vector<ast::ExprId> operands{node.base, node.index};
+        if (node.second) operands.push_back(*node.second);
+        begin("member", std::move(operands));
+    }
     void print_head(const ast::Component& node) {
         begin(fmt::format(".{}", node.name.text), {node.operand});
     }

@@ -41,9 +41,9 @@ struct Call { Word function; std::uint32_t first_argument, argument_count; };
 /// sum(operand over index); `index` is the word `domain`, `touching` or `near`, or an index of the
 /// system. Of near(d) the distance stands after the nodes of the operand.
 struct Over { Word function; ExprId operand; Word index; std::optional<ExprId> distance; };
-/// u[index], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed, Qualified or
-/// RateOf of the family, directly before the nodes of the index.
-struct Indexed { ExprId base, index; };
+/// u[index], A[index, second], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed,
+/// Qualified or RateOf of the family, directly before the nodes of the indices.
+struct Indexed { ExprId base, index; std::optional<ExprId> second = {}; };
 /// J.x; `axis` is the number 0, 1 or 2, the node before this. No stage has a value of that name.
 struct Component { ExprId operand, axis; Word name; };
 // clang-format on
@@ -85,7 +85,8 @@ struct Range {
 struct Statement {
     StatementKind kind = StatementKind::value;
     Word name;
-    Word index;   ///< i of `u[i]: e`: a name or a number; empty without an index.
+    Word index;   ///< i of `u[i]: e`, a name or a number; i,j of `A[i, j]: e`
+                  ///< (lang/syntax/index_words.h); empty without an index.
     Word side;    ///< left of `u.left: e`; empty if there is none.
     Word second;  ///< u of `u'' = e`, which becomes u_t' = e (lang/syntax/second_rates.h); else
                   ///< empty.

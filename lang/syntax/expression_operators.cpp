@@ -123,6 +123,11 @@ ExpressionParser::Progress ExpressionParser::close_index() {
     const Pending open = pending_.back();
     pending_.pop_back();
     --open_brackets_;
+    std::optional<ast::ExprId> second;
+    if (open.argument_count > 0) {
+        second = operands_.back().id;
+        operands_.pop_back();
+    }
     const Operand index = operands_.back();
     operands_.pop_back();
     const Operand base = operands_.back();
@@ -147,7 +152,7 @@ ExpressionParser::Progress ExpressionParser::close_index() {
         }
         family.node = ast::RateOf{species};
     }
-    push_operand(whole, ast::Indexed{base.id, index.id});
+    push_operand(whole, ast::Indexed{base.id, index.id, second});
     return Progress::going_on;
 }
 
@@ -254,7 +259,13 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     reduce_above(0);
     Pending& open = pending_.back();
     if (open.kind == PendingKind::index) {
-        return fail(cursor_.peek().span, "a family has one index", "write u[i]");
+        if (open.argument_count > 0) {
+            return fail(cursor_.peek().span, "a family has at most two indices", "write A[i, j]");
+        }
+        cursor_.take();
+        ++open.argument_count;
+        expects_operand_ = true;
+        return Progress::going_on;
     }
     if (open.kind == PendingKind::near) {
         return fail(cursor_.peek().span, "'near' takes one distance", form_of_near);

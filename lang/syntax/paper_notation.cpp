@@ -2,6 +2,7 @@
 #include "lang/syntax/paper_notation.h"
 
 #include "core/utf8.h"
+#include "lang/syntax/index_words.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/token_cursor.h"
 
@@ -87,11 +88,8 @@ private:
         }
     }
     bool begins_statement(std::size_t at) const {
-        std::size_t relation = at + 1;
-        if (kind(relation) == TokenKind::open_square &&
-            kind(relation + 2) == TokenKind::close_square) {
-            relation += 3;
-        }
+        std::size_t relation =
+            after_index([this](std::size_t ahead) { return kind(ahead); }, at + 1);
         while (kind(relation) == TokenKind::prime) ++relation;
         return kind(relation) == TokenKind::colon || kind(relation) == TokenKind::assign ||
                kind(relation) == TokenKind::plus_assign;

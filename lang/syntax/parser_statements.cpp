@@ -3,6 +3,8 @@
 
 #include "core/near_name.h"
 #include "core/side.h"
+#include "lang/syntax/index_words.h"
+#include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/second_rates.h"
 
 #include <fmt/core.h>
@@ -85,10 +87,22 @@ bool ScriptParser::parse_index(ast::Statement& statement) {
         cursor_.at(TokenKind::open_square) && cursor_.peek().span.begin == statement.name.span.end;
     if (!is_index) return true;
     const Token open = cursor_.take();
-    const bool is_plain = cursor_.at(TokenKind::name) || cursor_.at(TokenKind::number);
-    if (is_plain && cursor_.kind(1) == TokenKind::close_square) {
+    const auto is_word = [&](std::size_t ahead) {
+        return cursor_.kind(ahead) == TokenKind::name || cursor_.kind(ahead) == TokenKind::number;
+    };
+    if (is_word(0) && cursor_.kind(1) == TokenKind::close_square) {
         statement.index = cursor_.word(cursor_.take());
         cursor_.take();
+        return true;
+    }
+    if (is_word(0) && cursor_.kind(1) == TokenKind::comma && is_word(2) &&
+        cursor_.kind(3) == TokenKind::close_square) {
+        const ast::Word first = cursor_.word(cursor_.take());
+        cursor_.take();
+        const ast::Word second = cursor_.word(cursor_.take());
+        cursor_.take();
+        statement.index = {join(first.span, second.span),
+                           kept_spelling(fmt::format("{},{}", first.text, second.text))};
         return true;
     }
     if (!cursor_.at(TokenKind::garbage)) {
@@ -243,8 +257,8 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     }
     cursor_.error(name.span, fmt::format("':' is missing after {}", quoted),
                   "a statement is 'name: expression'");
-    if (cursor_.at(TokenKind::open_square) && cursor_.kind(2) == TokenKind::close_square &&
-        cursor_.kind(3) != TokenKind::newline) {
+    const std::size_t behind = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
+    if (behind > 0 && cursor_.kind(behind) != TokenKind::newline) {
         cursor_.skip_statement();  // `u [i]: e`: what follows the name is not a value.
         return false;
     }

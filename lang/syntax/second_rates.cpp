@@ -1,12 +1,15 @@
 // Adds statements that have the place of the one they stand for, so that messages point there.
 #include "lang/syntax/second_rates.h"
 
+#include "lang/syntax/index_words.h"
 #include "lang/syntax/kept_spellings.h"
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cascade {
 
@@ -19,27 +22,27 @@ ast::ExprId append(ast::Script& script, Span span, decltype(ast::Expr::node) nod
     return static_cast<ast::ExprId>(script.expressions.size() - 1);
 }
 
-bool is_of_member(const ast::Word& index) {
-    return !index.empty() && index.text.front() >= '0' && index.text.front() <= '9';
-}
-
-/// u_t, u_t[i] or u_t[2].
+/// u_t, u_t[i], u_t[2] or u_t[i, 2].
 ast::Expression read(ast::Script& script, const ast::Word& name, const ast::Word& index) {
     const ast::ExprId base = append(script, name.span, ast::Name{name.text});
     if (index.empty()) return {base, base};
-    const ast::ExprId which =
-        is_of_member(index)
-            ? append(script, index.span,
-                     ast::Number{std::strtod(std::string(index.text).c_str(), nullptr)})
-            : append(script, index.span, ast::Name{index.text});
-    return {base, append(script, name.span, ast::Indexed{base, which})};
+    std::vector<ast::ExprId> which;
+    for (const ast::Word& word : words_of_index(index)) {
+        which.push_back(
+            is_number(word)
+                ? append(script, word.span,
+                         ast::Number{std::strtod(std::string(word.text).c_str(), nullptr)})
+                : append(script, word.span, ast::Name{word.text}));
+    }
+    const auto second = which.size() > 1 ? std::optional(which[1]) : std::nullopt;
+    return {base, append(script, name.span, ast::Indexed{base, which[0], second})};
 }
 
 /// Is there a value for it? That of a family is one for each member.
 bool has_value(const ast::Block& block, const ast::Word& name, const ast::Word& index) {
     return std::ranges::any_of(block.statements, [&](const ast::Statement& each) {
         return each.kind == Kind::value && each.name.text == name.text &&
-               (each.index.text == index.text || !is_of_member(each.index));
+               (each.index.text == index.text || !is_of_some_members(each.index));
     });
 }
 

@@ -1,6 +1,8 @@
 // Moves over tokens, and finds the end of a statement with errors.
 #include "lang/syntax/token_cursor.h"
 
+#include "lang/syntax/index_words.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -138,10 +140,8 @@ bool TokenCursor::begins_constraint(std::size_t ahead) const {
 bool TokenCursor::begins_statement(std::size_t ahead) const {
     if (begins_constraint(ahead)) return true;
     if (kind(ahead) != TokenKind::name) return false;
-    std::size_t relation = ahead + 1;
-    const bool is_member =
-        kind(relation) == TokenKind::open_square && kind(relation + 2) == TokenKind::close_square;
-    if (is_member) relation += 3;  // u[i]: …
+    const std::size_t relation =
+        after_index([this](std::size_t at) { return kind(at); }, ahead + 1);  // u[i]: …
     const TokenKind next = kind(relation);
     if (next == TokenKind::colon || next == TokenKind::assign) return true;
     if (next == TokenKind::prime) {

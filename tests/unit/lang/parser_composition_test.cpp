@@ -132,7 +132,8 @@ TEST(CompositionFaults, Expressions) {
     const std::string range = " | a range is written 1..3, or p: 1 in 0 .. 2";
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"u[]", "2:5 an expression is missing after '['"},
-        {"u[1, 2]", "2:7 a family has one index | write u[i]"},
+        {"u[1, 2, 3]", "2:10 a family has at most two indices | write A[i, j]"},
+        {"u[1,]", "2:7 an expression is missing after ','"},
         {"u[i", "2:5 this '[' is never closed | a ']' is missing before the statement ends"},
         {"(u[i)", "2:6 this '[' is never closed | a ']' is missing before the ')'"},
         {"[u[i] + 1]",
@@ -169,7 +170,7 @@ TEST(CompositionFaults, Statements) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"u[i+1]: 1",
          "2:1 the index that a statement sets is a name or a whole number | write u[i] or u[1]"},
-        {"u[1,2]: 1",
+        {"u[1,2,3]: 1",
          "2:1 the index that a statement sets is a name or a whole number | write u[i] or u[1]"},
         {"u[i] 3", "2:1 ':' is missing after 'u' | a statement is 'name: expression'"},
         {"u [i]: 3", "2:1 ':' is missing after 'u' | a statement is 'name: expression'"},

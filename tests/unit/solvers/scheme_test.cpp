@@ -115,7 +115,7 @@ TEST(Scheme, StepsWithoutAnErrorKeepFewPlanes) {
 }
 
 TEST(Scheme, NamesAreTheSettings) {
-    EXPECT_EQ(solver_names().size(), 11u);
+    EXPECT_EQ(solver_names().size(), 12u);
     for (const std::string& name : solver_names()) {
         ASSERT_TRUE(solver_of(name)) << name;
         EXPECT_EQ(name_of(*solver_of(name)), name);

@@ -1,0 +1,44 @@
+// The indices of a family in a statement: of `A[i, 2]: e` the words i and 2.
+#pragma once
+
+#include "lang/syntax/ast.h"
+#include "lang/syntax/token.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cascade {
+
+/// The words of Statement::index with their places; none if it is empty.
+inline std::vector<ast::Word> words_of_index(const ast::Word& index) {
+    if (index.empty()) return {};
+    const std::size_t comma = index.text.find(',');
+    if (comma == std::string_view::npos) return {index};
+    const ast::Word second{index.span, index.text.substr(comma + 1)};
+    std::vector<ast::Word> words{{index.span, index.text.substr(0, comma)}, second};
+    words[0].span.end = index.span.begin + static_cast<std::uint32_t>(words[0].text.size());
+    words[1].span.begin = index.span.end - static_cast<std::uint32_t>(words[1].text.size());
+    return words;
+}
+
+/// Is it the number of a member, not the name of an index?
+inline bool is_number(const ast::Word& word) {
+    return !word.empty() && word.text.front() >= '0' && word.text.front() <= '9';
+}
+
+/// Is a statement with this index about some members of a family only?
+inline bool is_of_some_members(const ast::Word& index) {
+    return std::ranges::any_of(words_of_index(index), is_number);
+}
+
+/// The token after an index, if one like [i] or [i, 2] begins at a token, or else this token.
+template <typename KindAt>
+std::size_t after_index(const KindAt& kind, std::size_t at) {
+    if (kind(at) != TokenKind::open_square) return at;
+    const std::size_t close = kind(at + 2) == TokenKind::comma ? at + 4 : at + 2;
+    return kind(close) == TokenKind::close_square ? close + 1 : at;
+}
+
+}  // namespace cascade
