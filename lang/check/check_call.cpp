@@ -171,6 +171,7 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return false;
     };
     const bool varies = row.is_aggregate || varies_by_cell(function);
+    if (scope_.reads_volumes && function == Function::field) return true;
     if (context == Context::position && !is_elementary(function)) {
         return refuse("a surface is made of numbers, sx, sy and functions of numbers");
     }

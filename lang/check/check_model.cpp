@@ -201,6 +201,7 @@ private:
         if (is_implicit) {
             Scope scope;
             scope.context = Context::position;
+            scope.reads_volumes = true;
             auto checked = check_number(work_, script_, arguments[0], scope);
             if (!checked) return;
             model.implicit = std::move(checked->formula);

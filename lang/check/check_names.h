@@ -97,7 +97,8 @@ struct Scope {
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: the name of the value in messages.
-    bool is_side = false;  ///< For a value of a side, which may read t, step and definitions.
+    bool is_side = false;        ///< For a value of a side, which may read t, step and definitions.
+    bool reads_volumes = false;  ///< For a surface: it may read arrays by `field`.
     std::vector<IndexValue> indices = {};  ///< Of a statement of a family.
 };
 

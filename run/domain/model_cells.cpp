@@ -3,10 +3,8 @@
 #include "run/domain/model_cells.h"
 
 #include "core/check.h"
-#include "lang/program/evaluate.h"
 #include "lang/program/models.h"
 #include "mesh/animals.h"
-#include "mesh/implicit_surface.h"
 #include "mesh/knot.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
@@ -14,6 +12,7 @@
 #include "run/domain/carried_model.h"
 #include "run/domain/cell_planes.h"
 #include "run/domain/spread_cells.h"
+#include "run/domain/volume_surface.h"
 #include "surface/cell_gradient.h"
 
 #include <fmt/format.h>
@@ -36,31 +35,12 @@ Result<MadeMesh> read_mesh(const ModelSettings& settings, const ModelAccess& acc
     return failure(fmt::format("'{}': {}", settings.path, made.error().message), made.error().hint);
 }
 
-/// The surface where a formula of x, y and z is 0, with values above 0 inside.
-Result<SurfaceMesh> implicit_mesh(const ModelSettings& settings, const std::atomic<bool>& cancel) {
-    const auto function = [&](std::span<const Vector3d> points, std::span<double> values) {
-        BuiltinValues place{};
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            place[static_cast<std::size_t>(Builtin::x)] = points[k].x;
-            place[static_cast<std::size_t>(Builtin::y)] = points[k].y;
-            place[static_cast<std::size_t>(Builtin::z)] = points[k].z;
-            values[k] = evaluate(*settings.implicit, place);
-        }
-    };
-    const double half = settings.sizes.empty() ? 1 : settings.sizes[0];
-    ImplicitRequest request;
-    request.low = {-half, -half, -half};
-    request.high = {half, half, half};
-    request.edge = half / 25;
-    return implicit_surface(function, request, cancel);
-}
-
 Result<SurfaceMesh> mesh_of(const Animal& animal, const std::atomic<bool>& cancel) {
     return animal.body.mesh(animal.edge, cancel);
 }
 
-Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& access,
-                              const std::atomic<bool>& cancel) {
+Result<MadeMesh> make_surface(const ModelSettings& settings, const Literals& literals,
+                              const ModelAccess& access, const std::atomic<bool>& cancel) {
     // Fine enough for the smallest features, whatever the number of cells.
     constexpr double edge = 0.02;
     const auto size = [&](std::size_t k, double otherwise) {
@@ -86,7 +66,9 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const ModelAccess& 
         case ModelShape::zebra: mesh = mesh_of(zebra(), cancel); break;
         case ModelShape::fish: mesh = mesh_of(fish(), cancel); break;
         case ModelShape::frog: mesh = mesh_of(frog(), cancel); break;
-        case ModelShape::implicit: mesh = implicit_mesh(settings, cancel); break;
+        case ModelShape::implicit:
+            mesh = surface_of_formula(settings, literals, access, cancel);
+            break;
     }
     if (!mesh) return tl::unexpected(mesh.error());
     return MadeMesh{*std::move(mesh), {}};
@@ -141,7 +123,7 @@ Result<std::shared_ptr<const ModelCells>> make_model_cells(const Program& progra
         progress.doing = "making the surface";
         control.report(progress);
     }
-    Result<MadeMesh> made = make_surface(settings, access, control.cancel);
+    Result<MadeMesh> made = make_surface(settings, *program.literals, access, control.cancel);
     if (!made) return tl::unexpected(made.error());
     if (control.cancel) return Made();
     for (Vector3d& point : made->mesh.points) point = turned_upright(point, settings.stance);

@@ -61,7 +61,10 @@ bool is_same(const Formula& first, const Formula& second) {
                       });
 }
 
+/// Files are read again.
 bool is_same(const std::optional<Formula>& first, const std::optional<Formula>& second) {
+    const auto reads = [](const Node& node) { return node.calls(Function::field); };
+    if (first && std::ranges::any_of(first->nodes, reads)) return false;
     return first.has_value() == second.has_value() && (!first || is_same(*first, *second));
 }
 

@@ -125,6 +125,41 @@ TEST_F(SurfaceValuesTest, APlaceSaysWhereInAPicture) {
     }
 }
 
+/// A ball of radius 8 in the middle of 24 x 24 x 24 cells; a bar of 12 x 6 x 6 cells, which the
+/// sides of its array close.
+TEST_F(SurfaceValuesTest, AVolumeGivesTheSurfaceOfAModel) {
+    Field ball{PlaneLayout(Grid{24, 24, {}, 24})}, bar{PlaneLayout(Grid{12, 6, {}, 6})};
+    for (std::int64_t k = 0; k < 24; ++k) {
+        for (std::int64_t j = 0; j < 24; ++j) {
+            for (std::int64_t i = 0; i < 24; ++i) {
+                const auto from_middle = [](std::int64_t n) {
+                    return static_cast<double>(n) - 11.5;
+                };
+                ball.at(i, j, k) = static_cast<float>(
+                    8 - std::hypot(from_middle(i), from_middle(j), from_middle(k)));
+                if (i < 12 && j < 6 && k < 6) bar.at(i, j, k) = 3;
+            }
+        }
+    }
+    ASSERT_TRUE(write_npy(path("ball.npy"), ball));
+    ASSERT_TRUE(write_npy(path("bar.npy"), bar));
+    const std::string places[] = {"field(\"ball.npy\")",
+                                  "field(\"ball.npy\", 0.5 + x / 4, 0.5 + y / 4, 0.5 + z / 4)"};
+    for (const std::string& read : places) {
+        const auto found = values("surface: implicit(" + read + ", 2); cells: 300",
+                                  "sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2)");
+        ASSERT_EQ(found.size(), 300u);
+        for (const double radius : found) EXPECT_NEAR(radius, 0.5, 0.01) << read;
+    }
+    const auto heights = values("surface: implicit(field(\"bar.npy\") - 1); cells: 300", "y");
+    EXPECT_NEAR(*std::ranges::max_element(heights), 0.5, 0.04);
+    EXPECT_NE(
+        fault("surface: implicit(field(\"none.npy\")); cells: 300", "a: 1\n").find("none.npy"),
+        std::string::npos);
+    EXPECT_NE(fault("surface: implicit(noise(2)); cells: 300", "a: 1\n").find("noise cannot stand"),
+              std::string::npos);
+}
+
 TEST_F(SurfaceValuesTest, APlaceSaysWhereInAnArray) {
     Field volume{PlaneLayout(Grid{2, 2, {}, 2})};
     volume.at(1, 0, 0) = volume.at(1, 1, 0) = volume.at(1, 0, 1) = volume.at(1, 1, 1) = 3;

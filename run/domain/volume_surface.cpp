@@ -1,0 +1,151 @@
+// The arrays are read first. A place is then evaluated in them, or follows from the cube.
+#include "run/domain/volume_surface.h"
+
+#include "core/printable.h"
+#include "lang/program/evaluate.h"
+#include "mesh/implicit_surface.h"
+#include "picture/npy.h"
+#include "run/domain/file_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// The length of the longest side of a cube, in edges of triangles: of one without volumes, and at
+/// most, since many more would take minutes.
+constexpr double usual_edges = 50, most_edges = 100;
+
+/// An array in the cube.
+struct Volume {
+    NpyArray array;
+    std::array<std::int64_t, 3> sides;
+    double element = 0;  ///< The length of an element that fills the cube.
+
+    Volume(NpyArray read, double half)
+        : array(std::move(read)),
+          sides{array.columns, array.rows, array.slices},
+          element(2 * half / static_cast<double>(*std::ranges::max_element(sides))) {}
+
+    double extent(std::size_t axis) const { return static_cast<double>(sides[axis]) * element; }
+    double at(const FilePlace& place) const { return number_at_place(array.values, sides, place); }
+};
+
+BuiltinValues builtins_at(const Vector3d& point) {
+    BuiltinValues values{};
+    values[static_cast<std::size_t>(Builtin::x)] = point.x;
+    values[static_cast<std::size_t>(Builtin::y)] = point.y;
+    values[static_cast<std::size_t>(Builtin::z)] = point.z;
+    return values;
+}
+
+class SpaceFormula {
+public:
+    SpaceFormula(const Formula& formula, const Literals& literals)
+        : formula_(formula), literals_(literals) {}
+
+    Result<void> read(const ModelAccess& access, double half) {
+        for (const Node& node : formula_.nodes) {
+            if (!node.calls(Function::field)) continue;
+            const TextId text = text_of(node);
+            if (volumes_.contains(text)) continue;
+            const std::string& name = literals_.text(text);
+            const auto bytes =
+                GrantedFiles(access.folder, access.reads).read(name, largest_npy_file);
+            if (!bytes) return tl::unexpected(bytes.error());
+            auto array = parse_npy(*bytes, Precision::binary64);
+            if (!array) {
+                return failure(fmt::format("cannot read '{}': {}", short_name(name),
+                                           array.error().message),
+                               array.error().hint);
+            }
+            const auto& places = literals_.reading(node.as<Call>()->detail).place;
+            if (array->slices > 1 && places.size() == 2) {
+                return failure(
+                    fmt::format("'{}' has {} slices, and the place in it has two numbers",
+                                short_name(name), array->slices),
+                    "a third number says where between the first slice and the last");
+            }
+            volumes_.emplace(text, Volume(*std::move(array), half));
+        }
+        return {};
+    }
+
+    /// Below 0 outside of the arrays that fill the cube.
+    double at(const Vector3d& point) const {
+        const BuiltinValues builtins = builtins_at(point);
+        double depth = std::numeric_limits<double>::infinity();
+        const auto known = [&](const Node& node, const auto&) -> std::optional<double> {
+            if (const auto* const builtin = node.as<Builtin>()) {
+                return builtins[static_cast<std::size_t>(*builtin)];
+            }
+            if (node.is<TextId>()) return 0;
+            if (!node.calls(Function::field)) return std::nullopt;
+            const Volume& volume = volumes_.at(text_of(node));
+            const auto& places = literals_.reading(node.as<Call>()->detail).place;
+            FilePlace place{0.5, 0.5, 0.5};
+            for (std::size_t axis = 0; axis < places.size(); ++axis) {
+                place[axis] = evaluate(places[axis], builtins);
+            }
+            if (!places.empty()) return volume.at(place);
+            const std::array along{point.x, point.y, point.z};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double extent = volume.extent(axis);
+                place[axis] += along[axis] / extent;
+                depth = std::min({depth, place[axis] * extent / volume.element,
+                                  (1 - place[axis]) * extent / volume.element});
+            }
+            return volume.at(place);
+        };
+        const double value = evaluate(formula_, known);
+        return depth <= 0 ? depth : std::min(value, depth);
+    }
+
+    /// The length of the smallest element; `otherwise` if no array fills the cube.
+    double element(double otherwise) const {
+        double smallest = std::numeric_limits<double>::infinity();
+        for (const auto& [text, volume] : volumes_) smallest = std::min(smallest, volume.element);
+        return volumes_.empty() ? otherwise : smallest;
+    }
+    bool reads_volumes() const { return !volumes_.empty(); }
+
+private:
+    TextId text_of(const Node& node) const {
+        return std::get<TextId>(formula_.nodes[node.operands[0]].kind);
+    }
+
+    const Formula& formula_;
+    const Literals& literals_;
+    std::map<TextId, Volume> volumes_;
+};
+
+}  // namespace
+
+Result<SurfaceMesh> surface_of_formula(const ModelSettings& settings, const Literals& literals,
+                                       const ModelAccess& access, const std::atomic<bool>& cancel) {
+    const double half = settings.sizes.empty() ? 1 : settings.sizes[0];
+    SpaceFormula formula(*settings.implicit, literals);
+    if (const auto read = formula.read(access, half); !read) return tl::unexpected(read.error());
+    ImplicitRequest request;
+    request.edge = std::clamp(formula.element(2 * half / usual_edges), 2 * half / most_edges,
+                              2 * half / usual_edges);
+    // What is closed by the sides of an array touches those of the cube.
+    const double reach = formula.reads_volumes() ? half + 2 * request.edge : half;
+    request.low = {-reach, -reach, -reach};
+    request.high = {reach, reach, reach};
+    const auto function = [&](std::span<const Vector3d> points, std::span<double> values) {
+        std::ranges::transform(points, values.begin(),
+                               [&](const Vector3d& point) { return formula.at(point); });
+    };
+    return implicit_surface(function, request, cancel);
+}
+
+}  // namespace cascade
