@@ -12,8 +12,20 @@
 namespace cascade {
 namespace {
 
-/// With a preconditioner, and without one on a linked grid.
+/// On grids and on linked cells.
 constexpr int most_iterations = 200, most_iterations_on_links = 2000;
+/// A Laplacian that changes waves from cell to cell by less than this part of what the rest of L
+/// does would be no help.
+constexpr double least_laplacian = 1e-3;
+/// The number that is subtracted from the Laplacian has this many binary digits, so that its
+/// factors can be kept while it changes a little.
+constexpr int digits_of_shift = 5;
+
+double rounded(double value, int digits) {
+    int exponent = 0;
+    const double part = std::frexp(value, &exponent);
+    return std::ldexp(std::round(std::ldexp(part, digits)), exponent - digits);
+}
 /// The solver stops when the norm of e is this part of the norm of b.
 template <typename Number>
 constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
@@ -73,6 +85,9 @@ ConstraintSolver<Number>::ConstraintSolver(const StepProblem::Solve& solve,
     }
     for (std::vector<double>& sums : row_sums_) {
         sums.resize(static_cast<std::size_t>(layout_.row_count()));
+    }
+    if (outer.grid.linked && outer.counted_cells() <= LinkedLaplacian::most_cells) {
+        laplacian_ = std::make_unique<LinkedLaplacian>(*outer.links, layout_, problem_.areas.get());
     }
     if (outer.grid.linked || outer.grid.cell_count() == 1) return;
     transforms_.emplace(outer.grid, std::vector<SideRules>{problem_.sides});
@@ -134,6 +149,13 @@ template <typename Number>
 void ConstraintSolver<Number>::apply_linear(Worker& worker, Field& result) {
     fill_halo_of_unknown(worker, true);
     apply(worker, linear_, worker.linear, {&result});
+    const Number* const areas = areas_of_cells();
+    if (areas == nullptr || !outer_.grid.linked) return;
+    // Padding has the links of the last cell, but counts nowhere.
+    Number* const cells = result.template origin<Number>();
+    each_cell(worker, [&](std::int64_t i) {
+        if (areas[i] == 0) cells[i] = 0;
+    });
 }
 
 /// The sum of the products in all cells, by the same tree of sums for any number of threads.
@@ -327,6 +349,45 @@ std::vector<double> ConstraintSolver<Number>::weights_along(const WaveBlock<Numb
     return along;
 }
 
+/// Finds a and s for which a (Δ − s) is like L.
+template <typename Number>
+void ConstraintSolver<Number>::find_shift(Worker& worker) {
+    const Number* const areas = areas_of_cells();
+    Number* const unknown = problem_.unknown->template origin<Number>();
+    const Number* const image = image_.template origin<Number>();
+    const auto respond = [&](const auto& value) {
+        each_row(worker, [&](std::int64_t start) {
+            for (std::int64_t i = start; i < start + layout_.width; ++i) {
+                const bool counts = areas == nullptr || areas[i] != 0;
+                unknown[i] = counts ? value(i - start) : Number{0};
+            }
+        });
+        apply_linear(worker, image_);
+    };
+    respond([](std::int64_t) { return Number{1}; });
+    const double constant =
+        dot(worker, image_, *problem_.unknown) / dot(worker, *problem_.unknown, *problem_.unknown);
+    respond([](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
+    laplacian_->apply(unknown, other_image_.template origin<Number>(), worker.rows);
+    each_cell(worker, [&](std::int64_t i) {
+        residual_.template origin<Number>()[i] =
+            image[i] - static_cast<Number>(constant) * unknown[i];
+    });
+    const double size = dot(worker, other_image_, other_image_);
+    const double both = dot(worker, other_image_, residual_);
+    const double waves = dot(worker, *problem_.unknown, *problem_.unknown);
+    if (worker.thread == 0) {
+        factor_ = both / size;
+        const bool helps =
+            std::abs(factor_) * std::sqrt(size / waves) > least_laplacian * std::abs(constant);
+        const double shift = std::abs(constant / factor_);
+        const bool works =
+            helps && std::isfinite(shift) && laplacian_->factorise(rounded(shift, digits_of_shift));
+        if (!works) factor_ = 0;
+    }
+    worker.team.barrier();
+}
+
 /// The cosines of the multiples of a wave's phase from cell to cell, up to the reach of the
 /// stencil, from what the second difference multiplies the wave by.
 template <typename Number>
@@ -345,10 +406,22 @@ template <typename Number>
 void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
     Number* const to = problem_.unknown->template origin<Number>();
     const Number* const cells = from.template origin<Number>();
+    if (factor_ != 0) {
+        worker.team.barrier();
+        if (worker.thread == 0) laplacian_->solve(cells, to, factor_);
+        worker.team.barrier();
+        return;
+    }
     each_row(worker, [&](std::int64_t start) {
         std::copy(cells + start, cells + start + layout_.width, to + start);
     });
-    if (!transforms_) return;
+    if (transforms_) filter(worker);
+}
+
+/// Applies the inverse of the stencil to the plane `unknown`.
+template <typename Number>
+void ConstraintSolver<Number>::filter(Worker& worker) {
+    Number* const to = problem_.unknown->template origin<Number>();
     Number* const all_factors = factors_.template origin<Number>();
     const auto divide = [&](const WaveBlock<Number>& block) {
         Number* const factors = all_factors + block.offset;
@@ -455,6 +528,7 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
         team.barrier();
     }
     if (transforms_) find_stencil(worker);
+    if (laplacian_) find_shift(worker);
     worker.knows_factors = has_factors_;
     const bool is_singular = is_blind_to_constants(worker);
     // b is what e is without the field.

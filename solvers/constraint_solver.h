@@ -1,14 +1,17 @@
 // Finds the field u for which e = L u + b is 0, L being a linear operator that kernels apply.
 //
 // The solver is BiCGSTAB (H. van der Vorst, "Bi-CGSTAB: a fast and smoothly converging variant of
-// Bi-CG", 1992), preconditioned on grids by the inverse of an operator with the same stencil in all
-// cells, which fast Fourier transforms apply. That stencil is the mean of the responses of L to
-// single cells. So where L is the same everywhere the first iteration finds the solution up to
-// rounding, and a mask, sides or coefficients that vary take a few more.
+// Bi-CG", 1992), preconditioned by the inverse of an operator that is the same in all cells. On
+// grids it has a stencil, the mean of the responses of L to single cells, and fast Fourier
+// transforms apply its inverse. On linked cells it is a (Δ − s), with a and s from the responses of
+// L to a constant and to cells of both signs, and its factors are known. So where L is the same
+// everywhere the first iteration finds the solution up to rounding, and a mask, sides or
+// coefficients that vary take a few more.
 #pragma once
 
 #include "core/parallel.h"
 #include "core/plane.h"
+#include "solvers/linked_laplacian.h"
 #include "solvers/pass_runner.h"
 #include "solvers/step_problem.h"
 #include "solvers/wave_transforms.h"
@@ -46,7 +49,9 @@ private:
     Cosines cosines(int reach, Number difference) const;
     std::vector<double> weights_along(const WaveBlock<Number>& block, std::int64_t line) const;
     void find_factors(const WaveBlock<Number>& block, Number* factors) const;
+    void find_shift(Worker& worker);
     void precondition(Worker& worker, const Field& from);
+    void filter(Worker& worker);
     double dot(Worker& worker, const Field& a, const Field& b);
     double subtract_mean(Worker& worker, Field& from);
     bool is_blind_to_constants(Worker& worker);
@@ -75,6 +80,8 @@ private:
     std::array<int, 3> reach_{};
     Field factors_;             ///< Of the preconditioner, by block of waves …
     bool has_factors_ = false;  ///< … if they are those of the stencil.
+    std::unique_ptr<LinkedLaplacian> laplacian_;
+    double factor_ = 0;  ///< Of the Laplacian; 0: it does not precondition.
 };
 
 extern template class ConstraintSolver<float>;

@@ -75,6 +75,34 @@ TEST(Constraints, HaveErrorsOfSecondOrderWhereCoefficientsVary) {
     EXPECT_LT(finest, 3e-3);
 }
 
+/// What is left of the equation in a cell, where `extra` and the domain are given.
+double largest_rest(const std::string& extra, const std::string& domain) {
+    const std::vector<double> rest =
+        run("system s { u: 0; w: random(0, 1); rho = w - mean(w over domain)\n"
+            "  0 = lap(phi) + rho" +
+                extra +
+                "\n"
+                "  u' = lap(phi) + rho" +
+                extra +
+                "; w' = 0 }\n"
+                "domain { " +
+                domain +
+                "; precision: double }\n"
+                "stage only: s { iterations: 1; speed: 1 }\n",
+            2);
+    double largest = 0;
+    for (const double value : rest) largest = std::max(largest, std::abs(value));
+    return largest;
+}
+
+/// The last row of 500 cells is not full.
+TEST(Constraints, AreSolvedOnModels) {
+    for (const char* const extra : {"", " - 0.01 * phi", " - 3 * w * phi"}) {
+        EXPECT_LT(largest_rest(extra, "surface: torus; cells: 500"), 1e-9) << extra;
+    }
+    EXPECT_LT(largest_rest("", "surface: creature; cells: 3000"), 1e-9);
+}
+
 TEST(Constraints, HaveTheSameBitsWithAnyNumberOfThreads) {
     const std::string masked =
         "system s { u: random(0, 1); k: 1 + 9 * noise(0.2)^2; 0 = div(k * grad(phi)) - 0.01 * phi + u;"
