@@ -214,25 +214,40 @@ double ConstraintSolver<Number>::subtract_mean(Worker& worker, Field& from) {
     return mean;
 }
 
+/// Writes L of a plane, given by its columns, into `image_`.
+template <typename Number>
+template <typename Value>
+void ConstraintSolver<Number>::respond(Worker& worker, const Value& value) {
+    const Number* const areas = areas_of_cells();
+    Number* const unknown = problem_.unknown->template origin<Number>();
+    each_row(worker, [&](std::int64_t start) {
+        for (std::int64_t i = 0; i < layout_.width; ++i) {
+            const bool counts = areas == nullptr || areas[start + i] != 0;
+            unknown[start + i] = counts ? value(i) : Number{0};
+        }
+    });
+    apply_linear(worker, image_);
+}
+
+template <typename Number>
+void ConstraintSolver<Number>::respond_to_constant(Worker& worker) {
+    respond(worker, [](std::int64_t) { return Number{1}; });
+}
+
+/// Their signs alternate.
+template <typename Number>
+void ConstraintSolver<Number>::respond_to_waves(Worker& worker) {
+    respond(worker, [](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
+}
+
 /// Is L of a constant 0? It is computed exactly for operators of derivatives.
 template <typename Number>
 bool ConstraintSolver<Number>::is_blind_to_constants(Worker& worker) {
-    const Number* const areas = areas_of_cells();
-    Number* const unknown = problem_.unknown->template origin<Number>();
-    const auto size_of = [&](const auto& value) {
-        each_row(worker, [&](std::int64_t start) {
-            for (std::int64_t i = 0; i < layout_.width; ++i) {
-                const bool counts = areas == nullptr || areas[start + i] != 0;
-                unknown[start + i] = counts ? value(i) : Number{0};
-            }
-        });
-        apply_linear(worker, image_);
-        return dot(worker, image_, image_);
-    };
-    const double of_constant = size_of([](std::int64_t) { return Number{1}; });
+    respond_to_constant(worker);
+    const double of_constant = dot(worker, image_, image_);
     if (of_constant == 0) return true;
-    const double of_waves =
-        size_of([](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
+    respond_to_waves(worker);
+    const double of_waves = dot(worker, image_, image_);
     constexpr double part = least_factor<Number>;
     return of_constant <= part * part * of_waves;
 }
@@ -352,22 +367,12 @@ std::vector<double> ConstraintSolver<Number>::weights_along(const WaveBlock<Numb
 /// Finds a and s for which a (Δ − s) is like L.
 template <typename Number>
 void ConstraintSolver<Number>::find_shift(Worker& worker) {
-    const Number* const areas = areas_of_cells();
-    Number* const unknown = problem_.unknown->template origin<Number>();
+    const Number* const unknown = problem_.unknown->template origin<Number>();
     const Number* const image = image_.template origin<Number>();
-    const auto respond = [&](const auto& value) {
-        each_row(worker, [&](std::int64_t start) {
-            for (std::int64_t i = start; i < start + layout_.width; ++i) {
-                const bool counts = areas == nullptr || areas[i] != 0;
-                unknown[i] = counts ? value(i - start) : Number{0};
-            }
-        });
-        apply_linear(worker, image_);
-    };
-    respond([](std::int64_t) { return Number{1}; });
+    respond_to_constant(worker);
     const double constant =
         dot(worker, image_, *problem_.unknown) / dot(worker, *problem_.unknown, *problem_.unknown);
-    respond([](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
+    respond_to_waves(worker);
     laplacian_->apply(unknown, other_image_.template origin<Number>(), worker.rows);
     each_cell(worker, [&](std::int64_t i) {
         residual_.template origin<Number>()[i] =

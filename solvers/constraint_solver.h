@@ -54,6 +54,10 @@ private:
     void filter(Worker& worker);
     double dot(Worker& worker, const Field& a, const Field& b);
     double subtract_mean(Worker& worker, Field& from);
+    template <typename Value>
+    void respond(Worker& worker, const Value& value);
+    void respond_to_constant(Worker& worker);
+    void respond_to_waves(Worker& worker);
     bool is_blind_to_constants(Worker& worker);
     void iterate(Worker& worker, Field& solution);
 

@@ -44,9 +44,9 @@ struct LinkedLaplacian::Factors {
         matrix;  ///< −Δ between roots and their reciprocals, its lower half.
     double least_s = 0;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-    std::optional<double> s;  ///< Of the factors.
+    std::optional<double> shift;  ///< Of the factors: the s that was given or the least one.
 
-    bool is_singular() const { return *s <= least_s; }
+    bool is_singular() const { return shift == least_s; }
 
     /// Takes out the mean by area of values times roots, as which no s determines it. The order of
     /// summation must not depend on vectors.
@@ -117,9 +117,10 @@ void LinkedLaplacian::apply(const Number* u, Number* result, RowRange rows) cons
 }
 
 bool LinkedLaplacian::factorise(double s) {
-    if (factors_->s != s) {
-        factors_->s = s;
-        factors_->solver.setShift(std::max(s, factors_->least_s));
+    const double shift = std::max(s, factors_->least_s);
+    if (factors_->shift != shift) {
+        factors_->shift = shift;
+        factors_->solver.setShift(shift);
         factors_->solver.factorize(factors_->matrix);
     }
     return factors_->solver.info() == Eigen::Success;
