@@ -513,6 +513,15 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
                                               : std::numeric_limits<double>::infinity();
 }
 
+/// Gives the cells that complete the last row of linked cells the value of the last cell.
+template <typename Number>
+void ConstraintSolver<Number>::pad(Number* cells) const {
+    const std::int64_t last = outer_.counted_cells() - 1;
+    const std::int64_t start = layout_.row_start(last / layout_.width);
+    const std::int64_t column = last % layout_.width;
+    std::fill(cells + start + column, cells + start + layout_.width, cells[start + column]);
+}
+
 template <typename Number>
 void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Registers registers,
                                      const StepMoment& moment, Field& target) {
@@ -564,6 +573,7 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
     if (worker.knows_factors && thread == 0) has_factors_ = true;
     if (is_singular) subtract_mean(worker, target);
     team.barrier();
+    if (thread == 0 && outer_.grid.linked) pad(x);
     if (thread == 0 && outer_.has_halo() && problem_.needs_halo) {
         target.fill_halo(sides_at(worker));
     }

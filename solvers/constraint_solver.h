@@ -60,6 +60,7 @@ private:
     void respond_to_waves(Worker& worker);
     bool is_blind_to_constants(Worker& worker);
     void iterate(Worker& worker, Field& solution);
+    void pad(Number* cells) const;
 
     /// Null if all cells are alike.
     const Number* areas_of_cells() const {
