@@ -14,8 +14,8 @@ namespace {
 
 /// On grids and on linked cells.
 constexpr int most_iterations = 200, most_iterations_on_links = 2000;
-/// A Laplacian that changes waves from cell to cell by less than this part of what the rest of L
-/// does would be no help.
+/// The Laplacian is no help as a preconditioner if its part of L is smaller than this fraction of
+/// the rest, measured on a field that alternates from cell to cell.
 constexpr double least_laplacian = 1e-3;
 /// The number that is subtracted from the Laplacian has this many binary digits, so that its
 /// factors can be kept while it changes a little.
@@ -229,27 +229,20 @@ void ConstraintSolver<Number>::respond(Worker& worker, const Value& value) {
     apply_linear(worker, image_);
 }
 
+/// Finds the preconditioner of linked cells, and whether L of a constant is 0, which is computed
+/// exactly for operators of derivatives.
 template <typename Number>
-void ConstraintSolver<Number>::respond_to_constant(Worker& worker) {
+bool ConstraintSolver<Number>::probe(Worker& worker) {
     respond(worker, [](std::int64_t) { return Number{1}; });
-}
-
-/// Their signs alternate.
-template <typename Number>
-void ConstraintSolver<Number>::respond_to_waves(Worker& worker) {
-    respond(worker, [](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
-}
-
-/// Is L of a constant 0? It is computed exactly for operators of derivatives.
-template <typename Number>
-bool ConstraintSolver<Number>::is_blind_to_constants(Worker& worker) {
-    respond_to_constant(worker);
     const double of_constant = dot(worker, image_, image_);
-    if (of_constant == 0) return true;
-    respond_to_waves(worker);
+    if (of_constant == 0 && !laplacian_) return true;
+    const Field& unknown = *problem_.unknown;
+    const double constant = dot(worker, image_, unknown) / dot(worker, unknown, unknown);
+    respond(worker, [](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
     const double of_waves = dot(worker, image_, image_);
+    if (laplacian_) find_shift(worker, constant);
     constexpr double part = least_factor<Number>;
-    return of_constant <= part * part * of_waves;
+    return of_constant == 0 || of_constant <= part * part * of_waves;
 }
 
 /// The mean of the responses of L to single cells that are far enough from each other, from sides
@@ -364,15 +357,12 @@ std::vector<double> ConstraintSolver<Number>::weights_along(const WaveBlock<Numb
     return along;
 }
 
-/// Finds a and s for which a (Δ − s) is like L.
+/// Finds a and s for which a (Δ − s) is like L, from the factor by which L multiplies a constant
+/// and from its response to waves, which is in `image_`.
 template <typename Number>
-void ConstraintSolver<Number>::find_shift(Worker& worker) {
+void ConstraintSolver<Number>::find_shift(Worker& worker, double constant) {
     const Number* const unknown = problem_.unknown->template origin<Number>();
     const Number* const image = image_.template origin<Number>();
-    respond_to_constant(worker);
-    const double constant =
-        dot(worker, image_, *problem_.unknown) / dot(worker, *problem_.unknown, *problem_.unknown);
-    respond_to_waves(worker);
     laplacian_->apply(unknown, other_image_.template origin<Number>(), worker.rows);
     each_cell(worker, [&](std::int64_t i) {
         residual_.template origin<Number>()[i] =
@@ -542,9 +532,8 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
         team.barrier();
     }
     if (transforms_) find_stencil(worker);
-    if (laplacian_) find_shift(worker);
     worker.knows_factors = has_factors_;
-    const bool is_singular = is_blind_to_constants(worker);
+    const bool is_singular = probe(worker);
     // b is what e is without the field.
     Number* const unknown = problem_.unknown->template origin<Number>();
     Number* const x = target.origin<Number>();

@@ -49,16 +49,14 @@ private:
     Cosines cosines(int reach, Number difference) const;
     std::vector<double> weights_along(const WaveBlock<Number>& block, std::int64_t line) const;
     void find_factors(const WaveBlock<Number>& block, Number* factors) const;
-    void find_shift(Worker& worker);
+    void find_shift(Worker& worker, double constant);
     void precondition(Worker& worker, const Field& from);
     void filter(Worker& worker);
     double dot(Worker& worker, const Field& a, const Field& b);
     double subtract_mean(Worker& worker, Field& from);
     template <typename Value>
     void respond(Worker& worker, const Value& value);
-    void respond_to_constant(Worker& worker);
-    void respond_to_waves(Worker& worker);
-    bool is_blind_to_constants(Worker& worker);
+    bool probe(Worker& worker);
     void iterate(Worker& worker, Field& solution);
     void pad(Number* cells) const;
 

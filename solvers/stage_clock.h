@@ -39,8 +39,8 @@ struct StageClock {
 };
 
 /// Bounds of the rates' Jacobian in some state, in 1 / time (lang/calculus/derivative.h). For a
-/// solver that is implicit in each cell `whole` is that of what is read in other cells, and
-/// `reaction` that of growth.
+/// solver that is implicit in each cell, `whole` bounds the terms that read other cells, and
+/// `reaction` bounds growth.
 struct RateBounds {
     double whole = 0;     ///< A bound of all eigenvalues.
     double reaction = 0;  ///< The part that neither stages nor implicit diffusion stabilise.

@@ -22,7 +22,7 @@ struct Operators {
     DiffusionTerms<NodeId> terms{};
 };
 
-/// Has a node the same value in all cells? False for aggregates of what differs, too.
+/// Does a node have the same value in all cells? The answer is no for aggregates of what differs.
 bool is_even(const ExpressionGraph& graph, NodeId root, const Program& program,
              std::uint32_t stage) {
     return std::ranges::none_of(formula_of(graph.nodes(), root).nodes, [&](const Node& node) {

@@ -77,7 +77,7 @@ private:
         return Beyond{graph().add(once), graph().add(twice)};
     }
 
-    /// The rule of what has one of its own.
+    /// The border rule of a species, or of a definition with sides of its own; null for others.
     const SideSetting* rule_of(const Node& node) const {
         constexpr auto border = static_cast<std::size_t>(Side::border);
         if (const auto wall = definitions_.find(at()); wall != definitions_.end()) {
