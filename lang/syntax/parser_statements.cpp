@@ -257,8 +257,8 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     }
     cursor_.error(name.span, fmt::format("':' is missing after {}", quoted),
                   "a statement is 'name: expression'");
-    const std::size_t behind = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
-    if (behind > 0 && cursor_.kind(behind) != TokenKind::newline) {
+    const std::size_t next = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
+    if (next > 0 && cursor_.kind(next) != TokenKind::newline) {
         cursor_.skip_statement();  // `u [i]: e`: what follows the name is not a value.
         return false;
     }

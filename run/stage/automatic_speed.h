@@ -32,9 +32,9 @@ std::int64_t choose_every(Solver solver, bool by_rule);
 /// `step_safety` times the limit of stability. For a stabilised or semi-implicit solver diffusion
 /// is stable at any length, and a step is at most `part` / (bound of the reaction) long. A
 /// stabilised solver takes that length, or the longest step of fewer stages, whichever needs fewer
-/// evaluations of the rates for the same time. For a solver that is implicit in each cell the
-/// bounds are those of what is read in other cells and of growth. Bounds are finite; a bound of 0
-/// limits nothing.
+/// evaluations of the rates for the same time. For a solver that is implicit in each cell, the
+/// bounds are those of the terms that read other cells, and of growth. Bounds are finite; a bound
+/// of 0 limits nothing.
 SafeStep safe_step(Solver solver, const RateBounds& bounds, double wanted,
                    double part = reaction_part);
 
