@@ -20,24 +20,18 @@ constexpr double least_laplacian = 1e-3;
 /// The number that is subtracted from the Laplacian has this many binary digits, so that its
 /// factors can be kept while it changes a little.
 constexpr int digits_of_shift = 5;
+/// The solver stops when the norm of e is this part of the norm of b.
+template <typename Number>
+constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
+/// Iterations begin again from a residual that is this close to a right angle to their shadow
+/// residual: the next directions would be rounding errors.
+template <typename Number>
+constexpr double least_overlap = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-15;
 
 double rounded(double value, int digits) {
     int exponent = 0;
     const double part = std::frexp(value, &exponent);
     return std::ldexp(std::round(std::ldexp(part, digits)), exponent - digits);
-}
-/// The solver stops when the norm of e is this part of the norm of b.
-template <typename Number>
-constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
-/// A wave is left out of the preconditioner if L multiplies it by less than this part of what it
-/// multiplies others by.
-template <typename Number>
-constexpr double least_factor = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-14;
-/// Cells from one probe of the stencil to the next; stencils reach three cells.
-constexpr std::int64_t between_probes = 7;
-
-std::int64_t cells_along(const PlaneLayout& layout, std::size_t axis) {
-    return axis == 0 ? layout.width : axis == 1 ? layout.height : layout.depth;
 }
 
 }  // namespace
@@ -90,15 +84,7 @@ ConstraintSolver<Number>::ConstraintSolver(const StepProblem::Solve& solve,
         laplacian_ = std::make_unique<LinkedLaplacian>(*outer.links, layout_, problem_.areas.get());
     }
     if (outer.grid.linked || outer.grid.cell_count() == 1) return;
-    transforms_.emplace(outer.grid, std::vector<SideRules>{problem_.sides});
-    std::size_t offsets = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::int64_t cells = cells_along(layout_, axis);
-        reach_[axis] = static_cast<int>(std::min<std::int64_t>(3, (cells - 1) / 2));
-        offsets *= static_cast<std::size_t>(2 * reach_[axis] + 1);
-    }
-    stencil_.resize(offsets);
-    factors_ = Field(layout_, outer.precision);
+    stencil_.emplace(outer.grid, problem_.sides, areas_of_cells());
 }
 
 /// Runs a plan and takes its results.
@@ -241,120 +227,23 @@ bool ConstraintSolver<Number>::probe(Worker& worker) {
     respond(worker, [](std::int64_t i) { return static_cast<Number>(i % 2 == 0 ? 1 : -1); });
     const double of_waves = dot(worker, image_, image_);
     if (laplacian_) find_shift(worker, constant);
-    constexpr double part = least_factor<Number>;
+    constexpr double part = StencilInverse<Number>::least_factor;
     return of_constant == 0 || of_constant <= part * part * of_waves;
 }
 
-/// The mean of the responses of L to single cells that are far enough from each other, from sides
-/// and from the border of a mask.
+/// Finds the preconditioner of grids.
 template <typename Number>
 void ConstraintSolver<Number>::find_stencil(Worker& worker) {
-    std::array<std::int64_t, 3> first{}, count{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::int64_t cells = cells_along(layout_, axis);
-        first[axis] = reach_[axis];
-        count[axis] = cells == 1 ? 1 : std::max<std::int64_t>(1, cells / between_probes);
-    }
-    const auto for_probes = [&](const auto& act) {
-        for (std::int64_t z = 0; z < count[2]; ++z) {
-            for (std::int64_t y = 0; y < count[1]; ++y) {
-                for (std::int64_t x = 0; x < count[0]; ++x) {
-                    act(first[0] + between_probes * x, first[1] + between_probes * y,
-                        first[2] + between_probes * z);
-                }
-            }
-        }
-    };
     Number* const unknown = problem_.unknown->template origin<Number>();
     each_row(worker, [&](std::int64_t start) {
         std::fill(unknown + start, unknown + start + layout_.width, Number{0});
     });
     worker.team.barrier();
-    if (worker.thread == 0) {
-        for_probes([&](std::int64_t x, std::int64_t y, std::int64_t z) {
-            unknown[layout_.offset(x, y, z) - layout_.offset(0, 0, 0)] = Number{1};
-        });
-    }
+    if (worker.thread == 0) stencil_->put_probes(unknown);
     apply_linear(worker, image_);
     worker.team.barrier();
-    if (worker.thread == 0) {
-        const std::vector<double> before = stencil_;
-        std::fill(stencil_.begin(), stencil_.end(), 0.0);
-        const Number* const response = image_.template origin<Number>();
-        const Number* const areas = areas_of_cells();
-        double probes = 0;
-        std::vector<double> one(stencil_.size());
-        for_probes([&](std::int64_t x, std::int64_t y, std::int64_t z) {
-            std::size_t n = 0;
-            bool is_whole = true;
-            for (int dz = -reach_[2]; dz <= reach_[2]; ++dz) {
-                for (int dy = -reach_[1]; dy <= reach_[1]; ++dy) {
-                    const std::int64_t row =
-                        layout_.offset(x, y + dy, z + dz) - layout_.offset(0, 0, 0);
-                    for (int dx = -reach_[0]; dx <= reach_[0]; ++dx) {
-                        one[n++] = static_cast<double>(response[row + dx]);
-                        is_whole = is_whole && (areas == nullptr || areas[row + dx] != 0);
-                    }
-                }
-            }
-            if (!is_whole) return;
-            for (std::size_t k = 0; k < one.size(); ++k) stencil_[k] += one[k];
-            ++probes;
-        });
-        for (double& weight : stencil_) weight /= std::max(probes, 1.0);
-        if (probes == 0) stencil_[stencil_.size() / 2] = 1;
-        has_factors_ = has_factors_ && stencil_ == before;
-    }
+    if (worker.thread == 0) stencil_->learn(image_.template origin<Number>());
     worker.team.barrier();
-}
-
-/// The reciprocal of the symbol of the stencil for each wave of a block, by line and wave.
-template <typename Number>
-void ConstraintSolver<Number>::find_factors(const WaveBlock<Number>& block, Number* factors) const {
-    double size = 0;
-    for (const double weight : stencil_) size += std::abs(weight);
-    const double least = size * least_factor<Number>;
-    const std::size_t axis = block.axis;
-    for (std::int64_t line = 0; line < block.lines; ++line) {
-        const std::vector<double> along = weights_along(block, line);
-        for (std::int64_t wave = 0; wave < block.count; ++wave) {
-            const auto by = cosines(reach_[axis], block.differences[axis][wave]);
-            double factor = 0;
-            for (std::size_t k = 0; k < along.size(); ++k) factor += along[k] * by[k];
-            const double inverse = std::abs(factor) <= least ? 0 : 1 / (factor * block.gain);
-            factors[line * block.count + wave] = static_cast<Number>(inverse);
-        }
-    }
-}
-
-/// What the weights of the stencil are, along the axis of a block, for the waves of a line: by the
-/// distance along it, with those at the same distance together.
-template <typename Number>
-std::vector<double> ConstraintSolver<Number>::weights_along(const WaveBlock<Number>& block,
-                                                            std::int64_t line) const {
-    const std::size_t axis = block.axis;
-    std::array<Cosines, 3> across{};
-    for (std::size_t other = 0; other < 3; ++other) {
-        if (other == axis) continue;
-        across[other] = cosines(reach_[other], block.differences[other][other == 0 ? line : 0]);
-    }
-    std::vector<double> along(static_cast<std::size_t>(reach_[axis]) + 1, 0);
-    std::size_t n = 0;
-    for (int dz = -reach_[2]; dz <= reach_[2]; ++dz) {
-        for (int dy = -reach_[1]; dy <= reach_[1]; ++dy) {
-            for (int dx = -reach_[0]; dx <= reach_[0]; ++dx) {
-                const std::array<std::size_t, 3> offset{static_cast<std::size_t>(std::abs(dx)),
-                                                        static_cast<std::size_t>(std::abs(dy)),
-                                                        static_cast<std::size_t>(std::abs(dz))};
-                double weight = stencil_[n++];
-                for (std::size_t other = 0; other < 3; ++other) {
-                    if (other != axis) weight *= across[other][offset[other]];
-                }
-                along[offset[axis]] += weight;
-            }
-        }
-    }
-    return along;
 }
 
 /// Finds a and s for which a (Δ − s) is like L, from the factor by which L multiplies a constant
@@ -383,19 +272,6 @@ void ConstraintSolver<Number>::find_shift(Worker& worker, double constant) {
     worker.team.barrier();
 }
 
-/// The cosines of the multiples of a wave's phase from cell to cell, up to the reach of the
-/// stencil, from what the second difference multiplies the wave by.
-template <typename Number>
-auto ConstraintSolver<Number>::cosines(int reach, Number difference) const -> Cosines {
-    const double h = outer_.grid.spacing;
-    Cosines values{1, 1 + static_cast<double>(difference) * h * h / 2, 0, 0};
-    for (int n = 2; n <= reach; ++n) {
-        const auto k = static_cast<std::size_t>(n);
-        values[k] = 2 * values[1] * values[k - 1] - values[k - 2];
-    }
-    return values;
-}
-
 /// Writes the preconditioner's inverse of `from` into the plane `unknown`.
 template <typename Number>
 void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
@@ -410,30 +286,8 @@ void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
     each_row(worker, [&](std::int64_t start) {
         std::copy(cells + start, cells + start + layout_.width, to + start);
     });
-    if (transforms_) filter(worker);
-}
-
-/// Applies the inverse of the stencil to the plane `unknown`.
-template <typename Number>
-void ConstraintSolver<Number>::filter(Worker& worker) {
-    Number* const to = problem_.unknown->template origin<Number>();
-    Number* const all_factors = factors_.template origin<Number>();
-    const auto divide = [&](const WaveBlock<Number>& block) {
-        Number* const factors = all_factors + block.offset;
-        if (!worker.knows_factors) find_factors(block, factors);
-        const std::int64_t count = block.lines * block.count;
-        for (std::int64_t n = 0; n < count; ++n) {
-            if (block.is_complex) {
-                block.waves[0][2 * n] *= factors[n];
-                block.waves[0][2 * n + 1] *= factors[n];
-            } else {
-                block.waves[0][n] *= factors[n];
-            }
-        }
-    };
-    Number* const planes[] = {to};
-    const std::span<Number* const> list(planes);
-    transforms_->apply(worker.team, worker.thread, worker.threads, {true}, {&list, 1}, divide);
+    if (!stencil_) return;
+    stencil_->apply(worker.team, worker.thread, worker.threads, worker.knows_factors, to);
     worker.knows_factors = true;
     const Number* const areas = areas_of_cells();
     if (areas == nullptr) return;
@@ -456,17 +310,26 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
         return;
     }
     const double wanted = tolerance<Number> * whole;
-    each_cell(worker, [&](std::int64_t i) {
-        r0[i] = r[i];
-        p[i] = v[i] = 0;
-    });
-    double rho = 1, alpha = 1, omega = 1, left = whole;
+    double rho = 0, alpha = 0, omega = 0, left = whole, size_of_shadow = 0;
+    const auto begin_again = [&] {
+        each_cell(worker, [&](std::int64_t i) {
+            r0[i] = r[i];
+            p[i] = v[i] = 0;
+        });
+        size_of_shadow = left;
+        rho = alpha = omega = 1;
+    };
+    begin_again();
     int taken = 0;
-    const int most = transforms_ ? most_iterations : most_iterations_on_links;
+    const int most = stencil_ ? most_iterations : most_iterations_on_links;
     while (left > wanted && taken < most) {
         ++taken;
-        const double next_rho = dot(worker, shadow_, residual_);
-        if (next_rho == 0 || omega == 0) break;
+        double next_rho = dot(worker, shadow_, residual_);
+        if (std::abs(next_rho) < least_overlap<Number> * size_of_shadow * left) {
+            begin_again();
+            next_rho = dot(worker, shadow_, residual_);
+        }
+        if (omega == 0) break;
         const auto beta = static_cast<Number>(next_rho / rho * (alpha / omega));
         const auto back = static_cast<Number>(omega);
         rho = next_rho;
@@ -531,8 +394,8 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
         }
         team.barrier();
     }
-    if (transforms_) find_stencil(worker);
-    worker.knows_factors = has_factors_;
+    if (stencil_) find_stencil(worker);
+    worker.knows_factors = stencil_ && stencil_->has_factors();
     const bool is_singular = probe(worker);
     // b is what e is without the field.
     Number* const unknown = problem_.unknown->template origin<Number>();
@@ -559,7 +422,7 @@ void ConstraintSolver<Number>::solve(Team& team, int thread, int threads, Regist
         }
     }
     iterate(worker, target);
-    if (worker.knows_factors && thread == 0) has_factors_ = true;
+    if (worker.knows_factors && thread == 0) stencil_->keep_factors();
     if (is_singular) subtract_mean(worker, target);
     team.barrier();
     if (thread == 0 && outer_.grid.linked) pad(x);

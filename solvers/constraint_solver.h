@@ -13,10 +13,9 @@
 #include "core/plane.h"
 #include "solvers/linked_laplacian.h"
 #include "solvers/pass_runner.h"
+#include "solvers/stencil_inverse.h"
 #include "solvers/step_problem.h"
-#include "solvers/wave_transforms.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -45,13 +44,8 @@ private:
     SideRules sides_at(const Worker& worker) const;
     void fill_halo_of_unknown(Worker& worker, bool is_linear);
     void find_stencil(Worker& worker);
-    using Cosines = std::array<double, 4>;  ///< Of 0 to 3 times an angle.
-    Cosines cosines(int reach, Number difference) const;
-    std::vector<double> weights_along(const WaveBlock<Number>& block, std::int64_t line) const;
-    void find_factors(const WaveBlock<Number>& block, Number* factors) const;
     void find_shift(Worker& worker, double constant);
     void precondition(Worker& worker, const Field& from);
-    void filter(Worker& worker);
     double dot(Worker& worker, const Field& a, const Field& b);
     double subtract_mean(Worker& worker, Field& from);
     template <typename Value>
@@ -74,16 +68,12 @@ private:
     PlaneLayout layout_;
     PassRunner whole_, linear_;
     std::optional<PassRunner> parts_;
-    std::optional<WaveTransforms<Number>> transforms_;
     Field residual_, shadow_, direction_, image_, other_image_;
     // Shared by the threads between barriers; the sums of rows of successive products.
     static constexpr std::size_t sums_in_use = 4;
     std::vector<double> row_sums_[sums_in_use];
-    std::vector<double> stencil_;  ///< By offset, from −reach to reach along each axis.
-    std::array<int, 3> reach_{};
-    Field factors_;             ///< Of the preconditioner, by block of waves …
-    bool has_factors_ = false;  ///< … if they are those of the stencil.
-    std::unique_ptr<LinkedLaplacian> laplacian_;
+    std::optional<StencilInverse<Number>> stencil_;  ///< The preconditioner of grids
+    std::unique_ptr<LinkedLaplacian> laplacian_;     ///< and of linked cells.
     double factor_ = 0;  ///< Of the Laplacian; 0: it does not precondition.
 };
 

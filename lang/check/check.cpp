@@ -3,7 +3,6 @@
 
 #include "lang/program/models.h"
 
-#include "core/check.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_coarse.h"
 #include "lang/check/check_shape.h"
@@ -16,6 +15,8 @@
 #include "lang/library/library.h"
 #include "lang/program/stage_kinds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace cascade {
@@ -23,6 +24,21 @@ namespace cascade {
 namespace {
 
 using checking::Workspace;
+
+/// The systems of the library are sound, but not in every domain: a curl, say, is one of vectors
+/// in volumes.
+void report_unfit(Workspace& work, const ast::Script& script, const ast::Block& system) {
+    const auto report = [&](const ast::Word& base) {
+        if (base.text != system.name.text) return;
+        work.diagnostics.error(base.span,
+                               fmt::format("'{}' does not work in this domain", base.text),
+                               "the messages about its equations say why");
+    };
+    for (const ast::Block& block : script.blocks) {
+        report(block.base);
+        for (const ast::Word& base : block.joined) report(base);
+    }
+}
 
 /// Checks the script's own systems and those of the library that it names. `library` owns the
 /// parsed library scripts, which must outlive the workspace. Cells come after systems of fields,
@@ -56,7 +72,7 @@ void check_systems(Workspace& work, const ast::Script& script,
             checking::check_system_sides(work, *each.from.script, *each.from.block, numbers[k],
                                          base);
             const bool is_sound = work.diagnostics.error_count() == errors_before;
-            CHECK(is_sound || !each.from.built_in, "the systems of the library are sound");
+            if (!is_sound && each.from.built_in) report_unfit(work, script, *each.from.block);
         }
         checking::find_systems_of_stages(work, script, false);
     }

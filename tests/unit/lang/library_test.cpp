@@ -11,7 +11,9 @@
 namespace cascade::testing {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 std::vector<std::string> system_names(const std::string& script) {
@@ -52,6 +54,15 @@ TEST(Library, TextsAreSoundScripts) {
         EXPECT_TRUE(checked->program) << each.file_name;
         EXPECT_THAT(checked->faults(), IsEmpty()) << each.file_name;
     }
+}
+
+TEST(Library, SaysWhichSystemsDoNotFitADomain) {
+    const auto checked =
+        check_text("domain { grid: 6, 5, 4 }\nsystem mine: vortices {}\nstage one: mine {}");
+    EXPECT_FALSE(checked->program);
+    EXPECT_THAT(checked->faults(),
+                Contains(HasSubstr("2:14: 'vortices' does not work in this domain")));
+    EXPECT_THAT(checked->faults(), Contains(HasSubstr("in space curl takes a vector")));
 }
 
 TEST(Library, IsReadByNeed) {
