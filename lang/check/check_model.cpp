@@ -135,6 +135,9 @@ private:
             if (!side || !takes_value(side->kind)) continue;
             work_.diagnostics.warning(side->span, "a model has no sides: this is ignored");
         }
+        if (const ast::Statement* stencil = find("stencil")) {
+            work_.diagnostics.warning(stencil->span, "a model has no stencil: this is ignored");
+        }
     }
 
     /// Resets the domain to the defaults of a model, except for seed and precision.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,16 @@ namespace {
 
 /// Parts of a formula after this node are not shown.
 constexpr NodeId longest_shown{60};
+
+/// The value that this one continues beyond the border of a mask; nothing for others.
+std::optional<NodeId> inside_of(const PlanGraph& graph, NodeId beyond) {
+    for (const NodeId id : ids_below<NodeId>(graph.size())) {
+        const Node& node = graph[id];
+        if (!node.calls(Function::bordered)) continue;
+        if (node.operands[1] == beyond || node.operands[2] == beyond) return node.operands[0];
+    }
+    return std::nullopt;
+}
 
 /// Nodes that the script does not contain: entries of a tensor, and the parts of operators on a
 /// surface or a model.
@@ -35,7 +46,11 @@ std::string name_of(const PlanGraph& graph, NodeId id) {
     if (node.calls(Function::if_) && graph[node.operands[0]].is<InsideMask>()) {
         return name_of(graph, node.operands[1]) + " inside the mask";
     }
-    if (graph.origin(id) == nullptr) return describe_made(graph, node);
+    if (node.calls(Function::bordered)) return name_of(graph, node.operands[0]);
+    if (graph.origin(id) == nullptr) {
+        const std::optional<NodeId> inside = inside_of(graph, id);
+        return inside ? name_of(graph, *inside) + " beyond the border" : describe_made(graph, node);
+    }
     if (graph.position(id) > longest_shown) return "a long expression";
     return print_formula(graph.program(), graph.program().system_of(graph.stage()),
                          formula_of(graph.origin(id)->formula->nodes, graph.position(id)));

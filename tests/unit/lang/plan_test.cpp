@@ -164,6 +164,13 @@ StepPlan sided(const std::string& statements, const std::string& domain, PlanOpt
     return checked->program ? plan_step(*checked->program, 0, options) : StepPlan{};
 }
 
+TEST(Plan, ValuesBeyondABorderAreNamed) {
+    EXPECT_THAT(sided("u: x; w: y; u' = div(w * grad(u)); u.border: slope(-u)",
+                      "mask: x > 0.5; boundary: noflux", {Materialise::when_cheaper, true})
+                    .words,
+                HasSubstr("u beyond the border is computed again at 4 neighbours for grad(u)"));
+}
+
 TEST(Plan, WhatIsOpenAtSidesIsComputedThere) {
     const std::string open = "boundary: noflux; left: fixed(1)";
     const PlanOptions writing{Materialise::always, true};

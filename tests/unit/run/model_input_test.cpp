@@ -52,12 +52,15 @@ TEST(ModelInput, SettingsOfPlanesAreRefused) {
               std::string::npos);
 }
 
-TEST(ModelInput, AMaskIsLeftAsideWhereAModelIsAskedFor) {
+TEST(ModelInput, MasksAndStencilsAreLeftAsideWhereAModelIsAskedFor) {
     Overrides overrides;
     overrides.model = "sphere";
     overrides.cells = "100";
     EXPECT_NE(messages_of("grid: 20, 20; mask: x > 5", "lap(u)", "", overrides)
                   .find("warning: a model has no mask: this is ignored"),
+              std::string::npos);
+    EXPECT_NE(messages_of("grid: 20, 20; stencil: fourth", "lap(u)", "", overrides)
+                  .find("warning: a model has no stencil: this is ignored"),
               std::string::npos);
     overrides.grid = GridSize{20, 20};
     EXPECT_NE(messages_of("grid: 20, 20", "lap(u)", "", overrides)
