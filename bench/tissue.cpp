@@ -47,7 +47,7 @@ public:
         tissue = std::make_unique<Tissue>(record, Precision::single);
         look();
         const std::vector<std::uint32_t> order = order_along_curve(seen());
-        tissue->rearrange(order, cells);
+        tissue->rearrange(order);
         look();
         lists = *find_neighbours(seen(), {}, 0.15, 1e9, team);
         links.assign({lists.ends, lists.neighbours}, tissue->layout(), Precision::single);

@@ -67,21 +67,36 @@ public:
             return most->count > 0 ? &*most : nullptr;
         }
     };
-    /// Calls `use(slice)` for each slice, row after row.
-    void for_each_slice(auto use) const {
+    std::size_t slices_of_row() const {
+        return (static_cast<std::size_t>(layout_.width) + slice_cells - 1) / slice_cells;
+    }
+    std::size_t slice_count() const {
+        return slices_of_row() * static_cast<std::size_t>(layout_.height);
+    }
+    /// The cells of a slice; slices are numbered row after row.
+    Range cells_of(std::size_t number) const {
+        const auto width = static_cast<std::size_t>(layout_.width);
+        const std::size_t column = number % slices_of_row() * slice_cells;
+        return {number / slices_of_row() * width + column, std::min(slice_cells, width - column)};
+    }
+    Slice slice(std::size_t number) const {
         constexpr auto lanes = static_cast<std::int64_t>(slice_cells);
-        for (std::int64_t row = 0; row < layout_.height; ++row) {
-            for (std::int64_t column = 0; column < layout_.width; column += lanes) {
-                Slice slice;
-                slice.first = layout_.row_start(row) + column;
-                for (std::int64_t lane = 0; lane < lanes; ++lane) {
-                    const auto k = static_cast<std::size_t>(lane);
-                    slice.links[k] = links_at(row, column + lane);
-                    slice.own[k] =
-                        layout_.row_start(row) + std::min(column + lane, layout_.width - 1);
-                }
-                use(slice);
-            }
+        const auto row = static_cast<std::int64_t>(number / slices_of_row());
+        const auto column = static_cast<std::int64_t>(number % slices_of_row()) * lanes;
+        Slice slice;
+        slice.first = layout_.row_start(row) + column;
+        for (std::int64_t lane = 0; lane < lanes; ++lane) {
+            const auto k = static_cast<std::size_t>(lane);
+            slice.links[k] = links_at(row, column + lane);
+            slice.own[k] = layout_.row_start(row) + std::min(column + lane, layout_.width - 1);
+        }
+        return slice;
+    }
+    /// Calls `use(slice)` for each of them.
+    void for_each_slice(auto use) const {
+        for (std::size_t number = 0; number < slice_count(); ++number) {
+            Slice each = slice(number);
+            use(each);
         }
     }
 
@@ -93,13 +108,14 @@ private:
 
 /// Room for the offsets of entries after the present ones.
 std::int16_t* Links::add_offsets(std::size_t entries) {
-    const std::size_t present = bases_.size() * slice_cells, all = present + entries * slice_cells;
-    if (all * sizeof(std::int16_t) > offsets_.bytes()) {
+    const std::size_t present = slices_.bases.size() * slice_cells,
+                      all = present + entries * slice_cells;
+    if (all * sizeof(std::int16_t) > slices_.offsets.bytes()) {
         AlignedArray<std::int16_t> larger(all + all / 2);
-        std::copy_n(offsets_.data(), present, larger.data());
-        offsets_ = std::move(larger);
+        std::copy_n(slices_.offsets.data(), present, larger.data());
+        slices_.offsets = std::move(larger);
     }
-    return offsets_.data() + present;
+    return slices_.offsets.data() + present;
 }
 
 /// Adds the next entry of a slice that has links left. `target(link)` is the element to which a
@@ -123,8 +139,8 @@ void Links::add_entry(auto& slice, const auto& target) {
         offsets[lane] = fits_offset(offset) ? static_cast<std::int16_t>(offset) : std::int16_t{0};
         filled |= unsigned{has_link} << lane;
     }
-    bases_.push_back(static_cast<std::int32_t>(base));
-    filled_.push_back(static_cast<std::uint16_t>(filled));
+    slices_.bases.push_back(static_cast<std::int32_t>(base));
+    slices_.filled.push_back(static_cast<std::uint16_t>(filled));
 }
 
 Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
@@ -134,7 +150,7 @@ Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precisio
     const auto target = [&](std::size_t link) {
         return std::int64_t{elements[list.neighbours[link]]};
     };
-    starts_.assign(1, 0);
+    slices_.starts.assign(1, 0);
     placing.for_each_slice([&](Placing::Slice& slice) {
         for (const Placing::Range& links : slice.links) {
             for (std::size_t k = 0; k < links.count; ++k) {
@@ -143,11 +159,11 @@ Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precisio
             }
         }
         while (slice.longest() != nullptr) add_entry(slice, target);
-        starts_.push_back(static_cast<std::uint32_t>(bases_.size()));
+        slices_.starts.push_back(static_cast<std::uint32_t>(slices_.bases.size()));
     });
     with_number(precision, [&](auto zero) {
         Weights<decltype(zero)> weights;
-        weights.laplacian = AlignedArray<decltype(zero)>(bases_.size() * slice_cells);
+        weights.laplacian = AlignedArray<decltype(zero)>(slices_.bases.size() * slice_cells);
         for_each_link(placing, [&](std::size_t at, std::size_t link) {
             weights.laplacian.data()[at] = static_cast<decltype(zero)>(list.weights[link]);
         });
@@ -172,9 +188,9 @@ void Links::add_near_slice(const auto& slice, std::span<const std::int32_t> elem
         for (std::size_t lane = 0; lane < slice_cells; ++lane) {
             filled |= unsigned{slice.links[lane].count > entry} << lane;
         }
-        filled_.push_back(static_cast<std::uint16_t>(filled));
+        slices_.filled.push_back(static_cast<std::uint16_t>(filled));
     }
-    bases_.insert(bases_.end(), entries, static_cast<std::int32_t>(slice.first));
+    slices_.bases.insert(slices_.bases.end(), entries, static_cast<std::int32_t>(slice.first));
     for (std::size_t lane = 0; lane < slice_cells; ++lane) {
         const auto& links = slice.links[lane];
         if (links.count == 0) continue;
@@ -187,55 +203,90 @@ void Links::add_near_slice(const auto& slice, std::span<const std::int32_t> elem
 
 // Nearly all slices lead near. Their links fill each lane from the first entry on, so they are
 // placed lane by lane.
-void Links::assign(const PlacedLinks& links, const PlaneLayout& layout, Precision precision) {
-    CHECK(!links.ends.empty(), "links lead from at least one cell");
-    with_number(precision, [&](auto zero) { weights_ = Weights<decltype(zero)>(); });
-    if (offsets_.is_shared()) offsets_ = {};
-    bases_.clear();
-    filled_.clear();
-    starts_.assign(1, 0);
-    reach_ = 1;
+void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& layout,
+                      std::vector<std::int32_t>& elements) {
     const double row_of_cell = 1 / static_cast<double>(layout.width);
     const auto beside_row = static_cast<std::int32_t>(layout.stride - layout.width);
-    std::vector<std::int32_t> elements;
+    const std::size_t first = slice.links[0].first;
+    std::size_t end = first;
+    for (const Placing::Range& range : slice.links) end = std::max(end, range.first + range.count);
+    elements.resize(end - first);
+    auto least = static_cast<std::int32_t>(slice.first), most = least;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+        const auto cell = static_cast<std::int32_t>(links.neighbours[first + k]);
+        // Exact: half a cell is far more than the product's error.
+        const auto row = static_cast<std::int32_t>((cell + 0.5) * row_of_cell);
+        elements[k] = cell + row * beside_row;
+        least = std::min(least, elements[k]);
+        most = std::max(most, elements[k]);
+    }
+    const std::int64_t row = slice.first / layout.stride;
+    reach_ = std::max({reach_, row - least / layout.stride, most / layout.stride - row});
+    if (fits_offset(least - slice.first) && fits_offset(most - slice.first)) {
+        add_near_slice(slice, elements);
+    } else {
+        while (slice.longest() != nullptr) {
+            add_entry(slice,
+                      [&](std::size_t link) { return std::int64_t{elements[link - first]}; });
+        }
+    }
+    slices_.starts.push_back(static_cast<std::uint32_t>(slices_.bases.size()));
+}
+
+/// Adds these slices as they were.
+void Links::copy_slices(const Slices& from, std::size_t first, std::size_t end) {
+    const std::uint32_t begin = from.starts[first], count = from.starts[end] - begin;
+    std::copy_n(from.offsets.data() + begin * slice_cells, count * slice_cells, add_offsets(count));
+    const std::uint32_t shift = static_cast<std::uint32_t>(slices_.bases.size()) - begin;
+    slices_.bases.insert(slices_.bases.end(), from.bases.begin() + begin,
+                         from.bases.begin() + begin + count);
+    slices_.filled.insert(slices_.filled.end(), from.filled.begin() + begin,
+                          from.filled.begin() + begin + count);
+    for (std::size_t slice = first + 1; slice <= end; ++slice) {
+        slices_.starts.push_back(from.starts[slice] + shift);
+    }
+}
+
+void Links::assign(const PlacedLinks& links, const PlaneLayout& layout, Precision precision,
+                   const std::vector<bool>& changed) {
+    CHECK(!links.ends.empty(), "links lead from at least one cell");
+    CHECK(changed.empty() || slices_.cells > 0, "there is a table of which most is the same");
+    with_number(precision, [&](auto zero) { weights_ = Weights<decltype(zero)>(); });
+    if (!changed.empty()) std::swap(slices_, before_);
+    if (slices_.offsets.is_shared()) slices_.offsets = {};
+    slices_.bases.clear();
+    slices_.filled.clear();
+    slices_.starts.assign(1, 0);
+    slices_.cells = links.ends.size();
+    if (changed.empty()) reach_ = 1;
     const Placing placing(links.ends, layout, {});
-    placing.for_each_slice([&](Placing::Slice& slice) {
-        const std::size_t first = slice.links[0].first;
-        std::size_t end = first;
-        for (const Placing::Range& range : slice.links) {
-            end = std::max(end, range.first + range.count);
-        }
-        elements.resize(end - first);
-        auto least = static_cast<std::int32_t>(slice.first), most = least;
-        for (std::size_t k = 0; k < elements.size(); ++k) {
-            const auto cell = static_cast<std::int32_t>(links.neighbours[first + k]);
-            // Exact: half a cell is far more than the product's error.
-            const auto row = static_cast<std::int32_t>((cell + 0.5) * row_of_cell);
-            elements[k] = cell + row * beside_row;
-            least = std::min(least, elements[k]);
-            most = std::max(most, elements[k]);
-        }
-        const std::int64_t row = slice.first / layout.stride;
-        reach_ = std::max({reach_, row - least / layout.stride, most / layout.stride - row});
-        if (fits_offset(least - slice.first) && fits_offset(most - slice.first)) {
-            add_near_slice(slice, elements);
+    // The cells before these are no padding, neither now nor before.
+    const std::size_t whole = std::min(before_.cells, slices_.cells) - 1;
+    const auto is_kept = [&](std::size_t number) {
+        const auto [first, count] = placing.cells_of(number);
+        if (changed.empty() || first + count > whole) return false;
+        const auto begin = changed.begin() + static_cast<std::ptrdiff_t>(first);
+        return std::find(begin, begin + static_cast<std::ptrdiff_t>(count), true) ==
+               begin + static_cast<std::ptrdiff_t>(count);
+    };
+    std::vector<std::int32_t> elements;
+    for (std::size_t number = 0, end = 0; number < placing.slice_count(); number = end) {
+        while (end < placing.slice_count() && is_kept(end)) ++end;
+        if (end > number) {
+            copy_slices(before_, number, end);
         } else {
-            while (slice.longest() != nullptr) {
-                add_entry(slice,
-                          [&](std::size_t link) { return std::int64_t{elements[link - first]}; });
-            }
+            add_slice(placing.slice(end++), links, layout, elements);
         }
-        starts_.push_back(static_cast<std::uint32_t>(bases_.size()));
-    });
+    }
 }
 
 /// Calls `use(at, link)` for each link, where `at` is its place in the arrays.
 void Links::for_each_link(const Placing& placing, const auto& use) const {
     std::size_t entry = 0, slices = 0;
     placing.for_each_slice([&](Placing::Slice& slice) {
-        for (const std::size_t end = starts_[++slices]; entry < end; ++entry) {
+        for (const std::size_t end = slices_.starts[++slices]; entry < end; ++entry) {
             for (std::size_t lane = 0; lane < slice_cells; ++lane) {
-                if ((filled_[entry] >> lane & 1U) == 0) continue;
+                if ((slices_.filled[entry] >> lane & 1U) == 0) continue;
                 use(entry * slice_cells + lane, slice.links[lane].drop_first());
             }
         }
@@ -247,7 +298,7 @@ Links Links::with_gradients(std::span<const Vector3d> gradients, std::span<const
     Links links = *this;
     const auto add = [&]<typename Number>(Weights<Number>& weights) {
         for (auto& component : weights.gradients) {
-            component = AlignedArray<Number>(bases_.size() * slice_cells);
+            component = AlignedArray<Number>(slices_.bases.size() * slice_cells);
         }
         const auto put = [&](std::size_t at, std::size_t link) {
             weights.gradients[0].data()[at] = static_cast<Number>(gradients[link].x);
@@ -263,9 +314,13 @@ Links Links::with_gradients(std::span<const Vector3d> gradients, std::span<const
 template <typename Number>
 LinkTable<Number> Links::table() const {
     const auto& weights = *std::get_if<Weights<Number>>(&weights_);
-    LinkTable<Number> table{
-        starts_.data(), bases_.data(), offsets_.data(), weights.laplacian.data(), {},
-        reach_,         filled_.data()};
+    LinkTable<Number> table{slices_.starts.data(),
+                            slices_.bases.data(),
+                            slices_.offsets.data(),
+                            weights.laplacian.data(),
+                            {},
+                            reach_,
+                            slices_.filled.data()};
     for (std::size_t k = 0; k < 3; ++k) table.gradients[k] = weights.gradients[k].data();
     return table;
 }
@@ -283,7 +338,8 @@ std::size_t Links::bytes() const {
         weights_);
     const std::size_t of_entry =
         sizeof(std::int32_t) + sizeof(std::uint16_t) + slice_cells * sizeof(std::int16_t);
-    return starts_.size() * sizeof(std::uint32_t) + bases_.size() * of_entry + weights;
+    return slices_.starts.size() * sizeof(std::uint32_t) + slices_.bases.size() * of_entry +
+           weights;
 }
 
 }  // namespace cascade

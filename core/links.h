@@ -40,7 +40,7 @@ struct LinkTable {
     const Number* weights = nullptr;
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
-    std::int64_t reach = 1;  ///< The largest number of rows that a link spans; at least 1.
+    std::int64_t reach = 1;                 ///< No link spans more rows; at least 1.
     const std::uint16_t* filled = nullptr;  ///< By entry: bit k is set if lane k has a link there.
 
     /// Elements from cell (0, 0) to the neighbour to which a link leads.
@@ -97,7 +97,12 @@ public:
     /// large enough and not shared with a copy. Tables of the present ones become invalid. `ends`
     /// has at least one cell and at most those of `layout`, in which cell k is at column k mod
     /// width of row k / width; padding cells as above. Throws std::bad_alloc.
-    void assign(const PlacedLinks& links, const PlaneLayout& layout, Precision precision);
+    ///
+    /// `changed`: empty, or by cell whether its links are not those of the present table, which was
+    /// then made for the same layout and precision. Slices of cells that all have theirs are
+    /// copied.
+    void assign(const PlacedLinks& links, const PlaneLayout& layout, Precision precision,
+                const std::vector<bool>& changed = {});
 
     /// A copy with gradient weights, one for each link of the list given to the constructor; `ends`
     /// is that list's, and layout and order are the same. Throws std::bad_alloc.
@@ -120,16 +125,25 @@ private:
         std::array<AlignedArray<Number>, 3> gradients;
     };
 
+    /// What is made for each slice, one after the other.
+    struct Slices {
+        std::vector<std::uint32_t> starts;
+        std::vector<std::int32_t> bases;
+        std::vector<std::uint16_t> filled;
+        AlignedArray<std::int16_t> offsets;
+        std::size_t cells = 0;  ///< That have a list of their own.
+    };
+
+    void add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& layout,
+                   std::vector<std::int32_t>& elements);
+    void copy_slices(const Slices& from, std::size_t first, std::size_t end);
     void add_entry(auto& slice, const auto& target);
     void add_near_slice(const auto& slice, std::span<const std::int32_t> elements);
     std::int16_t* add_offsets(std::size_t entries);
     void for_each_link(const Placing& placing, const auto& use) const;
 
     std::int64_t reach_ = 1;
-    std::vector<std::uint32_t> starts_;
-    std::vector<std::int32_t> bases_;
-    std::vector<std::uint16_t> filled_;
-    AlignedArray<std::int16_t> offsets_;
+    Slices slices_, before_;  ///< The table, and the memory of the one before.
     std::variant<Weights<float>, Weights<double>> weights_;
 };
 

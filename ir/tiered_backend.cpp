@@ -3,10 +3,12 @@
 #include "ir/tiered_backend.h"
 
 #include "ir/interpreter.h"
+#include "ir/kernel_cost.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cfenv>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -22,6 +24,16 @@ namespace {
 
 /// A row costs about as much as this number of cells, in addition to its cells.
 constexpr std::int64_t cells_per_row = 64;
+
+/// The number of cells without links that take as long to interpret as one of this kernel. Its
+/// loops over links are compiled once and run for each link, which gathers values and so counts
+/// twice.
+std::int64_t weight_of(const CellKernel& kernel, Stencil stencil) {
+    constexpr double links = 12;
+    const double once = cost_of(kernel, stencil, 1).operations;
+    const double whole = cost_of(kernel, stencil, 2 * links).operations;
+    return std::max<std::int64_t>(1, std::llround(whole / std::max(once, 1.0)));
+}
 
 }  // namespace
 
@@ -74,6 +86,7 @@ public:
     TieredKernel(const CellKernel& kernel, Stencil stencil, KernelPointer interpreted,
                  std::weak_ptr<Worker> worker, bool is_wanted)
         : source_(std::make_unique<Source>(kernel, stencil)),
+          weight_(weight_of(kernel, stencil)),
           interpreted_(std::move(interpreted)),
           worker_(std::move(worker)),
           present_(interpreted_.get()),
@@ -117,7 +130,7 @@ private:
     void run_present(const KernelArgumentsOf<Number>& arguments, const Patch& cells) const {
         if (is_provisional()) {
             const std::int64_t columns = cells.columns.within(arguments.layout.width).count();
-            count((cells.rows.end - cells.rows.begin) * (columns + cells_per_row));
+            count((cells.rows.end - cells.rows.begin) * (columns * weight_ + cells_per_row));
         }
         present_.load(std::memory_order_acquire)->run(arguments, cells);
     }
@@ -134,6 +147,7 @@ private:
     }
 
     std::unique_ptr<Source> source_;  ///< Until it is compiled.
+    std::int64_t weight_;
     KernelPointer interpreted_, native_;
     std::optional<Failure> refusal_;
     std::weak_ptr<Worker> worker_;

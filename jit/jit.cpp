@@ -79,8 +79,8 @@ private:
                     ColumnRange columns) const {
         const PlaneLayout& layout = arguments.layout;
         const LinkTable<Number>& links = arguments.links;
-        CHECK(columns.begin == 0 && columns.end == layout.width,
-              "linked cells are computed in whole rows");
+        CHECK(columns.begin % LinkTable<Number>::slice_cells == 0,
+              "linked cells are computed in whole slices");
         CHECK(!reads_links_ || links.starts, "a kernel that reduces links is given them");
         CHECK(!reads_weights_ || links.weights, "and weights, where it asks for them");
         CHECK(!has_gradients_ || links.gradients[2], "and gradients, where it asks for them");
@@ -99,14 +99,33 @@ private:
         static thread_local AlignedArray<Number> pairs;
         for (RowRange part{rows.begin, 0}; part.begin < rows.end; part.begin = part.end) {
             part.end = std::min(part.begin + height, rows.end);
-            const RowRange copied{std::max<std::int64_t>(0, part.begin - links.reach),
-                                  std::min(part.end + links.reach, layout.height)};
+            const RowRange copied =
+                part.end - part.begin == 1
+                    ? rows_around(links, layout, part.begin, columns)
+                    : RowRange{std::max<std::int64_t>(0, part.begin - links.reach),
+                               std::min(part.end + links.reach, layout.height)};
             const std::size_t numbers = 2 * pairs_ *
                                         static_cast<std::size_t>(copied.end - copied.begin) *
                                         static_cast<std::size_t>(layout.stride);
             if (pairs.bytes() < numbers * sizeof(Number)) pairs = AlignedArray<Number>(numbers);
             run(part, pairs.data(), copied);
         }
+    }
+
+    /// The rows to which links lead from these cells of a row, and that row.
+    static RowRange rows_around(const LinkTable<Number>& links, const PlaneLayout& layout,
+                                std::int64_t row, ColumnRange columns) {
+        constexpr std::int64_t lanes = LinkTable<Number>::slice_cells;
+        const std::int64_t slices = (layout.width + lanes - 1) / lanes;
+        const std::int64_t first = row * slices + columns.begin / lanes;
+        const std::int64_t last = row * slices + (columns.end - 1) / lanes;
+        std::int64_t least = layout.row_start(row), most = least;
+        for (std::int64_t link = lanes * links.starts[first]; link < lanes * links.starts[last + 1];
+             ++link) {
+            least = std::min(least, links.target(link));
+            most = std::max(most, links.target(link));
+        }
+        return {least / layout.stride, most / layout.stride + 1};
     }
 
     Stencil stencil_;

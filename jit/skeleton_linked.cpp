@@ -67,9 +67,9 @@ Value* LinkedSources::start_of(Value* slice) {
 void LinkedSources::find_links() {
     if (first_) return;
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
+    // The stride is that of whole slices and of padding as wide as one on each side.
     Value* slices =
-        builder_.CreateUDiv(builder_.CreateAdd(frame_.column_end(), count(links_of_entry - 1)),
-                            count(links_of_entry));
+        builder_.CreateSub(builder_.CreateUDiv(frame_.stride(), count(links_of_entry)), count(2));
     Value* column = builder_.CreateSub(element_, vector_.row_start);
     Value* slice = builder_.CreateAdd(builder_.CreateMul(vector_.row, slices),
                                       builder_.CreateUDiv(column, count(links_of_entry)));

@@ -107,6 +107,8 @@ struct StepProblem {
         std::optional<SweepFilter> filter;      ///< Done after them, before the kernel is run.
         KernelPointer kernel;
         std::vector<PlaneRef> fields;  ///< By field slot of the kernel.
+        /// By field slot: is it read in the cells to which links lead? Empty: all may be.
+        std::vector<bool> read_by_links;
         std::vector<const std::uint8_t*> masks;
         std::vector<double> uniforms;  ///< Rounded in single precision.
         std::vector<ChangingUniform> changing;

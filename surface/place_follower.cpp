@@ -170,6 +170,61 @@ PlaceFollower::Found PlaceFollower::found(const Near& near, Vector3d point) cons
     return result;
 }
 
+void PlaceFollower::stay(std::span<const Vector3d> points, std::span<const std::uint32_t> from,
+                         AllOver& all) const {
+    constexpr std::size_t most = AllOver::most;
+    using Numbers = AllOver::Numbers;
+    std::array<Numbers, 3> at, second, third, heights;
+    for (std::size_t k = 0; k < most; ++k) {
+        // Lanes without a point compute with the first one.
+        const std::size_t n = k < points.size() ? k : 0;
+        const std::uint32_t triangle = from[n] < triangles_.size() ? from[n] : 0;
+        const Inside& inside = insides_.data()[triangle];
+        const auto put = [k](std::array<Numbers, 3>& to, Vector3d v) {
+            to[0][k] = v.x;
+            to[1][k] = v.y;
+            to[2][k] = v.z;
+        };
+        put(at, points[n] - inside.corner);
+        put(second, inside.of_second);
+        put(third, inside.of_third);
+        put(all.normals, inside.normal);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            heights[corner][k] = double{inside.heights[corner]};
+        }
+        all.triangles[k] = triangle;
+    }
+    Numbers to_edge;
+    for (std::size_t k = 0; k < most; ++k) {
+        const auto dot_with_at = [&](const std::array<Numbers, 3>& v) {
+            return v[0][k] * at[0][k] + v[1][k] * at[1][k] + v[2][k] * at[2][k];
+        };
+        all.weights[1][k] = dot_with_at(second);
+        all.weights[2][k] = dot_with_at(third);
+        all.weights[0][k] = 1 - all.weights[1][k] - all.weights[2][k];
+        all.heights[k] = dot_with_at(all.normals);
+        to_edge[k] = Inside::to_edge({heights[0][k], heights[1][k], heights[2][k]},
+                                     {all.weights[0][k], all.weights[1][k], all.weights[2][k]});
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Inside& inside = insides_.data()[all.triangles[k]];
+        all.is_over[k] =
+            from[k] < triangles_.size() && inside.is_nearest(all.heights[k], to_edge[k]);
+        if (all.is_over[k]) continue;
+        const std::optional<Over> over = stay(points[k], from[k]);
+        if (!over) continue;
+        all.is_over[k] = true;
+        all.triangles[k] = over->triangle;
+        all.heights[k] = over->height;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            all.weights[corner][k] = over->weights[corner];
+        }
+        all.normals[0][k] = over->normal.x;
+        all.normals[1][k] = over->normal.y;
+        all.normals[2][k] = over->normal.z;
+    }
+}
+
 std::optional<PlaceFollower::Found> PlaceFollower::find(Vector3d point, std::uint32_t from) const {
     if (!is_finite(point)) return std::nullopt;
     if (from < triangles_.size()) {

@@ -65,6 +65,20 @@ public:
         return std::nullopt;
     }
 
+    /// What stay() finds for several points, side by side so that compilers compute vectors of
+    /// them.
+    struct AllOver {
+        static constexpr std::size_t most = 8;
+        using Numbers = std::array<double, most>;
+        std::array<Numbers, 3> weights, normals;  ///< By corner and by component.
+        Numbers heights;
+        std::array<std::uint32_t, most> triangles;
+        std::array<bool, most> is_over{};  ///< Else nothing was found.
+    };
+    /// At most as many points as AllOver has room for.
+    void stay(std::span<const Vector3d> points, std::span<const std::uint32_t> from,
+              AllOver& all) const;
+
 private:
     static constexpr int most_moves_of_stay = 2;
     static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -95,12 +109,23 @@ private:
         /// towards the point more slowly than a ball around it that touches this one. Very near to
         /// an edge, rounding could decide, and the answer is no.
         bool is_nearest(const Over& over) const {
-            constexpr double edge = 1e-9, rounding = 1 - 1e-6;
-            const double to_edge = std::min({double{heights[0]} * (over.weights[0] - edge),
-                                             double{heights[1]} * (over.weights[1] - edge),
-                                             double{heights[2]} * (over.weights[2] - edge)});
-            const double steep = double{steepness[over.height < 0 ? 1 : 0]};
-            return steep * std::abs(over.height) < to_edge * rounding;
+            return is_nearest(over.height,
+                              to_edge({double{heights[0]}, double{heights[1]}, double{heights[2]}},
+                                      over.weights));
+        }
+        bool is_nearest(double height, double to_edge) const {
+            constexpr double rounding = 1 - 1e-6;
+            const double steep = double{steepness[height < 0 ? 1 : 0]};
+            return steep * std::abs(height) < to_edge * rounding;
+        }
+        /// A little less than how far a point with these weights is within the nearest edge.
+        static double to_edge(const std::array<double, 3>& heights,
+                              const std::array<double, 3>& weights) {
+            constexpr double edge = 1e-9;
+            const double first = heights[0] * (weights[0] - edge);
+            const double second = heights[1] * (weights[1] - edge);
+            const double third = heights[2] * (weights[2] - edge);
+            return std::min(std::min(first, second), third);
         }
     };
     struct Triangle {

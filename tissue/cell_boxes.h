@@ -81,6 +81,12 @@ public:
         }
         count_ = kept;
     }
+    /// Cells may have other ranks now.
+    void rank(std::span<const std::uint32_t> ranks) {
+        for (std::size_t k = 0; k < count_; ++k) {
+            ranks_[k] = static_cast<std::int32_t>(ranks[cells_[k]]);
+        }
+    }
     std::span<const std::uint32_t> cells() const { return {cells_.data(), count_}; }
     std::size_t count() const { return count_; }
 

@@ -65,7 +65,7 @@ bool CellLists::wants_order(const Tissue& tissue) const {
 
 void CellLists::put_in_order(Tissue& tissue) {
     read(tissue, tissue.species);
-    tissue.rearrange(order_along_curve({places_, radii_, tissue.ranks()}), tissue.count());
+    tissue.rearrange(order_along_curve({places_, radii_, tissue.ranks()}));
     is_disordered_ = false;
     is_just_ordered_ = true;
 }
@@ -76,6 +76,13 @@ bool CellLists::reach(const Tissue& tissue, const std::vector<Field>& state, dou
         all = all && watch_->reaches(cell, place, radius, around);
     });
     return all;
+}
+
+bool CellLists::reach(const Tissue& tissue, std::span<const std::uint32_t> cells) const {
+    return std::all_of(cells.begin(), cells.end(), [&](std::uint32_t cell) {
+        return watch_->reaches(cell, place_of(tissue, species_, cell),
+                               tissue.value(species_.radius, cell), 0);
+    });
 }
 
 void CellLists::end_step(Tissue& tissue) {
@@ -109,7 +116,7 @@ Result<void> CellLists::build(const Tissue& tissue, const std::vector<Field>& st
     if (!lists) return tl::unexpected(lists.error());
     kept_.start(std::move(*lists), std::move(search));
     watch_->begin_lists(places_, radii_, rule_, skins_);
-    take(tissue);
+    take(tissue, {});
     ++builds_;
     return {};
 }
@@ -133,10 +140,11 @@ Result<void> CellLists::renew(const Tissue& tissue, std::span<const std::uint32_
     if (!is_small_enough || !kept_.renew(marks, tissue.ranks(), most_links())) {
         return build(tissue, tissue.species, false);
     }
+    watch_->resize(tissue.count());
     for (const std::uint32_t cell : cells) {
         watch_->renew(cell, places_[cell], radii_[cell], rule_, double{skins_[cell]});
     }
-    take(tissue);
+    take(tissue, kept_.changed());
     return {};
 }
 
@@ -154,15 +162,17 @@ Result<void> CellLists::renew_restless(const Tissue& tissue) {
     return renew(tissue, restless);
 }
 
-/// Makes the table of links that kernels read.
-void CellLists::take(const Tissue& tissue) {
+/// Makes the table of links that kernels read. `changed`: see Links::assign().
+void CellLists::take(const Tissue& tissue, const std::vector<bool>& changed) {
     const NeighbourLists& lists = kept_.lists();
     const double far_part = static_cast<double>(lists.far_links) /
                             static_cast<double>(std::max<std::size_t>(1, lists.neighbours.size()));
     if (is_just_ordered_) far_part_ = far_part;
     is_just_ordered_ = false;
     is_disordered_ = far_part > far_part_ + far_part_to_order;
-    links_.assign({lists.ends, lists.neighbours}, tissue.layout(), tissue.precision());
+    const bool is_same = std::exchange(layout_, tissue.layout()) == tissue.layout();
+    links_.assign({lists.ends, lists.neighbours}, tissue.layout(), tissue.precision(),
+                  is_same ? changed : std::vector<bool>());
 }
 
 }  // namespace cascade

@@ -26,13 +26,16 @@ public:
     /// that they last for every step that is not too long. Throws std::bad_alloc.
     Result<void> build(const Tissue& tissue, const std::vector<Field>& state, bool is_full);
     /// Finds the lists of these cells anew, which are new or elsewhere. No other cell has moved in
-    /// memory, changed from outside or gone since lists were found. Throws std::bad_alloc.
+    /// memory or changed from outside since lists were found, but cells may have gone of which none
+    /// of the others has the place. Throws std::bad_alloc.
     Result<void> renew(const Tissue& tissue, std::span<const std::uint32_t> cells);
     /// The same for cells that will leave their lists in the next step if they go on as in the last
     /// one.
     Result<void> renew_restless(const Tissue& tissue);
     /// Do the lists hold for all cells in this state, and for some way around their places?
     bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
+    /// Do they hold for these cells at the present?
+    bool reach(const Tissue& tissue, std::span<const std::uint32_t> cells) const;
     /// Do enough links lead far away in memory for another order to save time? True before
     /// the first lists of a large tissue.
     bool wants_order(const Tissue& tissue) const;
@@ -51,7 +54,7 @@ public:
 
 private:
     void read(const Tissue& tissue, const std::vector<Field>& state);
-    void take(const Tissue& tissue);
+    void take(const Tissue& tissue, const std::vector<bool>& changed);
     double most_links() const;
     double skin_of(const Tissue& tissue, std::size_t cell, double least) const;
 
@@ -64,6 +67,7 @@ private:
     std::vector<float> skins_;
     KeptLists kept_;
     Links links_;
+    PlaneLayout layout_;  ///< Of the links.
     std::shared_ptr<MovementWatch> watch_ = std::make_shared<MovementWatch>();
     double far_part_ = 0;  ///< Of the links, when cells were last put in order.
     bool is_disordered_ = true, is_just_ordered_ = false;

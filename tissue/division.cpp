@@ -1,6 +1,9 @@
 // Rearranges the tissue once for all events of a moment, then sets the new places.
 #include "tissue/division.h"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -14,34 +17,62 @@ void put(Tissue& tissue, const DivisionPlaces& places, std::size_t cell, Vector3
     tissue.set(places.species.place + 2, cell, held.z);
 }
 
+/// Where cells are in memory after some have divided and others have died. New cells and the last
+/// ones take the places of those that have died, so that few cells are elsewhere.
+struct NewPlaces {
+    NewPlaces(std::size_t count, std::span<const CellEvent> events) : places(count) {
+        std::iota(places.begin(), places.end(), std::uint32_t{0});
+        sources = places;
+        std::vector<std::uint32_t> free;
+        for (const CellEvent& event : events) {
+            (event.dies ? free : dividing).push_back(event.cell);
+        }
+        std::sort(free.rbegin(), free.rend());
+        for (const std::uint32_t mother : dividing) {
+            if (free.empty()) {
+                children.push_back(static_cast<std::uint32_t>(sources.size()));
+                sources.push_back(mother);
+            } else {
+                children.push_back(free.back());
+                sources[free.back()] = mother;
+                free.pop_back();
+            }
+        }
+        // The largest is first.
+        for (std::size_t largest = 0; largest < free.size();) {
+            const auto last = static_cast<std::uint32_t>(sources.size() - 1);
+            if (free[largest] == last) {
+                ++largest;
+            } else {
+                places[last] = free.back();
+                sources[free.back()] = last;
+                moved.push_back(free.back());
+                free.pop_back();
+            }
+            sources.pop_back();
+        }
+    }
+
+    std::vector<std::uint32_t> places;    ///< By old place, of cells that have not died.
+    std::vector<std::uint32_t> sources;   ///< By new place: the old one, of new cells the mother's.
+    std::vector<std::uint32_t> dividing;  ///< Old places, in the order of the events.
+    std::vector<std::uint32_t> children;  ///< New places in this order.
+    std::vector<std::uint32_t> moved;     ///< New places of other cells.
+};
+
 }  // namespace
 
 Divided divide(Tissue& tissue, std::span<const CellEvent> events,
                std::span<const Vector3d> directions, const DivisionPlaces& places) {
-    std::vector<bool> dies(tissue.count(), false);
-    std::vector<std::uint32_t> dividing;
-    for (const CellEvent& event : events) {
-        if (event.dies) {
-            dies[event.cell] = true;
-        } else {
-            dividing.push_back(event.cell);
-        }
-    }
-    std::vector<std::uint32_t> sources, new_place(tissue.count());
-    for (std::uint32_t cell = 0; cell < tissue.count(); ++cell) {
-        new_place[cell] = static_cast<std::uint32_t>(sources.size());
-        if (!dies[cell]) sources.push_back(cell);
-    }
-    const std::size_t survivors = sources.size();
-    sources.insert(sources.end(), dividing.begin(), dividing.end());
-
+    NewPlaces cells(tissue.count(), events);
+    const std::vector<std::uint32_t>& dividing = cells.dividing;
     Divided result;
-    result.has_moved = tissue.rearrange(sources, survivors);
+    result.has_moved = tissue.rearrange(cells.sources, cells.children);
+    result.moved = std::move(cells.moved);
     tissue.births += static_cast<std::int64_t>(dividing.size());
     tissue.deaths += static_cast<std::int64_t>(events.size() - dividing.size());
     for (std::size_t n = 0; n < dividing.size(); ++n) {
-        const std::uint32_t mother = new_place[dividing[n]];
-        const auto child = static_cast<std::uint32_t>(survivors + n);
+        const std::uint32_t mother = cells.places[dividing[n]], child = cells.children[n];
         const Vector3d place = place_of(tissue, places.species, mother);
         Vector3d along = n < directions.size() ? unit(directions[n]) : Vector3d{};
         if (!is_finite(along) || length(along) < 0.5) {

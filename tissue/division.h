@@ -34,6 +34,7 @@ struct Divided {
     bool has_moved = false;               ///< The layout of the planes has changed.
     std::vector<std::uint32_t> children;  ///< In the order of their mothers' numbers,
     std::vector<std::uint32_t> mothers;   ///< which are these.
+    std::vector<std::uint32_t> moved;     ///< Others that are elsewhere in memory.
 };
 
 /// Lets cells divide and die, which are given in the order of their numbers. A new cell has all

@@ -76,15 +76,16 @@ std::optional<TissueFailure> EventRounds::one_round(std::span<const CellEvent> e
     std::vector<CellEvent> dividing;
     std::copy_if(events.begin(), events.end(), std::back_inserter(dividing),
                  [](const CellEvent& event) { return !event.dies; });
-    // Where cells have gone, all are elsewhere in memory.
-    const bool has_deaths = dividing.size() < events.size();
-    auto built = stepper_.cells_changed(divided.has_moved,
-                                        has_deaths ? std::span<const std::uint32_t>() : changed_);
+    std::vector<std::uint32_t> elsewhere = changed_;
+    elsewhere.insert(elsewhere.end(), divided.moved.begin(), divided.moved.end());
+    auto built = stepper_.cells_changed(divided.has_moved, elsewhere);
+    if (built) built = stepper_.reach(tissue_.species);
+    // From here on only these cells change.
     if (built && !dividing.empty()) {
         restart(dividing, divided);
         built = carry(dividing, divided);
     }
-    if (built) built = stepper_.reach(tissue_.species);
+    if (built) built = stepper_.reach(changed_);
     if (built) return find_not_finite(tissue_);
     TissueFailure failure = failure_of(TissueFailure::Kind::too_many_neighbours, tissue_);
     failure.refusal = built.error();
@@ -95,12 +96,15 @@ std::vector<Vector3d> EventRounds::directions(std::span<const CellEvent> events)
     std::vector<Vector3d> result;
     const CellValues along = rules_.along();
     if (along.problem == nullptr) return result;
-    const std::vector<Field>& values = run(along);
+    std::vector<std::uint32_t> cells;
     for (const CellEvent& event : events) {
-        if (event.dies) continue;
-        result.push_back({value_in(values[0], tissue_, event.cell),
-                          value_in(values[1], tissue_, event.cell),
-                          value_in(values[2], tissue_, event.cell)});
+        if (!event.dies) cells.push_back(event.cell);
+    }
+    if (cells.empty()) return result;
+    const std::vector<Field>& values = run(along, cells);
+    for (const std::uint32_t cell : cells) {
+        result.push_back({value_in(values[0], tissue_, cell), value_in(values[1], tissue_, cell),
+                          value_in(values[2], tissue_, cell)});
     }
     return result;
 }
@@ -124,7 +128,7 @@ void EventRounds::restart(std::span<const CellEvent> dividing, const Divided& di
         tissue_.set(k, cell, value);
     });
     tissue_.pad();
-    const std::vector<Field>& values = run(restarts.values);
+    const std::vector<Field>& values = run(restarts.values, changed_);
     std::size_t next = 0;
     each_late_value(
         [&](std::size_t k, std::uint32_t cell, double) { tissue_.set(k, cell, at_end[next++]); });
@@ -172,7 +176,7 @@ Result<void> EventRounds::carry(std::span<const CellEvent> dividing, const Divid
     if (values.empty()) return {};
     const double steps = std::max(1.0, std::ceil(most * tissue_.time.stiffness / 2));
     for (int half_step = 0; half_step < 2 * steps; ++half_step) {
-        if (auto reached = stepper_.reach(tissue_.species); !reached) return reached;
+        if (auto reached = stepper_.reach(cells); !reached) return reached;
         const std::vector<Field>& rates = run(rules_.rates(), cells);
         for (Value& each : values) {
             const double rate =

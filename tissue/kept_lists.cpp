@@ -3,6 +3,7 @@
 #include "tissue/kept_lists.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace cascade {
 namespace {
@@ -11,6 +12,11 @@ namespace {
 constexpr std::size_t cells_of_a_renewed = 8;
 /// Fewer cells are looked at one by one.
 constexpr std::size_t few_cells = 32;
+
+std::size_t far_links(std::uint32_t cell, std::span<const std::uint32_t> list) {
+    return static_cast<std::size_t>(std::count_if(
+        list.begin(), list.end(), [&](std::uint32_t other) { return is_far_link(cell, other); }));
+}
 
 }  // namespace
 
@@ -31,51 +37,71 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     // Enough room for all cells to be neighbours of those.
     const auto links = static_cast<double>(lists_.neighbours.size());
     if (links + 2.0 * static_cast<double>(cells.size() * ranks.size()) > most_links) return false;
-    slots_.resize(ranks.size(), no_slot);
+    slots_.resize(std::max(slots_.size(), ranks.size()), no_slot);
+    const auto count = static_cast<std::uint32_t>(ranks.size());
+    for (std::uint32_t cell = count; cell < lists_.ends.size(); ++cell) forget(cell);
     for (const BoxedCell& cell : cells) {
-        if (is_renewed(cell.cell)) {
-            renewed_[slots_[cell.cell]] = cell;
+        std::uint32_t& slot = slots_[cell.cell];
+        if (slot != no_slot && slot != gone) {
+            renewed_[slot] = cell;
         } else {
-            slots_[cell.cell] = static_cast<std::uint32_t>(renewed_.size());
+            slot = static_cast<std::uint32_t>(renewed_.size());
             renewed_.push_back(cell);
         }
     }
     new_lists_.clear();
-    for (const BoxedCell& cell : cells) find(cell);
-    note_links(cells);
+    for (const BoxedCell& cell : cells) find(cell, ranks);
+    note_links(cells, count);
     merge(ranks);
     return true;
 }
 
+/// There is no cell in this place any more.
+void KeptLists::forget(std::uint32_t cell) {
+    const std::uint32_t slot = std::exchange(slots_[cell], gone);
+    if (slot == no_slot || slot == gone) return;
+    renewed_[slot] = renewed_.back();
+    renewed_.pop_back();
+    if (slot < renewed_.size()) slots_[renewed_[slot].cell] = slot;
+}
+
 /// Adds the new list of a cell.
-void KeptLists::find(const BoxedCell& cell) {
+void KeptLists::find(const BoxedCell& cell, std::span<const std::uint32_t> ranks) {
     found_.clear();
     search_.find_all(cell, found_);
     found_.leave_out([this](std::uint32_t other) { return is_renewed(other); });
+    found_.rank(ranks);
     const bool is_periodic = repeats(search_.rule());
     for (const BoxedCell& other : renewed_) {
         const bool is_near = is_periodic ? are_near<true>(cell, other, search_.rule())
                                          : are_near<false>(cell, other, search_.rule());
-        if (is_near && other.cell != cell.cell) found_.add(other.cell, other.rank);
+        if (is_near && other.cell != cell.cell) found_.add(other.cell, ranks[other.cell]);
     }
     const std::span<const std::uint32_t> sorted = found_.sorted();
     new_lists_.emplace_back(sorted.begin(), sorted.end());
 }
 
-/// Finds which lists change.
-void KeptLists::note_links(std::span<const BoxedCell> cells) {
+/// Finds which lists change, of `count` cells.
+void KeptLists::note_links(std::span<const BoxedCell> cells, std::uint32_t count) {
     kinds_.assign(slots_.size(), Kind::kept);
     list_numbers_.resize(slots_.size());
     for (std::uint32_t k = 0; k < cells.size(); ++k) {
         kinds_[cells[k].cell] = Kind::renewed;
         list_numbers_[cells[k].cell] = k;
     }
-    added_.clear();
-    for (std::uint32_t k = 0; k < cells.size(); ++k) {
-        const std::uint32_t cell = cells[k].cell;
+    const auto touch = [&](std::uint32_t cell) {
         for (const std::uint32_t other : list_of(cell)) {
             if (kinds_[other] == Kind::kept) kinds_[other] = Kind::touched;
         }
+    };
+    for (std::uint32_t cell = count; cell < kinds_.size(); ++cell) {
+        kinds_[cell] = Kind::gone;
+        touch(cell);
+    }
+    added_.clear();
+    for (std::uint32_t k = 0; k < cells.size(); ++k) {
+        const std::uint32_t cell = cells[k].cell;
+        touch(cell);
         for (const std::uint32_t other : new_lists_[k]) {
             if (kinds_[other] == Kind::renewed) continue;
             kinds_[other] = Kind::touched;
@@ -99,6 +125,9 @@ void KeptLists::merge(std::span<const std::uint32_t> ranks) {
     next_.neighbours.reserve(lists_.neighbours.size() + 2 * added_.size());
     next_.far_links = lists_.far_links;
     const auto count = static_cast<std::uint32_t>(ranks.size());
+    for (std::uint32_t cell = count; cell < lists_.ends.size(); ++cell) {
+        next_.far_links -= far_links(cell, list_of(cell));
+    }
     std::size_t next_added = 0;
     std::vector<std::uint32_t> merged;
     for (std::uint32_t cell = 0; cell < count; ++cell) {
@@ -111,7 +140,7 @@ void KeptLists::merge(std::span<const std::uint32_t> ranks) {
         } else {
             merged.clear();
             for (const std::uint32_t other : list_of(cell)) {
-                if (kinds_[other] != Kind::renewed) merged.push_back(other);
+                if (kinds_[other] <= Kind::touched) merged.push_back(other);
             }
             for (; next_added < added_.size() && added_[next_added].first == cell; ++next_added) {
                 merged.push_back(added_[next_added].second);
@@ -122,6 +151,14 @@ void KeptLists::merge(std::span<const std::uint32_t> ranks) {
         }
     }
     std::swap(lists_, next_);
+}
+
+std::vector<bool> KeptLists::changed() const {
+    std::vector<bool> result(lists_.ends.size());
+    for (std::size_t cell = 0; cell < result.size(); ++cell) {
+        result[cell] = kinds_[cell] != Kind::kept;
+    }
+    return result;
 }
 
 /// The lists of these cells, as they are.
@@ -135,13 +172,8 @@ void KeptLists::copy(std::uint32_t first, std::uint32_t last) {
 
 /// A list that replaces the one of a cell.
 void KeptLists::write(std::uint32_t cell, std::span<const std::uint32_t> neighbours) {
-    const auto far_links = [&](std::span<const std::uint32_t> list) {
-        return static_cast<std::size_t>(
-            std::count_if(list.begin(), list.end(),
-                          [&](std::uint32_t other) { return is_far_link(cell, other); }));
-    };
-    next_.far_links += far_links(neighbours);
-    next_.far_links -= far_links(list_of(cell));
+    next_.far_links += far_links(cell, neighbours);
+    next_.far_links -= far_links(cell, list_of(cell));
     next_.neighbours.insert(next_.neighbours.end(), neighbours.begin(), neighbours.end());
     next_.ends.push_back(next_.neighbours.size());
 }

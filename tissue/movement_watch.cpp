@@ -70,7 +70,6 @@ void MovementWatch::begin_lists(std::span<const Vector3d> places, std::span<cons
 
 void MovementWatch::renew(std::size_t cell, Vector3d place, double radius,
                           const NeighbourRule& rule, double skin) {
-    listed_.resize(std::max(listed_.size(), cell + 1));
     listed_[cell] = {place, radius, limit_of(rule, part_for_rounding * skin, radius)};
 }
 

@@ -31,6 +31,8 @@ public:
     /// The list of one cell, which may be a new one, has been found again at this place.
     void renew(std::size_t cell, Vector3d place, double radius, const NeighbourRule& rule,
                double skin);
+    /// There are so many cells now.
+    void resize(std::size_t cells) { listed_.resize(cells); }
     /// A step begins at these places.
     void begin_step(std::span<const Vector3d> places, std::span<const double> radii,
                     const NeighbourRule& rule);

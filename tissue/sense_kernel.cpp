@@ -1,26 +1,30 @@
 // Writes what cells sense, cell by cell.
 #include "tissue/sense_kernel.h"
 
+#include "core/links.h"
 #include "surface/place_values.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 namespace cascade {
 namespace {
 
-/// How far ahead of the present cell, in cells, data is brought to the cache.
-constexpr std::int64_t ahead = 6;
-
 class SenseKernel : public Kernel {
 public:
     SenseKernel(std::shared_ptr<const Surroundings> surroundings, std::vector<Sense> senses,
-                std::shared_ptr<NearTriangles> triangles)
+                std::shared_ptr<NearTriangles> triangles, std::int64_t kept)
         : surroundings_(std::move(surroundings)),
           senses_(std::move(senses)),
-          triangles_(std::move(triangles)) {}
+          triangles_(std::move(triangles)),
+          kept_count_(kept),
+          kept_size_(key_size + senses_.size()),
+          kept_(static_cast<std::size_t>(kept) * kept_size_) {
+        std::fill_n(kept_.data(), static_cast<std::size_t>(kept) * kept_size_, NAN);
+    }
 
     void run(const KernelArgumentsOf<float>& arguments, const Patch& cells) const override {
         sense(arguments, cells);
@@ -30,45 +34,88 @@ public:
     }
 
 private:
+    /// Cells whose places are looked for together: of one row, so that one thread has them.
+    static constexpr std::int64_t cells_at_once = 16;
+
     template <typename Number>
     void sense(const KernelArgumentsOf<Number>& arguments, const Patch& cells) const {
-        const PlaneLayout& layout = arguments.layout;
-        const auto count = static_cast<std::int64_t>(triangles_->before.size());
+        const ColumnRange columns = cells.columns.within(arguments.layout.width);
+        std::vector<double> of_others(cells_at_once * kept_size_, NAN);
         for (std::int64_t row = cells.rows.begin; row < cells.rows.end; ++row) {
-            for (std::int64_t column = 0; column < layout.width; ++column) {
-                const std::int64_t place = row * layout.width + column;
-                const auto cell = static_cast<std::size_t>(std::min(place, count - 1));
-                if (place + ahead < count) {
-                    surroundings_->prepare(
-                        triangles_->before[static_cast<std::size_t>(place + ahead)]);
-                }
-                const std::int64_t at = layout.row_start(row) + column;
-                const Vector3d point = {arguments.fields[0][at], arguments.fields[1][at],
-                                        arguments.fields[2][at]};
-                NearPlace other;
-                const NearPlace& near = find(point, cell, place < count, other);
-                if (place < count) triangles_->now[cell] = near.place.triangle;
-                for (std::size_t k = 0; k < senses_.size(); ++k) {
-                    arguments.results[k][at] = static_cast<Number>(value_of(senses_[k], near));
-                }
+            for (std::int64_t first = columns.begin; first < columns.end; first += cells_at_once) {
+                sense_some(arguments, row, {first, std::min(first + cells_at_once, columns.end)},
+                           of_others.data());
             }
         }
     }
 
-    /// `is_own`: the place is that of the cell, not one after the last cell, for which `other` is
-    /// used.
-    const NearPlace& find(Vector3d point, std::size_t cell, bool is_own, NearPlace& other) const {
-        const std::uint32_t from = triangles_->before[cell];
-        if (!is_own || triangles_->found.empty()) {
-            return other = surroundings_->near(point, from);
+    template <typename Number>
+    void sense_some(const KernelArgumentsOf<Number>& arguments, std::int64_t row,
+                    ColumnRange columns, double* of_others) const {
+        const PlaneLayout& layout = arguments.layout;
+        const auto count = static_cast<std::int64_t>(triangles_->before.size());
+        std::array<double*, cells_at_once> sensed, unknown;
+        std::array<Vector3d, cells_at_once> points;
+        std::array<std::uint32_t, cells_at_once> from;
+        std::array<NearPlace, cells_at_once> near;
+        std::size_t looked_for = 0;
+        for (std::int64_t column = columns.begin; column < columns.end; ++column) {
+            const std::int64_t place = row * layout.width + column;
+            const auto cell = static_cast<std::size_t>(std::min(place, count - 1));
+            if (place + cells_at_once < count) {
+                surroundings_->prepare(
+                    triangles_->before[static_cast<std::size_t>(place + cells_at_once)]);
+            }
+            const auto lane = static_cast<std::size_t>(column - columns.begin);
+            const bool is_kept = place < std::min(count, kept_count_);
+            double* const own =
+                is_kept ? kept_.data() + cell * kept_size_ : of_others + lane * kept_size_;
+            const std::int64_t at = layout.row_start(row) + column;
+            const Vector3d point = {arguments.fields[0][at], arguments.fields[1][at],
+                                    arguments.fields[2][at]};
+            sensed[lane] = own;
+            const std::uint32_t triangle = triangles_->before[cell];
+            const bool is_known =
+                Vector3d{own[0], own[1], own[2]} == point && triangles_of(own).from == triangle;
+            if (is_known) continue;
+            points[looked_for] = point;
+            from[looked_for] = triangle;
+            unknown[looked_for++] = own;
         }
-        NearTriangles::Found& found = triangles_->found[cell];
-        if (found.point != point || found.from != from) {
-            found.point = point;
-            found.from = from;
-            found.near = surroundings_->near(point, from);
+        surroundings_->near_all({points.data(), looked_for}, {from.data(), looked_for},
+                                {near.data(), looked_for});
+        for (std::size_t k = 0; k < looked_for; ++k) {
+            keep(unknown[k], points[k], from[k], near[k]);
         }
-        return found.near;
+        for (std::int64_t column = columns.begin; column < columns.end; ++column) {
+            const double* const own = sensed[static_cast<std::size_t>(column - columns.begin)];
+            const std::int64_t place = row * layout.width + column;
+            if (place < count) {
+                triangles_->now[static_cast<std::size_t>(place)] = triangles_of(own).found;
+            }
+            const std::int64_t at = layout.row_start(row) + column;
+            for (std::size_t k = 0; k < senses_.size(); ++k) {
+                arguments.results[k][at] = static_cast<Number>(own[key_size + k]);
+            }
+        }
+    }
+
+    /// What is kept of a cell: its place, these triangles, and what it sensed.
+    struct Triangles {
+        std::uint32_t from = 0;   ///< At which the search began,
+        std::uint32_t found = 0;  ///< and ended.
+    };
+    static constexpr std::size_t key_size = 4;
+    static Triangles triangles_of(const double* kept) { return std::bit_cast<Triangles>(kept[3]); }
+
+    void keep(double* kept, Vector3d point, std::uint32_t from, const NearPlace& near) const {
+        kept[0] = point.x;
+        kept[1] = point.y;
+        kept[2] = point.z;
+        kept[3] = std::bit_cast<double>(Triangles{from, near.place.triangle});
+        for (std::size_t k = 0; k < senses_.size(); ++k) {
+            kept[key_size + k] = value_of(senses_[k], near);
+        }
     }
 
     static double value_of(const Sense& sense, const NearPlace& near) {
@@ -85,6 +132,9 @@ private:
     std::shared_ptr<const Surroundings> surroundings_;
     std::vector<Sense> senses_;
     std::shared_ptr<NearTriangles> triangles_;
+    std::int64_t kept_count_;
+    std::size_t kept_size_;  ///< Numbers of a cell in `kept_`.
+    mutable AlignedArray<double> kept_;
 };
 
 /// Two adjacent cells along an axis and the part of the second.
@@ -110,10 +160,10 @@ Between between(double at, std::int64_t count, Boundary boundary) {
 }  // namespace
 
 KernelPointer make_sense_kernel(std::shared_ptr<const Surroundings> surroundings,
-                                std::vector<Sense> senses,
-                                std::shared_ptr<NearTriangles> triangles) {
+                                std::vector<Sense> senses, std::shared_ptr<NearTriangles> triangles,
+                                std::int64_t kept) {
     return std::make_shared<SenseKernel>(std::move(surroundings), std::move(senses),
-                                         std::move(triangles));
+                                         std::move(triangles), kept);
 }
 
 PlaceValue feature_of(const SurfaceMesh& mesh) {

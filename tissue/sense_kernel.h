@@ -42,26 +42,19 @@ struct NearTriangles {
     std::vector<std::uint32_t> before;  ///< At the last complete step: one for each cell.
     std::vector<std::uint32_t> now;     ///< Where the last evaluation found the cell.
 
-    /// The last place that was found for a cell: often several kernels ask for the same one.
-    struct Found {
-        Vector3d point;
-        std::uint32_t from = 0;  ///< The triangle at which the search began.
-        NearPlace near;
-    };
-    std::vector<Found> found;  ///< One for each cell, or none at all.
-
     /// Begins at the triangles of a complete step.
     void begin(std::span<const std::uint32_t> triangles) {
         before.assign(triangles.begin(), triangles.end());
         now = before;
-        found.resize(before.size(), {{NAN, 0, 0}, 0, {}});
     }
 };
 
 /// Fields: the three components of place. Results: one for each sense. `triangles` must have an
-/// entry for each cell whenever the kernel is run; the places after the last cell are as that.
+/// entry for each cell whenever the kernel is run; the places after the last cell are as that. The
+/// kernel keeps what the first `kept` cells sensed last, since several steps and rates ask for the
+/// same places. Throws std::bad_alloc.
 KernelPointer make_sense_kernel(std::shared_ptr<const Surroundings> surroundings,
-                                std::vector<Sense> senses,
-                                std::shared_ptr<NearTriangles> triangles);
+                                std::vector<Sense> senses, std::shared_ptr<NearTriangles> triangles,
+                                std::int64_t kept = 0);
 
 }  // namespace cascade

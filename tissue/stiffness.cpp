@@ -52,14 +52,14 @@ public:
         Vector v = read(tissue_.stiffest);
         v.resize(tissue_.species.size());
         const double most = std::max(1e-30, largest(v));
-        for (std::size_t k = 0; k < v.size(); ++k) {
-            v[k].resize(tissue_.count(), 0);
+        for (std::vector<double>& of_species : v) of_species.resize(tissue_.count(), 0);
+        each_species(v.size(), [&](std::size_t k) {
             for (std::size_t rank = 0; rank < v[k].size(); ++rank) {
                 const std::uint32_t number = tissue_.numbers()[tissue_.by_number()[rank]];
                 const auto word = pcg4d({number, static_cast<std::uint32_t>(k), 0x5717, 1})[0];
                 v[k][rank] = v[k][rank] / most + 1e-2 * (word * 0x1p-31 - 1);
             }
-        }
+        });
         return v;
     }
 
@@ -68,11 +68,11 @@ public:
         const double step = difference_step(tissue_.precision()) / largest(v);
         write(v, step);
         Vector product = rates_at(moved_);
-        for (std::size_t k = 0; k < product.size(); ++k) {
+        each_species(product.size(), [&](std::size_t k) {
             for (std::size_t rank = 0; rank < product[k].size(); ++rank) {
                 product[k][rank] = (product[k][rank] - at_state_[k][rank]) / step;
             }
-        }
+        });
         return product;
     }
 
@@ -89,36 +89,45 @@ public:
     }
 
 private:
+    /// `use(k)` for each of the species, which the threads share.
+    void each_species(std::size_t count, const auto& use) const {
+        Team& team = runner_.team();
+        team.run([&](int thread) {
+            const auto threads = static_cast<std::size_t>(team.size());
+            for (auto k = static_cast<std::size_t>(thread); k < count; k += threads) use(k);
+        });
+    }
+
     /// `use(species, rank, value, element)` for all values.
     void each(std::vector<Field>& fields, const auto& use) const {
         const std::span<const std::uint32_t> elements = tissue_.elements_by_number();
-        for (std::size_t k = 0; k < fields.size(); ++k) {
+        each_species(fields.size(), [&](std::size_t k) {
             fields[k].visit([&](auto& plane) {
                 for (std::size_t rank = 0; rank < elements.size(); ++rank) {
                     use(k, rank, plane.origin()[elements[rank]], elements[rank]);
                 }
             });
-        }
+        });
     }
 
     Vector read(const std::vector<Field>& fields) const {
-        Vector v;
-        for (const Field& field : fields) {
-            v.emplace_back();
-            field.visit([&](const auto& plane) {
-                for (const std::uint32_t at : tissue_.elements_by_number()) {
-                    v.back().push_back(plane.origin()[at]);
+        Vector v(fields.size(), std::vector<double>(tissue_.count()));
+        each_species(fields.size(), [&](std::size_t k) {
+            fields[k].visit([&](const auto& plane) {
+                const std::span<const std::uint32_t> elements = tissue_.elements_by_number();
+                for (std::size_t rank = 0; rank < elements.size(); ++rank) {
+                    v[k][rank] = plane.origin()[elements[rank]];
                 }
             });
-        }
+        });
         return v;
     }
 
     Vector rates_at(std::vector<Field>& state) {
         Vector v = read(runner_.run(rates_, state, tissue_, moment_));
-        for (std::size_t k = 0; k < v.size(); ++k) {
+        each_species(v.size(), [&](std::size_t k) {
             for (double& value : v[k]) value /= scales_[k];
-        }
+        });
         return v;
     }
 

@@ -36,24 +36,18 @@ public:
     }
 
     NearPlace near(Vector3d point, std::uint32_t triangle) const override {
-        NearPlace near = near_nothing(point);
-        near.place.triangle = triangle;
-        if (const auto over = follower_.stay(point, triangle)) {
-            near.place = {over->triangle, over->weights};
-            near.position = point - over->normal * over->height;
-            near.normal = normal_of(over->triangle, over->weights);
-            near.off = std::copysign(over->height, dot(point - near.position, near.normal));
-            return near;
-        }
-        const auto found = follower_.find(point, triangle);
-        if (!found) return near;
-        near.place = found->place;
-        near.position = found->position;
-        near.normal = normal_of(near.place.triangle, near.place.weights);
-        near.is_beyond = found->is_border;
-        const double height = dot(point - near.position, near.normal);
-        near.off = near.is_beyond ? height : std::copysign(found->distance, height);
+        NearPlace near;
+        near_few({&point, 1}, {&triangle, 1}, {&near, 1});
         return near;
+    }
+    void near_all(std::span<const Vector3d> points, std::span<const std::uint32_t> triangles,
+                  std::span<NearPlace> result) const override {
+        constexpr std::size_t most = PlaceFollower::AllOver::most;
+        for (std::size_t first = 0; first < points.size(); first += most) {
+            const std::size_t count = std::min(most, points.size() - first);
+            near_few(points.subspan(first, count), triangles.subspan(first, count),
+                     result.subspan(first, count));
+        }
     }
     void prepare(std::uint32_t triangle) const override {
         if (triangle >= mesh_.triangles.size()) return;
@@ -74,6 +68,64 @@ public:
     }
 
 private:
+    /// The place nearest to a cell that is not over the inside of its triangle or one beside it.
+    NearPlace search(Vector3d point, std::uint32_t triangle) const {
+        NearPlace near = near_nothing(point);
+        near.place.triangle = triangle;
+        const auto found = follower_.find(point, triangle);
+        if (!found) return near;
+        near.place = found->place;
+        near.position = found->position;
+        near.normal = normal_of(near.place.triangle, near.place.weights);
+        near.is_beyond = found->is_border;
+        const double height = dot(point - near.position, near.normal);
+        near.off = near.is_beyond ? height : std::copysign(found->distance, height);
+        return near;
+    }
+    /// Of at most as many cells as PlaceFollower::AllOver has room for.
+    void near_few(std::span<const Vector3d> points, std::span<const std::uint32_t> triangles,
+                  std::span<NearPlace> result) const {
+        using AllOver = PlaceFollower::AllOver;
+        AllOver over;
+        follower_.stay(points, triangles, over);
+        std::array<std::array<AllOver::Numbers, 3>, 3> corners;  // By component.
+        for (std::size_t k = 0; k < AllOver::most; ++k) {
+            const std::array<Vector3d, 3>& normals = corner_normals_.data()[over.triangles[k]];
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                corners[0][corner][k] = normals[corner].x;
+                corners[1][corner][k] = normals[corner].y;
+                corners[2][corner][k] = normals[corner].z;
+            }
+        }
+        std::array<AllOver::Numbers, 3> normal;
+        AllOver::Numbers squares;
+        for (std::size_t k = 0; k < AllOver::most; ++k) {
+            std::array<double, 3> sum;
+            for (std::size_t c = 0; c < 3; ++c) {
+                sum[c] = corners[c][0][k] * over.weights[0][k] +
+                         corners[c][1][k] * over.weights[1][k] +
+                         corners[c][2][k] * over.weights[2][k];
+            }
+            squares[k] = sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+            const double inverse = 1 / std::sqrt(squares[k]);
+            for (std::size_t c = 0; c < 3; ++c) normal[c][k] = sum[c] * inverse;
+        }
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if (!over.is_over[k] || !(squares[k] > 0)) {
+                result[k] = search(points[k], triangles[k]);
+                continue;
+            }
+            NearPlace& near = result[k];
+            near.place = {over.triangles[k],
+                          {over.weights[0][k], over.weights[1][k], over.weights[2][k]}};
+            near.position =
+                points[k] - Vector3d{over.normals[0][k], over.normals[1][k], over.normals[2][k]} *
+                                over.heights[k];
+            near.normal = {normal[0][k], normal[1][k], normal[2][k]};
+            near.off = std::copysign(over.heights[k], dot(points[k] - near.position, near.normal));
+            near.is_beyond = false;
+        }
+    }
     /// As normal_at(), which looks for the corners' normals in several places.
     Vector3d normal_of(std::uint32_t triangle, const std::array<double, 3>& weights) const {
         const auto& [a, b, c] = corner_normals_.data()[triangle];

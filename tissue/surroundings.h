@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -35,6 +36,12 @@ public:
     /// The place nearest to a cell, by way of the triangle that was nearest to it before or
     /// no_triangle. `off` is NaN if the point is not finite.
     virtual NearPlace near(Vector3d point, std::uint32_t triangle) const = 0;
+    /// The same for several cells; all have one length.
+    virtual void near_all(std::span<const Vector3d> points,
+                          std::span<const std::uint32_t> triangles,
+                          std::span<NearPlace> result) const {
+        for (std::size_t k = 0; k < points.size(); ++k) result[k] = near(points[k], triangles[k]);
+    }
     /// Says that near() will be asked about this triangle soon, so that its data comes to the
     /// cache.
     virtual void prepare(std::uint32_t) const {}

@@ -83,26 +83,32 @@ std::vector<std::vector<double>> numbers_in(const std::vector<Field>& fields,
     return result;
 }
 
-/// Puts cell sources[k] at place first + k. Other places before the last one stay as they are,
-/// which must be none if the layout is another one.
-void rearrange_field(Field& field, const PlaneLayout& layout,
-                     std::span<const std::uint32_t> sources, std::size_t first) {
+/// Puts cell sources[k] at each of these places k, of `count` in the layout. Other places stay as
+/// they are, which must be none if the layout is another one.
+void rearrange_field(Field& field, const PlaneLayout& layout, std::size_t count,
+                     std::span<const std::uint32_t> places,
+                     std::span<const std::uint32_t> sources) {
     field.visit([&]<typename Number>(Plane<Number>& plane) {
         const std::vector<Number> values = read(plane, sources);
         if (plane.layout() != layout) plane = Plane<Number>(layout);
-        write<Number>(plane, values, first);
+        const auto width = static_cast<std::uint32_t>(layout.width);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            plane.row(places[k] / width)[places[k] % width] = values[k];
+        }
+        fill_after(plane, count);
     });
 }
 
 /// The same for values by cell.
 template <typename Value>
-void rearrange_values(std::vector<Value>& values, std::span<const std::uint32_t> sources,
-                      std::size_t first) {
+void rearrange_values(std::vector<Value>& values, std::size_t count,
+                      std::span<const std::uint32_t> places,
+                      std::span<const std::uint32_t> sources) {
     std::vector<Value> moved;
     moved.reserve(sources.size());
     for (const std::uint32_t source : sources) moved.push_back(values[source]);
-    values.resize(first);
-    values.insert(values.end(), moved.begin(), moved.end());
+    values.resize(count);
+    for (std::size_t k = 0; k < places.size(); ++k) values[places[k]] = moved[k];
 }
 
 void set_in(Field& field, std::int64_t element, double value) {
@@ -202,43 +208,48 @@ void Tissue::number_cells(std::size_t first) {
     ones_.visit([&](auto& plane) { for_each_row(plane, first, capacity_of(layout_), fill_ones); });
 }
 
-bool Tissue::rearrange(std::span<const std::uint32_t> sources, std::size_t first_born) {
+bool Tissue::rearrange(std::span<const std::uint32_t> sources,
+                       std::span<const std::uint32_t> born) {
     const PlaneLayout before = layout_;
-    const std::size_t room = capacity_of(layout_);
-    if (sources.size() > room || sources.size() < room / 4) choose_layout(sources.size());
-    std::size_t first = 0;  // Of the cells that change.
-    if (layout_ == before) {
-        while (first < std::min(sources.size(), count()) && sources[first] == first) ++first;
+    const std::size_t room = capacity_of(layout_), cells = sources.size();
+    if (cells > room || cells < room / 4) choose_layout(cells);
+    std::vector<std::uint32_t> places, from;  // Of the cells that change.
+    for (std::uint32_t k = 0; k < cells; ++k) {
+        if (layout_ == before && k < count() && sources[k] == k) continue;
+        places.push_back(k);
+        from.push_back(sources[k]);
     }
-    const std::span<const std::uint32_t> moved = sources.subspan(first);
-    for (Field& field : species) rearrange_field(field, layout_, moved, first);
-    for (Field& field : stiffest) rearrange_field(field, layout_, moved, first);
-    for (Field& field : kept) {
-        if (!field.empty()) rearrange_field(field, layout_, moved, first);
+    for (std::vector<Field>* const fields : {&species, &stiffest, &kept}) {
+        for (Field& field : *fields) {
+            if (!field.empty()) rearrange_field(field, layout_, cells, places, from);
+        }
     }
-    keep_order(sources, first_born);
-    rearrange_values(triangles, moved, first);
-    rearrange_values(restlessness, moved, first);
-    rearrange_values(numbers_, moved, first);
-    for (std::size_t k = first_born; k < numbers_.size(); ++k) numbers_[k] = next_number++;
-    number_cells(first);
+    keep_order(sources, born);
+    rearrange_values(triangles, cells, places, from);
+    rearrange_values(restlessness, cells, places, from);
+    rearrange_values(numbers_, cells, places, from);
+    for (const std::uint32_t place : born) numbers_[place] = next_number++;
+    number_cells(places.empty() ? cells : places[0]);
     find_frozen();
     return layout_ != before;
 }
 
 /// Cells keep their order by number, and those that are born follow.
-void Tissue::keep_order(std::span<const std::uint32_t> sources, std::size_t first_born) {
+void Tissue::keep_order(std::span<const std::uint32_t> sources,
+                        std::span<const std::uint32_t> born) {
     constexpr std::uint32_t nowhere = 0xffffffff;
     std::vector<std::uint32_t> places(count(), nowhere);
-    for (std::uint32_t k = 0; k < first_born; ++k) places[sources[k]] = k;
+    std::vector<bool> is_born(sources.size(), false);
+    for (const std::uint32_t place : born) is_born[place] = true;
+    for (std::uint32_t k = 0; k < sources.size(); ++k) {
+        if (!is_born[k]) places[sources[k]] = k;
+    }
     std::vector<std::uint32_t> order;
     order.reserve(sources.size());
     for (const std::uint32_t cell : by_number_) {
         if (places[cell] != nowhere) order.push_back(places[cell]);
     }
-    for (auto k = static_cast<std::uint32_t>(first_born); k < sources.size(); ++k) {
-        order.push_back(k);
-    }
+    order.insert(order.end(), born.begin(), born.end());
     by_number_ = std::move(order);
 }
 

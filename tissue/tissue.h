@@ -115,9 +115,11 @@ public:
     void freeze_by(std::size_t kept_plane);
 
     /// Puts a copy of cell sources[k] at place k, for all k; cells that are not among the sources
-    /// disappear. Cells from `first_born` on get the next numbers. Returns whether the layout has
-    /// changed; otherwise all planes stay where they are. Throws std::bad_alloc.
-    bool rearrange(std::span<const std::uint32_t> sources, std::size_t first_born);
+    /// disappear. The cells at the places `born` get the next numbers, in this order; no two others
+    /// have the same source. Returns whether the layout has changed; otherwise all planes stay
+    /// where they are. Throws std::bad_alloc.
+    bool rearrange(std::span<const std::uint32_t> sources,
+                   std::span<const std::uint32_t> born = {});
     /// Copies the values of the last cell into the places after it.
     void pad();
 
@@ -128,7 +130,7 @@ public:
 private:
     void choose_layout(std::size_t cells);
     void number_cells(std::size_t first);
-    void keep_order(std::span<const std::uint32_t> sources, std::size_t first_born);
+    void keep_order(std::span<const std::uint32_t> sources, std::span<const std::uint32_t> born);
     void find_frozen();
 
     Precision precision_;

@@ -43,8 +43,6 @@ struct CellValues {
     /// A cell's values depend on nothing but its own species and what it senses at its place:
     /// neither on other cells nor on the time.
     bool is_of_cell_alone = false;
-    /// Of other cells only the species are read, not what a pass computes of them.
-    bool reads_only_species_of_others = false;
 };
 
 /// The passes of a step.

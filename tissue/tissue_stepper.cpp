@@ -84,13 +84,19 @@ Result<void> TissueStepper::reach(const std::vector<Field>& state, double around
     return build_lists(state, around > 0);
 }
 
+Result<void> TissueStepper::reach(std::span<const std::uint32_t> cells) {
+    if (lists_.reach(tissue_, cells)) return {};
+    return build_lists(tissue_.species, false);
+}
+
 Result<void> TissueStepper::build_lists(const std::vector<Field>& state, bool is_full) {
     auto built = lists_.build(tissue_, state, is_full);
-    count_cells();
+    links_changed();
     return built;
 }
 
-void TissueStepper::count_cells() {
+void TissueStepper::links_changed() {
+    values_.links_changed();
     const auto cells = static_cast<std::int64_t>(tissue_.count());
     for (auto& [stages, problem] : problems_) problem.cells_inside = cells;
 }
@@ -106,7 +112,7 @@ Result<void> TissueStepper::cells_changed(bool has_moved, std::span<const std::u
     auto found =
         only.empty() ? lists_.build(tissue_, tissue_.species, false) : lists_.renew(tissue_, only);
     if (!found) return found;
-    count_cells();
+    links_changed();
     if (has_moved || !stepper_) {
         values_.clear();
         stepper_.reset();
@@ -164,6 +170,7 @@ Result<TriedStep> TissueStepper::attempt(double length) {
         if (const auto renewed = lists_.renew_restless(tissue_); !renewed) {
             return tl::unexpected(renewed.error());
         }
+        links_changed();
         lists_.begin_step(tissue_);
         stepper_->planes().take_back(tissue_.species);
         stepper_->use(problem(stages(length)));

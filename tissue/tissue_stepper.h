@@ -40,7 +40,7 @@ public:
 
     /// To be called first of all and after every change of cells, with whether the planes have
     /// moved: finds the lists, and binds everything if they have. `only`: the cells that are new or
-    /// elsewhere, if no others have changed or gone; empty: all.
+    /// elsewhere, if no others have changed; empty: all.
     Result<void> cells_changed(bool has_moved, std::span<const std::uint32_t> only = {});
     /// Puts the cells in another order if that saves more time than it takes.
     Result<void> order_cells();
@@ -48,6 +48,8 @@ public:
     /// Makes lists that hold for this state and for some way around its places, unless they do.
     /// Values may then be evaluated there.
     Result<void> reach(const std::vector<Field>& state, double around = 0);
+    /// The same for the present, in which only these cells may have changed since the lists held.
+    Result<void> reach(std::span<const std::uint32_t> cells);
 
     /// Tries a step of this length, with lists that reach far enough. Call accept() or undo().
     Result<TriedStep> attempt(double length);
@@ -80,7 +82,7 @@ public:
 
 private:
     Result<void> build_lists(const std::vector<Field>& state, bool is_full);
-    void count_cells();
+    void links_changed();
     void end_at(std::vector<CellEvent>& found, const StepCubic& cubic, StepEvents& result);
     StageClock clock(double length) const;
     const StepProblem& problem(std::uint32_t stages);

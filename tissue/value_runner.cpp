@@ -1,6 +1,7 @@
 // A copy of each problem is told the present number of cells.
 #include "tissue/value_runner.h"
 
+#include "core/check.h"
 #include "core/floating_point.h"
 #include "core/links.h"
 
@@ -38,39 +39,71 @@ std::vector<std::uint32_t> with_neighbours(std::vector<std::uint32_t> cells,
     return cells;
 }
 
-using Rows = std::vector<std::int64_t>;
+using Patches = std::vector<Patch>;
 
-/// The rows in which these cells are, each once. The cells are in ascending order.
-Rows rows_of(std::span<const std::uint32_t> cells, std::int64_t width) {
-    Rows rows;
+/// Fewer patches are not worth the other threads.
+constexpr std::size_t patches_of_threads = 32;
+
+/// The slices of links in which these cells are, as patches of one row, adjacent ones joined. The
+/// cells are in ascending order.
+Patches slices_of(std::span<const std::uint32_t> cells, std::int64_t width) {
+    constexpr std::int64_t lanes = PlaneLayout::row_pad;
+    Patches slices;
     for (const std::uint32_t cell : cells) {
-        if (rows.empty() || rows.back() != cell / width) rows.push_back(cell / width);
+        const std::int64_t row = cell / width, first = cell % width / lanes * lanes;
+        Patch* const last = slices.empty() ? nullptr : &slices.back();
+        const bool is_same_row = last != nullptr && last->rows.begin == row;
+        if (is_same_row && first <= last->columns.end) {
+            last->columns.end = first + lanes;
+        } else {
+            slices.push_back({{row, row + 1}, {first, first + lanes}});
+        }
     }
-    return rows;
+    return slices;
 }
 
-/// The rows that each pass must compute for the values of some cells: a pass may read the links of
-/// what the passes before it write. Empty if all rows are needed.
-std::vector<Rows> rows_of_passes(const StepProblem& problem, const CellValues& values,
-                                 std::span<const std::uint32_t> among) {
+/// The last pass before `reader` that writes a temporary.
+std::size_t writer_of(const StepProblem& problem, std::size_t reader, TemporaryId temporary) {
+    for (std::size_t pass = reader; pass-- > 0;) {
+        for (const StepProblem::Result& result : problem.passes[pass].results) {
+            if (result.plane == StepProblem::PlaneRef(temporary)) return pass;
+        }
+    }
+    CHECK(false, "a temporary is written before it is read");
+    return 0;
+}
+
+/// The cells that each pass must compute for the values of some of them. Empty if all cells are
+/// needed.
+std::vector<Patches> patches_of_passes(const StepProblem& problem,
+                                       std::span<const std::uint32_t> among) {
     const auto reduces = [](const StepProblem::Pass& pass) { return !pass.reductions.empty(); };
-    if (among.empty() || std::any_of(problem.passes.begin(), problem.passes.end(), reduces)) {
-        return {};
-    }
+    if (std::any_of(problem.passes.begin(), problem.passes.end(), reduces)) return {};
     const PlaneLayout layout(problem.grid);
-    std::vector<std::uint32_t> cells(among.begin(), among.end());
-    keep_each_once(cells);
-    const bool reads_others = !values.is_of_cell_alone && !values.reads_only_species_of_others;
-    std::vector<Rows> rows(problem.passes.size());
-    for (std::size_t pass = rows.size(); pass-- > 0;) {
-        rows[pass] = rows_of(cells, layout.width);
-        if (!reads_others || pass == 0) continue;
-        with_number(problem.precision, [&](auto zero) {
-            using Number = decltype(zero);
-            cells = with_neighbours(std::move(cells), problem.links->table<Number>(), layout);
-        });
+    std::vector<std::vector<std::uint32_t>> cells(problem.passes.size());
+    cells.back().assign(among.begin(), among.end());
+    std::vector<Patches> patches(problem.passes.size());
+    for (std::size_t pass = patches.size(); pass-- > 0;) {
+        const StepProblem::Pass& reader = problem.passes[pass];
+        keep_each_once(cells[pass]);
+        patches[pass] = slices_of(cells[pass], layout.width);
+        std::vector<std::uint32_t> others;  // To which links lead.
+        for (std::size_t k = 0; k < reader.fields.size(); ++k) {
+            const auto* const temporary = std::get_if<TemporaryId>(&reader.fields[k]);
+            if (temporary == nullptr) continue;
+            const bool by_links = reader.read_by_links.empty() || reader.read_by_links[k];
+            if (by_links && others.empty()) {
+                with_number(problem.precision, [&](auto zero) {
+                    others = with_neighbours(cells[pass], problem.links->table<decltype(zero)>(),
+                                             layout);
+                });
+            }
+            const std::vector<std::uint32_t>& needed = by_links ? others : cells[pass];
+            std::vector<std::uint32_t>& of_writer = cells[writer_of(problem, pass, *temporary)];
+            of_writer.insert(of_writer.end(), needed.begin(), needed.end());
+        }
     }
-    return rows;
+    return patches;
 }
 
 }  // namespace
@@ -88,20 +121,34 @@ std::vector<Field>& ValueRunner::run(const CellValues& values, std::vector<Field
     }
     known.problem.cells_inside = static_cast<std::int64_t>(tissue.count());
     const std::array<std::span<Field>, 2> registers{state, known.results};
-    const std::vector<Rows> rows = rows_of_passes(known.problem, values, among);
-    if (rows.empty()) {
+    if (!std::equal(among.begin(), among.end(), known.among.begin(), known.among.end())) {
+        known.among.assign(among.begin(), among.end());
+        known.patches = patches_of_passes(known.problem, among);
+    }
+    if (among.empty() || known.patches.empty()) {
         known.runner->run_once(team_, registers, moment);
         return known.results;
     }
-    // Few rows are not worth the other threads.
-    const FlushDenormals environment;
-    PassRunner::Worker worker;
-    known.runner->prepare(worker, 0, 1);
-    for (std::size_t pass = 0; pass < rows.size(); ++pass) {
-        known.runner->bind(worker, 0, pass, registers, moment);
-        for (const std::int64_t row : rows[pass]) {
-            known.runner->run_cells(worker, 0, {{row, row + 1}});
+    const int threads = known.patches.back().size() < patches_of_threads ? 1 : team_.size();
+    const auto run_part = [&](int thread) {
+        const FlushDenormals environment;
+        PassRunner::Worker worker;
+        known.runner->prepare(worker, thread, threads);
+        for (std::size_t pass = 0; pass < known.patches.size(); ++pass) {
+            if (pass > 0 && threads > 1) team_.barrier();
+            known.runner->bind(worker, 0, pass, registers, moment);
+            const Patches& patches = known.patches[pass];
+            const auto count = static_cast<std::int64_t>(patches.size());
+            const RowRange own = split_rows(count, thread, threads);
+            for (std::int64_t k = own.begin; k < own.end; ++k) {
+                known.runner->run_cells(worker, 0, patches[static_cast<std::size_t>(k)]);
+            }
         }
+    };
+    if (threads == 1) {
+        run_part(0);
+    } else {
+        team_.run(run_part);
     }
     return known.results;
 }

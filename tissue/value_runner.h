@@ -23,14 +23,21 @@ public:
     std::vector<Field>& run(const CellValues& values, std::vector<Field>& state,
                             const Tissue& tissue, const StepMoment& moment,
                             std::span<const std::uint32_t> among = {});
+    Team& team() const { return team_; }
     /// The problems are gone.
     void clear() { known_.clear(); }
+    /// Links lead elsewhere, or cells are elsewhere in memory.
+    void links_changed() {
+        for (auto& [problem, known] : known_) known.among.clear();
+    }
 
 private:
     struct Known {
         StepProblem problem;
         std::unique_ptr<PassRunner> runner;
         std::vector<Field> results;
+        std::vector<std::uint32_t> among;         ///< The cells that were asked for last,
+        std::vector<std::vector<Patch>> patches;  ///< and what each pass computes for these.
     };
     Team& team_;
     std::map<const StepProblem*, Known> known_;

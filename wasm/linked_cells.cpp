@@ -140,11 +140,12 @@ void LinkedCells::find_links() {
     push_column();
     begin_vector(vector);
     const Local column = keep_in_loop();
-    code().get(local_of(Parameter::column_end));
-    code().integer(slice_cells - 1);
-    code().write(Plain::add);
+    // The stride is that of whole slices and of padding as wide as one on each side.
+    code().get(local_of(Parameter::stride));
     code().integer(slice_shift);
     code().write(Plain::shift_right);
+    code().integer(2);
+    code().write(Plain::subtract);
     code().get(local_of(Parameter::row_begin));
     code().write(Plain::multiply);
     code().get(column);

@@ -230,7 +230,7 @@ std::size_t Simulation::remove_cells(std::uint32_t stage, const Field& chosen) {
     for (std::uint32_t cell = 0; cell < tissue.count(); ++cell) {
         if (value_in(chosen, tissue, cell) == 0) left.push_back(cell);
     }
-    if (!left.empty()) tissue.rearrange(left, left.size());
+    if (!left.empty()) tissue.rearrange(left);
     return left.size();
 }
 

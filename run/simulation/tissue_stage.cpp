@@ -210,7 +210,7 @@ private:
             return failure(
                 fmt::format("stage '{}' starts without cells: {}", view_.stage().name, why));
         }
-        tissue().rearrange(left, left.size());
+        tissue().rearrange(left);
         return {};
     }
 

@@ -313,6 +313,13 @@ private:
         for (const PlaneSource& source : pass.bound.fields) {
             bound.fields.push_back(bind_plane(source));
         }
+        if (context_.tissue) {
+            bound.read_by_links.assign(bound.fields.size(), false);
+            for (const Instruction& each : pass.bound.kernel.code) {
+                CHECK(!is_link_sum(each.op), "links between cells that crawl have no weights");
+                if (each.op == Op::theirs) bound.read_by_links[each.field().index()] = true;
+            }
+        }
         for (const StageItem mask : pass.bound.masks) {
             bound.masks.push_back(context_.states[mask.stage].frozen_cells().origin());
         }

@@ -20,17 +20,6 @@ bool changes(const StepProblem& problem) {
                        [](const StepProblem::Pass& pass) { return !pass.changing.empty(); });
 }
 
-/// Does a pass read by links what a pass before it computes?
-bool reads_others_values(const StepPlan& plan) {
-    return std::ranges::any_of(plan.passes, [](const Pass& pass) {
-        const BoundKernel& bound = pass.bound;
-        return std::ranges::any_of(bound.kernel.code, [&](const Instruction& each) {
-            return each.op == Op::theirs &&
-                   std::holds_alternative<TemporaryId>(bound.fields[each.field()]);
-        });
-    });
-}
-
 bool is_written(const Formula& formula) { return !formula.nodes.empty(); }
 
 }  // namespace
@@ -127,8 +116,7 @@ CellValues ScriptRules::values_of(Values& values, const Compile& compile) {
             bind_plan(*values.plan, compile, context(), stage_.system(), stage_.stage));
     }
     return {values.problem.get(), values.plan->result_count,
-            !reads_links(*values.plan) && !changes(*values.problem),
-            !reads_others_values(*values.plan)};
+            !reads_links(*values.plan) && !changes(*values.problem)};
 }
 
 TissueRules::Conditions ScriptRules::conditions() {

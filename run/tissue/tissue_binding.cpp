@@ -59,8 +59,9 @@ TissueBinding binding_of(const TissueStage& stage, const Tissue& tissue,
     for (const PlaneSource& source : binding.sensed) {
         senses.push_back(stage.ground.sense_of(source, stage.fields));
     }
-    binding.sense =
-        make_sense_kernel(stage.ground.surroundings(), std::move(senses), std::move(near));
+    const PlaneLayout& layout = tissue.layout();
+    binding.sense = make_sense_kernel(stage.ground.surroundings(), std::move(senses),
+                                      std::move(near), layout.width * layout.height);
     return binding;
 }
 

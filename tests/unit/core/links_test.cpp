@@ -65,6 +65,40 @@ TEST(Links, AreMadeAnewInTheirMemoryUnlessItIsShared) {
     expect_same(copy, Links(first, layout, Precision::single), layout);
 }
 
+TEST(Links, AreTheSameWhereMostSlicesAreCopied) {
+    const PlaneLayout layout(rows_of(700, 40));
+    LinkList list = testing::random_links(700, 4);
+    Links links;
+    links.assign({list.ends, list.neighbours}, layout, Precision::single);
+    // Cells lose their last link, and others come after them and go again.
+    std::vector<std::size_t> counts{700};
+    for (const std::size_t count : {700U, 690U, 695U, 650U, 700U}) {
+        std::vector<bool> changed(count, false);
+        for (const std::size_t cell : {3U, 100U, 101U, 400U, 649U}) {
+            const std::size_t begin = list.ends[cell - 1];
+            if (list.ends[cell] - begin < 2) continue;
+            list.neighbours.erase(list.neighbours.begin() + static_cast<std::ptrdiff_t>(begin));
+            for (std::size_t k = cell; k < list.ends.size(); ++k) --list.ends[k];
+            changed[cell] = true;
+        }
+        for (std::size_t cell = counts.back(); cell < count; ++cell) changed[cell] = true;
+        counts.push_back(count);
+        const std::vector<std::size_t> ends(list.ends.begin(),
+                                            list.ends.begin() + static_cast<std::ptrdiff_t>(count));
+        links.assign({ends, list.neighbours}, layout, Precision::single, changed);
+        Links whole;
+        whole.assign({ends, list.neighbours}, layout, Precision::single);
+        const auto table = links.table<float>(), expected = whole.table<float>();
+        const auto slices = static_cast<std::ptrdiff_t>(3 * layout.height);
+        ASSERT_TRUE(std::equal(table.starts, table.starts + slices + 1, expected.starts));
+        const std::ptrdiff_t entries = table.starts[slices];
+        EXPECT_TRUE(std::equal(table.bases, table.bases + entries, expected.bases));
+        EXPECT_TRUE(std::equal(table.filled, table.filled + entries, expected.filled));
+        EXPECT_TRUE(std::equal(table.offsets, table.offsets + 16 * entries, expected.offsets));
+        EXPECT_GE(table.reach, expected.reach);
+    }
+}
+
 // Lane 0 leads near in its second entry, lane 1 in its first.
 TEST(Links, SayWhichLanesOfAnEntryAreFilled) {
     const PlaneLayout layout(rows_of(3, 3));

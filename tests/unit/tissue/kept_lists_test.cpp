@@ -36,6 +36,17 @@ public:
         radii_.push_back(size);
     }
     void move(std::uint32_t cell) { places_[cell] = random_place(); }
+    /// The last cell takes the place of one that dies.
+    void kill(std::uint32_t cell) {
+        const std::uint32_t rank = ranks_[cell];
+        places_[cell] = places_.back();
+        radii_[cell] = radii_.back();
+        ranks_[cell] = ranks_.back();
+        places_.pop_back();
+        radii_.pop_back();
+        ranks_.pop_back();
+        for (std::uint32_t& other : ranks_) other -= other > rank ? 1 : 0;
+    }
     Vector3d random_place() {
         return {static_cast<double>(random_.symmetric()) / 2 + 0.5,
                 static_cast<double>(random_.symmetric()) / 2 + 0.5, 0};
@@ -65,6 +76,10 @@ public:
                     expected.far_links += is_far_link(own.cell, other.cell) ? 1 : 0;
                 }
             }
+            const std::size_t begin = expected.ends.empty() ? 0 : expected.ends.back();
+            std::sort(expected.neighbours.begin() + static_cast<std::ptrdiff_t>(begin),
+                      expected.neighbours.end(),
+                      [&](std::uint32_t a, std::uint32_t b) { return ranks_[a] < ranks_[b]; });
             expected.ends.push_back(expected.neighbours.size());
         }
         EXPECT_EQ(lists_.lists().ends, expected.ends);
@@ -107,6 +122,30 @@ TEST(KeptLists, HoldAllPairsOfCellsThatMoveAndAreBorn) {
             ASSERT_TRUE(cells.renew(renewed));
             cells.expect_all_pairs();
         }
+    }
+}
+
+TEST(KeptLists, HoldAllPairsWhereCellsDie) {
+    MovingCells cells({});
+    for (int round = 0; round < 8; ++round) {
+        std::vector<std::uint32_t> renewed;
+        // More die than are born, and a place that was given up is used again two rounds later.
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t cell = cells.any_cell();
+            cells.kill(cell);
+            renewed.push_back(cell);
+        }
+        if (round % 2 == 1) {
+            for (int k = 0; k < 4; ++k) {
+                renewed.push_back(static_cast<std::uint32_t>(cells.count()));
+                cells.add(cells.random_place());
+            }
+        }
+        std::sort(renewed.begin(), renewed.end());
+        renewed.erase(std::unique(renewed.begin(), renewed.end()), renewed.end());
+        std::erase_if(renewed, [&](std::uint32_t cell) { return cell >= cells.count(); });
+        ASSERT_TRUE(cells.renew(renewed));
+        cells.expect_all_pairs();
     }
 }
 

@@ -45,7 +45,7 @@ TEST(Tissue, IsRecordedInTheOrderOfBirth) {
         expect_equal(tissue.record(), record);
         std::vector<std::uint32_t> turned(count);
         std::iota(turned.rbegin(), turned.rend(), std::uint32_t{0});
-        EXPECT_FALSE(tissue.rearrange(turned, count));
+        EXPECT_FALSE(tissue.rearrange(turned));
         EXPECT_EQ(tissue.numbers().front(), record.numbers.back());
         EXPECT_EQ(tissue.by_number()[0], count - 1);
         expect_equal(tissue.record(), record);
@@ -56,8 +56,8 @@ TEST(Tissue, GivesNewCellsTheNextNumbers) {
     Tissue tissue(numbered(4), Precision::binary64);
     const double* const plane = tissue.species[0].origin<double>();
     // The second cell dies, the third divides.
-    const std::vector<std::uint32_t> sources{0, 2, 3, 2};
-    EXPECT_FALSE(tissue.rearrange(sources, 3));
+    const std::vector<std::uint32_t> sources{0, 2, 3, 2}, born{3};
+    EXPECT_FALSE(tissue.rearrange(sources, born));
     EXPECT_EQ(tissue.species[0].origin<double>(), plane);
     EXPECT_EQ(tissue.record().numbers, (std::vector<std::uint32_t>{1, 7, 10, 13}));
     EXPECT_EQ(tissue.record().species[1], (std::vector<double>{1.5, 7.5, 10.5, 7.5}));
@@ -71,13 +71,14 @@ TEST(Tissue, GrowsAndShrinksWithFewMoves) {
     while (tissue.count() < 10000) {
         std::vector<std::uint32_t> sources(tissue.count() + 1);
         std::iota(sources.begin(), sources.end() - 1, std::uint32_t{0});
-        moves += tissue.rearrange(sources, tissue.count()) ? 1 : 0;
+        const std::vector<std::uint32_t> born{static_cast<std::uint32_t>(tissue.count())};
+        moves += tissue.rearrange(sources, born) ? 1 : 0;
         ASSERT_LE(tissue.count(), static_cast<std::size_t>(tissue.grid().cell_count()));
     }
     EXPECT_LT(moves, 70);
     EXPECT_LT(tissue.grid().cell_count(), 11500);
     const std::vector<std::uint32_t> few{9, 17};
-    EXPECT_TRUE(tissue.rearrange(few, 2));
+    EXPECT_TRUE(tissue.rearrange(few));
     EXPECT_EQ(tissue.grid().cell_count(), 16);
 }
 
@@ -98,7 +99,7 @@ TEST(Tissue, RepeatsTheLastCellToTheEndOfItsPlanes) {
 
 TEST(Tissue, MayDieOut) {
     Tissue tissue(numbered(3), Precision::single);
-    tissue.rearrange({}, 0);
+    tissue.rearrange({});
     EXPECT_EQ(tissue.count(), 0U);
     EXPECT_TRUE(tissue.record().numbers.empty());
 }
