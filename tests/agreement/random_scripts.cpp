@@ -43,19 +43,21 @@ bool is_word(std::string_view spelling) {
 /// Writes one script.
 class Writer {
 public:
-    explicit Writer(std::uint64_t seed) : stream_(seed), mask_stream_(~seed) {}
+    explicit Writer(std::uint64_t seed)
+        : stream_(seed), mask_stream_(~seed), stencil_stream_(~seed + 1) {}
 
     std::string write() {
         const int systems = 1 + static_cast<int>(stream_.below(2));
         static constexpr std::array<std::string_view, 3> boundaries = {"periodic", "noflux",
                                                                        "periodic, noflux"};
         const bool has_slices = stream_.chance(25);
-        text_ = fmt::format("domain {{ grid: {}, {}{}; boundary: {}; spacing: {}; seed: {}{} }}\n",
-                            2 + stream_.below(37), (has_slices ? 2 : 1) + stream_.below(9),
-                            has_slices ? fmt::format(", {}", 2 + stream_.below(5)) : "",
-                            has_slices ? boundaries[stream_.below(2)]
-                                       : stream_.pick<std::string_view>(boundaries),
-                            stream_.chance(50) ? "1" : "0.75", stream_.below(1000), mask());
+        const std::string masked = mask(), with_stencil = stencil();
+        text_ = fmt::format(
+            "domain {{ grid: {}, {}{}; boundary: {}; spacing: {}; seed: {}{}{} }}\n",
+            2 + stream_.below(37), (has_slices ? 2 : 1) + stream_.below(9),
+            has_slices ? fmt::format(", {}", 2 + stream_.below(5)) : "",
+            has_slices ? boundaries[stream_.below(2)] : stream_.pick<std::string_view>(boundaries),
+            stream_.chance(50) ? "1" : "0.75", stream_.below(1000), masked, with_stencil);
         write_functions();
         for (int s = 0; s < systems; ++s) write_system(s);
         const int stages = 1 + static_cast<int>(stream_.below(3));
@@ -78,6 +80,13 @@ private:
         has_mask_ = mask_stream_.chance(33);
         if (!has_mask_) return "";
         return fmt::format("; mask: {}", mask_stream_.pick<std::string_view>(masks));
+    }
+
+    /// In every third script without a mask.
+    std::string stencil() {
+        if (has_mask_ || !stencil_stream_.chance(33)) return "";
+        is_fourth_ = stencil_stream_.chance(50);
+        return is_fourth_ ? "; stencil: fourth" : "; stencil: isotropic";
     }
 
     std::string number() {
@@ -340,7 +349,7 @@ private:
             text_ += fmt::format("  {}: {}\n", name, expression(Place::value, 3));
             readable_.push_back("[" + name + "]");
         }
-        if (stream_.chance(30) && !has_mask_) write_sides();
+        if (stream_.chance(30) && !has_mask_ && !is_fourth_) write_sides();
         if (has_mask_ && mask_stream_.chance(50)) write_border();
         text_ += "}\n";
         previous_ = names.species;
@@ -372,8 +381,9 @@ private:
                              expression(Place::value, 2), stream_.pick<std::string_view>(slopes));
     }
 
-    RandomStream stream_, mask_stream_;
-    bool has_mask_ = false;  ///< Then species have the sides of the domain.
+    RandomStream stream_, mask_stream_, stencil_stream_;
+    bool has_mask_ = false;   ///< Then species have the sides of the domain,
+    bool is_fourth_ = false;  ///< and with this stencil.
     std::string text_;
     std::vector<std::string> readable_, species_, previous_;
     std::vector<SystemNames> systems_;
