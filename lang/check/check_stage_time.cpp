@@ -33,8 +33,10 @@ void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
     const bool own_end = own.iterations || own.time.duration;
     const auto& iterations = own_end ? own.iterations : defaults.iterations;
     stage.time.duration = own_end ? own.time.duration : defaults.time.duration;
+    // A condition in the stage replaces iterations in its system; one beside them ends it earlier.
+    const bool own_condition = own.time.until || own.time.steady;
     const bool has_condition = stage.time.until || stage.time.steady;
-    stage.time.open_end = has_condition && !own_end;
+    stage.time.open_end = has_condition && !own_end && (own_condition || !defaults.iterations);
     stage.iterations = stage.time.duration   ? most_iterations
                        : stage.time.open_end ? most_iterations_until
                                              : iterations.value_or(default_iterations);

@@ -132,10 +132,12 @@ void SystemChecker::check_invariants() {
 
 void SystemChecker::check_settings() {
     Settings settings;
+    // An end replaces that of a base, and so does a condition.
     std::uint32_t level_of_end = 0;
     for (const Declaration* declaration : settings_) {
-        if (is_end_setting(declaration->name))
+        if (is_end_setting(declaration->name) || declaration->name == "until") {
             level_of_end = std::max(level_of_end, declaration->level);
+        }
     }
     for (const Declaration* declaration : settings_) {
         if (is_end_setting(declaration->name) && declaration->level < level_of_end) continue;

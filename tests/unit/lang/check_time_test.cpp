@@ -51,6 +51,22 @@ TEST(CheckTime, SettingsAreTakenAsWritten) {
     EXPECT_FALSE(time_of("speed: 0.1").automatic_speed);
 }
 
+TEST(CheckTime, ConditionsReplaceOnlyEndsOfOtherLevels) {
+    const auto iterations_of = [](const std::string& system, const std::string& stage) {
+        const auto checked =
+            check_text("system s { u: 1; u' = -u; iterations: 50; " + system +
+                       " }\nsystem derived: s { until: max(u over domain) < 0.1 }\n" + stage);
+        EXPECT_THAT(checked->faults(), IsEmpty()) << stage;
+        return checked->program ? checked->program->stages[0].iterations : 0;
+    };
+    const std::string until = "until: max(u over domain) < 0.5";
+    EXPECT_EQ(iterations_of(until, "stage a: s { }"), 50);
+    EXPECT_EQ(iterations_of("", "stage a: s { " + until + " }"), 1'000'000);
+    EXPECT_EQ(iterations_of(until, "stage a: s { " + until + " }"), 1'000'000);
+    EXPECT_EQ(iterations_of("", "stage a: derived { }"), 1'000'000);
+    EXPECT_EQ(iterations_of("", "stage a: derived { iterations: 7 }"), 7);
+}
+
 TEST(CheckTime, HowAStageEnds) {
     const auto end_of = [](const std::string& statements) {
         const auto checked = stage(statements);
