@@ -41,7 +41,7 @@ public:
     /// When a kernel that is interpreted meanwhile is compiled.
     enum class When : std::uint8_t {
         now,        ///< It is known to run for long.
-        when_used,  ///< Once it has run over `cells_worth_compiling` cells.
+        when_used,  ///< Once it has run over `cells_worth_compiling` cells, fewer with links.
     };
     /// A kernel that can run now: that of find(), or one that is interpreted until it is compiled
     /// (Kernel::is_provisional), or for good if compilation fails (Kernel::refusal). After

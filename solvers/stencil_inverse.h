@@ -19,8 +19,8 @@ namespace cascade {
 template <typename Number>
 class StencilInverse {
 public:
-    /// A wave is left out if the operator multiplies it by less than this part of what it
-    /// multiplies others by.
+    /// Waves are left out if the operator multiplies them by less than this fraction of its
+    /// largest possible factor.
     static constexpr double least_factor = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-14;
 
     /// `sides` are those of the field. `areas` is null or a plane of which the cells that are 0 are

@@ -42,7 +42,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     for (std::uint32_t cell = count; cell < lists_.ends.size(); ++cell) forget(cell);
     for (const BoxedCell& cell : cells) {
         std::uint32_t& slot = slots_[cell.cell];
-        if (slot != no_slot && slot != gone) {
+        if (slot < renewed_.size()) {
             renewed_[slot] = cell;
         } else {
             slot = static_cast<std::uint32_t>(renewed_.size());
@@ -59,7 +59,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
 /// There is no cell in this place any more.
 void KeptLists::forget(std::uint32_t cell) {
     const std::uint32_t slot = std::exchange(slots_[cell], gone);
-    if (slot == no_slot || slot == gone) return;
+    if (slot >= renewed_.size()) return;
     renewed_[slot] = renewed_.back();
     renewed_.pop_back();
     if (slot < renewed_.size()) slots_[renewed_[slot].cell] = slot;

@@ -31,7 +31,7 @@ public:
     /// The list of one cell, which may be a new one, has been found again at this place.
     void renew(std::size_t cell, Vector3d place, double radius, const NeighbourRule& rule,
                double skin);
-    /// There are so many cells now.
+    /// Sets the number of cells.
     void resize(std::size_t cells) { listed_.resize(cells); }
     /// A step begins at these places.
     void begin_step(std::span<const Vector3d> places, std::span<const double> radii,

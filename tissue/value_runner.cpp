@@ -2,7 +2,6 @@
 #include "tissue/value_runner.h"
 
 #include "core/check.h"
-#include "core/floating_point.h"
 #include "core/links.h"
 
 #include <algorithm>
@@ -121,7 +120,8 @@ std::vector<Field>& ValueRunner::run(const CellValues& values, std::vector<Field
     }
     known.problem.cells_inside = static_cast<std::int64_t>(tissue.count());
     const std::array<std::span<Field>, 2> registers{state, known.results};
-    if (!std::equal(among.begin(), among.end(), known.among.begin(), known.among.end())) {
+    if (!among.empty() &&
+        !std::equal(among.begin(), among.end(), known.among.begin(), known.among.end())) {
         known.among.assign(among.begin(), among.end());
         known.patches = patches_of_passes(known.problem, among);
     }
@@ -131,11 +131,10 @@ std::vector<Field>& ValueRunner::run(const CellValues& values, std::vector<Field
     }
     const int threads = known.patches.back().size() < patches_of_threads ? 1 : team_.size();
     const auto run_part = [&](int thread) {
-        const FlushDenormals environment;
         PassRunner::Worker worker;
         known.runner->prepare(worker, thread, threads);
         for (std::size_t pass = 0; pass < known.patches.size(); ++pass) {
-            if (pass > 0 && threads > 1) team_.barrier();
+            if (pass > 0) team_.barrier();
             known.runner->bind(worker, 0, pass, registers, moment);
             const Patches& patches = known.patches[pass];
             const auto count = static_cast<std::int64_t>(patches.size());
@@ -145,11 +144,7 @@ std::vector<Field>& ValueRunner::run(const CellValues& values, std::vector<Field
             }
         }
     };
-    if (threads == 1) {
-        run_part(0);
-    } else {
-        team_.run(run_part);
-    }
+    team_.run(run_part, threads);
     return known.results;
 }
 

@@ -22,7 +22,7 @@ struct Operators {
     DiffusionTerms<NodeId> terms{};
 };
 
-/// Does a node have the same value in all cells? The answer is no for aggregates of what differs.
+/// Does a node have the same value in all cells? Not if it aggregates values that differ by cell.
 bool is_even(const ExpressionGraph& graph, NodeId root, const Program& program,
              std::uint32_t stage) {
     return std::ranges::none_of(formula_of(graph.nodes(), root).nodes, [&](const Node& node) {

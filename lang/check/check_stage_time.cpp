@@ -28,15 +28,19 @@ void count_duration_in_steps(Stage& stage) {
     stage.iterations = most_iterations;
 }
 
+template <typename Time>
+bool has_condition(const Time& time) {
+    return time.until || time.steady;
+}
+
 void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
     // An end in the stage overrides either end in its system.
     const bool own_end = own.iterations || own.time.duration;
     const auto& iterations = own_end ? own.iterations : defaults.iterations;
     stage.time.duration = own_end ? own.time.duration : defaults.time.duration;
     // A condition in the stage replaces iterations in its system; one beside them ends it earlier.
-    const bool own_condition = own.time.until || own.time.steady;
-    const bool has_condition = stage.time.until || stage.time.steady;
-    stage.time.open_end = has_condition && !own_end && (own_condition || !defaults.iterations);
+    stage.time.open_end =
+        has_condition(stage.time) && !own_end && (has_condition(own.time) || !defaults.iterations);
     stage.iterations = stage.time.duration   ? most_iterations
                        : stage.time.open_end ? most_iterations_until
                                              : iterations.value_or(default_iterations);
@@ -103,8 +107,7 @@ void fill_time(Stage& stage, const Settings& own, const Settings& defaults) {
     time.coarse = pick(own.time.coarse, defaults.time.coarse, time.coarse);
     time.coarse_span = (own.time.coarse ? own : defaults).time.coarse_span;
     time.check = own.time.check ? own.time.check : defaults.time.check;
-    const bool own_condition = own.time.until || own.time.steady;
-    const TimeSettings& condition = own_condition ? own.time : defaults.time;
+    const TimeSettings& condition = has_condition(own.time) ? own.time : defaults.time;
     time.until = condition.until;
     time.steady = condition.steady;
     fill_end(stage, own, defaults);
