@@ -71,9 +71,10 @@ SurfaceMesh::Box box_of(const std::vector<Joint>& points) {
     return box;
 }
 
-/// 0 inside.
-double distance_from(const SurfaceMesh::Box& box, Vector3d p) {
-    return length(p - least(greatest(p, box.low), box.high));
+/// Squared; 0 inside.
+double square_of_distance(const SurfaceMesh::Box& box, Vector3d p) {
+    const Vector3d away = p - least(greatest(p, box.low), box.high);
+    return dot(away, away);
 }
 
 }  // namespace
@@ -85,7 +86,10 @@ LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_
       radius(from_radius),
       // Where one ball contains the other there is no cone.
       growth(extent > 0 ? std::clamp((to_radius - from_radius) / extent, -steepest, steepest) : 0),
-      lean(growth / std::sqrt(1 - growth * growth)) {}
+      lean(growth / std::sqrt(1 - growth * growth)),
+      middle(start + direction * (extent / 2)),
+      // A little more than it is, for rounding.
+      reach(1.000001 * (extent / 2 + std::max(radius, radius + growth * extent))) {}
 
 double LimbBody::Bone::distance_to(Vector3d p) const {
     const Vector3d away = p - from;
@@ -95,6 +99,12 @@ double LimbBody::Bone::distance_to(Vector3d p) const {
     const double place = std::clamp(along + lean * aside, 0.0, extent);
     const double rest = along - place;
     return std::sqrt(aside * aside + rest * rest) - radius - growth * place;
+}
+
+bool LimbBody::Bone::may_be_within(double distance, Vector3d p) const {
+    const Vector3d away = p - middle;
+    const double most = std::max(distance + reach, 0.0);
+    return dot(away, away) <= most * most;
 }
 
 LimbBody::LimbBody(const std::vector<Limb>& limbs) {
@@ -121,10 +131,11 @@ double LimbBody::operator()(Vector3d p) const {
     double sum = -1;
     for (const Part& part : parts_) {
         const double reach = softnesses_of_reach * part.softness;
-        if (distance_from(part.box, p) >= reach) continue;
+        if (square_of_distance(part.box, p) >= reach * reach) continue;
         const Vector3d q = divided(p, part.flat);
         double distance = reach;
         for (std::size_t k = part.first; k < part.last; ++k) {
+            if (!bones_[k].may_be_within(distance, q)) continue;
             distance = std::min(distance, bones_[k].distance_to(q));
         }
         const double term = 1 - distance / reach;

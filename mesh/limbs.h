@@ -50,11 +50,15 @@ private:
 
         /// From its flesh to a point; negative inside.
         double distance_to(Vector3d p) const;
+        /// Cheap: false only if the distance to the point is larger.
+        bool may_be_within(double distance, Vector3d p) const;
 
         Vector3d from, direction;
         double extent = 0;
         double radius = 0, growth = 0;  ///< At its start; with each length along it.
         double lean = 0;  ///< Of normals along the bone, for each length away from it.
+        Vector3d middle;
+        double reach = 0;  ///< The radius of a ball around the middle that contains the flesh.
     };
     /// One limb on one side, with a box that contains its flesh.
     struct Part {

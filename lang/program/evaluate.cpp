@@ -2,37 +2,46 @@
 #include "lang/program/evaluate.h"
 
 #include "core/check.h"
-#include "lang/program/fold.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace cascade {
 
-double evaluate(const Formula& formula, const KnownValue& known) {
-    IdVector<NodeId, double> values;
-    values.reserve(formula.nodes.size());
-    for (const Node& node : formula.nodes) {
+void evaluate(const Formula& formula, const KnownValues& known, std::span<double> values) {
+    const std::size_t places = values.size();
+    // A column for each node but the last, whose column is the result.
+    std::vector<double> columns((formula.nodes.size() - 1) * places);
+    for (const NodeId id : formula.nodes.ids()) {
+        const Node& node = formula.nodes[id];
+        const bool is_last = id.index() + 1 == formula.nodes.size();
+        const std::span<double> own =
+            is_last ? values : std::span(columns).subspan(id.index() * places, places);
         if (const auto* const number = node.as<double>()) {
-            values.push_back(*number);
+            std::ranges::fill(own, *number);
             continue;
         }
-        std::array<double, most_operands> operands{};
-        std::ranges::transform(node.reads(), operands.begin(),
-                               [&](NodeId operand) { return values[operand]; });
-        std::optional<double> value = known(node, operands);
-        if (!value && node.is<Call>()) value = fold(node.function, operands);
-        CHECK(value, "a formula of a place is made of known values and functions of numbers");
-        values.push_back(*value);
+        OperandColumns operands;
+        operands.fill(own.data());
+        std::ranges::transform(node.reads(), operands.begin(), [&](NodeId operand) {
+            return columns.data() + operand.index() * places;
+        });
+        const bool has_values =
+            known(node, operands, own) || (node.is<Call>() && fold(node.function, operands, own));
+        CHECK(has_values, "a formula of a place is made of known values and functions of numbers");
     }
-    return values.back();
 }
 
 double evaluate(const Formula& formula, const BuiltinValues& builtins) {
-    return evaluate(formula, [&](const Node& node, const auto&) -> std::optional<double> {
+    double value = 0;
+    const KnownValues known = [&](const Node& node, const auto&, std::span<double> values) {
         const auto* const builtin = node.as<Builtin>();
-        if (builtin == nullptr) return std::nullopt;
-        return builtins[static_cast<std::size_t>(*builtin)];
-    });
+        if (builtin == nullptr) return false;
+        values[0] = builtins[static_cast<std::size_t>(*builtin)];
+        return true;
+    };
+    evaluate(formula, known, {&value, 1});
+    return value;
 }
 
 }  // namespace cascade

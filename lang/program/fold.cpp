@@ -25,17 +25,30 @@ double smooth_step(double low, double high, double x) {
 
 }  // namespace
 
-std::optional<double> fold(Function function, std::span<const double> operands) {
-    const double a = operands[0];
-    const double b = operands[1];
-    const double c = operands[2];
+bool fold(Function function, const OperandColumns& operands, std::span<double> values) {
+    const auto fill = [&](auto value_of) {
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            values[k] = value_of(operands[0][k], operands[1][k], operands[2][k]);
+        }
+        return true;
+    };
     switch (function) {
         // clang-format off
-#define CASCADE_ELEMENTARY(id, value, ...) case Function::id: return value;
+#define CASCADE_ELEMENTARY(id, value, ...) \
+        case Function::id: \
+            return fill([]([[maybe_unused]] double a, [[maybe_unused]] double b, \
+                           [[maybe_unused]] double c) -> double { return value; });
 #include "lang/vocabulary/elementary.def"
         // clang-format on
-        default: return std::nullopt;
+        default: return false;
     }
+}
+
+std::optional<double> fold(Function function, std::span<const double> operands) {
+    double value = 0;
+    const OperandColumns columns{&operands[0], &operands[1], &operands[2]};
+    if (!fold(function, columns, {&value, 1})) return std::nullopt;
+    return value;
 }
 
 }  // namespace cascade

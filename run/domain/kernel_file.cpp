@@ -4,7 +4,8 @@
 #include "lang/program/evaluate.h"
 #include "run/domain/file_places.h"
 
-#include <optional>
+#include <array>
+#include <span>
 #include <utility>
 
 namespace cascade {
@@ -13,14 +14,20 @@ namespace {
 
 /// The value of a formula of numbers, of a distance, and of components of a direction.
 double value_at(const Formula& formula, double distance, const std::array<double, 3>& direction) {
-    return evaluate(formula, [&](const Node& node, const auto& operands) -> std::optional<double> {
+    double value = 0;
+    const KnownValues known = [&](const Node& node, const OperandColumns& operands,
+                                  std::span<double> values) {
         if (const auto* const lag = node.as<CellValue>()) {
-            return *lag == CellValue::distance ? distance : 0;
+            values[0] = *lag == CellValue::distance ? distance : 0;
+            return true;
         }
         // Only the direction is a vector here; the second operand is the axis.
-        if (!node.calls(Function::component)) return std::nullopt;
-        return direction[static_cast<std::size_t>(operands[1])];
-    });
+        if (!node.calls(Function::component)) return false;
+        values[0] = direction[static_cast<std::size_t>(operands[1][0])];
+        return true;
+    };
+    evaluate(formula, known, {&value, 1});
+    return value;
 }
 
 }  // namespace

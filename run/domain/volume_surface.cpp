@@ -13,8 +13,9 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace cascade {
 
@@ -23,6 +24,8 @@ namespace {
 /// The length of the longest side of a cube, in edges of triangles: of one without volumes, and at
 /// most, since many more would take minutes.
 constexpr double usual_edges = 50, most_edges = 100;
+/// The number of places whose values are computed together, so that they stay in the caches.
+constexpr std::size_t places_together = 256;
 
 /// An array in the cube.
 struct Volume {
@@ -79,34 +82,30 @@ public:
         return {};
     }
 
-    /// Below 0 outside of the arrays that fill the cube.
-    double at(const Vector3d& point) const {
-        const BuiltinValues builtins = builtins_at(point);
-        double depth = std::numeric_limits<double>::infinity();
-        const auto known = [&](const Node& node, const auto&) -> std::optional<double> {
+    /// Sets values[k] to that at points[k]: below 0 outside of the arrays that fill the cube.
+    void at(std::span<const Vector3d> points, std::span<double> values) const {
+        std::vector<double> depths(points.size(), std::numeric_limits<double>::infinity());
+        const KnownValues known = [&](const Node& node, const auto&, std::span<double> own) {
             if (const auto* const builtin = node.as<Builtin>()) {
-                return builtins[static_cast<std::size_t>(*builtin)];
+                std::ranges::transform(points, own.begin(), [&](const Vector3d& point) {
+                    return builtins_at(point)[static_cast<std::size_t>(*builtin)];
+                });
+                return true;
             }
-            if (node.is<TextId>()) return 0;
-            if (!node.calls(Function::field)) return std::nullopt;
+            if (node.is<TextId>()) return true;  // Its text is read below.
+            if (!node.calls(Function::field)) return false;
             const Volume& volume = volumes_.at(text_of(node));
             const auto& places = literals_.reading(node.as<Call>()->detail).place;
-            FilePlace place{0.5, 0.5, 0.5};
-            for (std::size_t axis = 0; axis < places.size(); ++axis) {
-                place[axis] = evaluate(places[axis], builtins);
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                own[k] = volume.at(places.empty() ? place_in_cube(volume, points[k], depths[k])
+                                                  : place_by(places, builtins_at(points[k])));
             }
-            if (!places.empty()) return volume.at(place);
-            const std::array along{point.x, point.y, point.z};
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const double extent = volume.extent(axis);
-                place[axis] += along[axis] / extent;
-                depth = std::min({depth, place[axis] * extent / volume.element,
-                                  (1 - place[axis]) * extent / volume.element});
-            }
-            return volume.at(place);
+            return true;
         };
-        const double value = evaluate(formula_, known);
-        return depth <= 0 ? depth : std::min(value, depth);
+        evaluate(formula_, known, values);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            values[k] = depths[k] <= 0 ? depths[k] : std::min(values[k], depths[k]);
+        }
     }
 
     /// The length of the smallest element; `otherwise` if no array fills the cube.
@@ -118,6 +117,26 @@ public:
     bool reads_volumes() const { return !volumes_.empty(); }
 
 private:
+    /// In an array that fills the cube. Lowers `depth` to the distance from its nearest side, in
+    /// elements; below 0 outside.
+    static FilePlace place_in_cube(const Volume& volume, const Vector3d& point, double& depth) {
+        FilePlace place{0.5, 0.5, 0.5};
+        const std::array along{point.x, point.y, point.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double extent = volume.extent(axis);
+            place[axis] += along[axis] / extent;
+            depth = std::min({depth, place[axis] * extent / volume.element,
+                              (1 - place[axis]) * extent / volume.element});
+        }
+        return place;
+    }
+    static FilePlace place_by(std::span<const Formula> formulas, const BuiltinValues& builtins) {
+        FilePlace place{0.5, 0.5, 0.5};
+        for (std::size_t axis = 0; axis < formulas.size(); ++axis) {
+            place[axis] = evaluate(formulas[axis], builtins);
+        }
+        return place;
+    }
     TextId text_of(const Node& node) const {
         return std::get<TextId>(formula_.nodes[node.operands[0]].kind);
     }
@@ -142,8 +161,10 @@ Result<SurfaceMesh> surface_of_formula(const ModelSettings& settings, const Lite
     request.low = {-reach, -reach, -reach};
     request.high = {reach, reach, reach};
     const auto function = [&](std::span<const Vector3d> points, std::span<double> values) {
-        std::ranges::transform(points, values.begin(),
-                               [&](const Vector3d& point) { return formula.at(point); });
+        for (std::size_t begin = 0; begin < points.size(); begin += places_together) {
+            const std::size_t count = std::min(places_together, points.size() - begin);
+            formula.at(points.subspan(begin, count), values.subspan(begin, count));
+        }
     };
     return implicit_surface(function, request, cancel);
 }
