@@ -178,10 +178,15 @@ Result<RunReport> Runner::run() {
     }
     if (auto done = settle_in_detail(); !done) return tl::unexpected(done.error());
     if (!request_.resume.empty()) remark_on_resumed();
+    // Made once: that of a body may take longer than the steps.
+    const Canvas canvas = [&] {
+        const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
+        return painter().canvas(shown());
+    }();
     if (report_.status == RunStatus::finished && report_.steps > 0) {
-        remark(remark_on_picture(painter(), shown()));
+        remark(remark_on_picture(painter(), shown(), canvas));
         // A sheet draws numbers, so it uses palette and range.
-        if (request_.sheet.empty()) remark(remark_on_look(painter(), shown()));
+        if (request_.sheet.empty()) remark(remark_on_look(painter(), shown(), canvas));
         if (frames_ && frames_->holds_starts_alone()) {
             remark(fmt::format(
                 "{} nothing but starting values: 'interval' is longer than each stage",
@@ -192,7 +197,7 @@ Result<RunReport> Runner::run() {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
         report_.features = measure_shown(painter(), shown());
     }
-    if (auto written = results().write(); !written) return tl::unexpected(written.error());
+    if (auto written = results().write(canvas); !written) return tl::unexpected(written.error());
     return std::move(report_);
 }
 

@@ -214,8 +214,7 @@ Result<void> RunResults::write_plane_files(const Canvas& canvas) {
     });
 }
 
-Result<void> RunResults::write_outputs() {
-    const Canvas canvas = painter.canvas(simulation);
+Result<void> RunResults::write_outputs(const Canvas& canvas) {
     Result<void> result;
     for (const auto& output : outputs) {
         const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
@@ -296,14 +295,14 @@ Result<void> RunResults::write_series() {
     return {};
 }
 
-Result<void> RunResults::write() {
+Result<void> RunResults::write(const Canvas& canvas) {
     const TimeAccount::Scope spent(request.simulation.account, Spent::drawing);
     // The run may have taken hours, so every output is written even if another one fails.
     std::optional<Failure> first;
     const auto attempt = [&](const Result<void>& done) {
         if (!done && !first) first = done.error();
     };
-    attempt(write_outputs());
+    attempt(write_outputs(canvas));
     if (log) attempt(write_log());
     if (!request.frames.empty()) attempt(write_frames());
     if (!request.sheet.empty()) {

@@ -37,14 +37,14 @@ struct RunResults {
     SeriesWriter* series;                                      ///< Null without --series.
     RunReport& report;                                         ///< Gets the paths of files.
 
-    /// Writes everything that was requested. An output that fails does not prevent the others;
-    /// returns the first failure.
-    Result<void> write();
+    /// Writes everything that was requested, pictures from the painter's last canvas. An output
+    /// that fails does not prevent the others; returns the first failure.
+    Result<void> write(const Canvas& canvas);
     /// Writes only the log. There must be one.
     Result<void> write_log();
 
 private:
-    Result<void> write_outputs();
+    Result<void> write_outputs(const Canvas& canvas);
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
     /// The picture of a canvas for a file; `what` is said with the part that is drawn. Nothing,
     /// with a note in the report, if Ctrl-C stops it.

@@ -235,12 +235,12 @@ void Sweeper::take(std::size_t number, RunControl& control) {
         result.remark = one_line(done.error().message);
         return keep(number, std::move(result));
     }
-    add_remark(result, remark_on_picture(*painter, **simulation));
+    Canvas canvas = painter->canvas(**simulation);
+    add_remark(result, remark_on_picture(*painter, **simulation, canvas));
     result.features = measure_shown(*painter, **simulation);
     if (const Tissue* tissue = shown_tissue(**simulation)) {
         result.cells = {static_cast<std::int64_t>(tissue->count()), tissue->births, tissue->deaths};
     }
-    Canvas canvas = painter->canvas(**simulation);
     // Without rows and columns a tile is a picture.
     painter->set_width(request_.tile_side);
     if (canvas.cells || (*simulation)->model()) canvas = canvas_of(painter->image(canvas));

@@ -89,13 +89,13 @@ std::string describe_waves(Painter& painter, const Simulation& simulation, std::
 
 }  // namespace
 
-std::string remark_on_picture(Painter& painter, const Simulation& simulation) {
+std::string remark_on_picture(Painter& painter, const Simulation& simulation,
+                              const Canvas& canvas) {
     const auto stage = simulation.shown_stage();
     if (!stage) return {};
     const StageState& state = simulation.state(*stage);
-    if (state.tissue) return painter.canvas(simulation).cells->fault;
+    if (state.tissue) return canvas.cells->fault;
     if (state.course.empty() || state.course.ended_even()) return {};
-    const Canvas canvas = painter.canvas(simulation);
     if (canvas.body) {
         return canvas.body->points.empty()
                    ? "the body of the picture is empty: its formula is nowhere above 0"
@@ -111,11 +111,11 @@ std::string remark_on_picture(Painter& painter, const Simulation& simulation) {
     return remark.empty() ? describe_waves(painter, simulation, *stage) : remark;
 }
 
-std::string remark_on_look(Painter& painter, const Simulation& simulation) {
+std::string remark_on_look(const Painter& painter, const Simulation& simulation,
+                           const Canvas& canvas) {
     const PictureRequest& request = painter.request();
     const bool has_palette = request.palette != PictureRequest().palette;
     if (!(has_palette || request.range) || !simulation.shown_stage()) return {};
-    const Canvas canvas = painter.canvas(simulation);
     // A canvas with a number uses the range.
     if (canvas.number() != nullptr) return {};
     const char* const options = !request.range ? "--palette changes"

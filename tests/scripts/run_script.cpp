@@ -88,7 +88,7 @@ void Run::remark() {
         if (simulation->state(k).steps > 0) add(simulation->remark_on(k));
     }
     auto painter = Painter::create(script, {});
-    if (painter) add(remark_on_picture(*painter, *simulation));
+    if (painter) add(remark_on_picture(*painter, *simulation, painter->canvas(*simulation)));
 }
 
 /// All messages about the texts of a script, notes among them.
