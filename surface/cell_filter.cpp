@@ -282,18 +282,15 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) cons
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
+    const auto [a, b, c] = place.edges;
+    // The weights of sets of edges, as branches on them would be unpredictable.
+    const std::array<float, 8> parts{0, a, b, a + b, c, a + c, b + c, 1};
     const auto sightings = sightings_of(box_of(patch, place), 1);
     for (std::size_t k = 0; k < sightings.size();) {
         Near near{sightings[k].cell, 0, 0, 0};
         for (; k < sightings.size() && sightings[k].cell == near.cell; ++k) {
             const Sighting& sighting = sightings[k];
-            float part = 1;
-            if (sighting.edges != 7) {
-                part = 0;
-                for (std::size_t edge = 0; edge < 3; ++edge) {
-                    if (sighting.edges >> edge & 1) part += place.edges[edge];
-                }
-            }
+            const float part = parts[sighting.edges];
             const float x = place.x - sighting.x, y = place.y - sighting.y;
             near.square += part * (x * x + y * y);
             near.x += part * x;

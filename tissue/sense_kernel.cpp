@@ -185,7 +185,7 @@ PlaceValue of_points(const SurfaceMesh& mesh, std::vector<float> values) {
 PlaceValue of_cells(const CellFilter& filter, std::vector<float> values) {
     return [&filter, values = std::move(values)](const NearPlace& near) {
         if (near.place.triangle == NearPlace::no_triangle) return 0.0;
-        std::vector<CellShare> shares;
+        thread_local std::vector<CellShare> shares;  // Its memory serves all calls.
         filter.shares(near.place, shares);
         double sum = 0;
         for (const CellShare& share : shares) sum += double{share.weight} * values[share.cell];
