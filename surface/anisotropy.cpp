@@ -13,6 +13,12 @@ Stretch Stretch::along(Vector2d direction, double ratio) {
     return {c * c / root + s * s * root, c * s * (1 / root - root), s * s / root + c * c * root};
 }
 
+double Stretch::longest() const {
+    // The inverse has the same eigenvalues, whose product is 1.
+    const double half_sum = std::max((xx + yy) / 2, 1.0);
+    return half_sum + std::sqrt(half_sum * half_sum - 1);
+}
+
 Stretch Stretch::in_frame(Vector2d turn) const {
     const Vector2d x = turned_into((*this)(turn), turn);
     const Vector2d y = turned_into((*this)({-turn.y, turn.x}), turn);

@@ -18,6 +18,8 @@ struct Stretch {
 
     Vector2d operator()(Vector2d v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
     Stretch inverse() const { return {yy, -xy, xx}; }
+    /// The length, at least 1, of the longest vector whose length in the metric is 1.
+    double longest() const;
     /// The same stretch in a frame whose x axis is `turn` (of length 1) in this one.
     Stretch in_frame(Vector2d turn) const;
 };

@@ -37,7 +37,6 @@ public:
           places_(places),
           team_(team),
           cancel_(cancel),
-          anisotropy_(anisotropy),
           radius_(repulsion_radius(mesh.total_area(), places.size())),
           shapes_(mesh),
           turns_(places.size()),
@@ -48,6 +47,10 @@ public:
           ends_(places.size()),
           parts_(static_cast<std::size_t>(team.size())) {
         std::iota(active_.begin(), active_.end(), std::uint32_t{0});
+        if (anisotropy == nullptr) return;
+        for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+            stretches_.push_back(anisotropy->of(mesh, triangle));
+        }
     }
 
     void run(int rounds) {
@@ -83,8 +86,9 @@ private:
         return part;
     }
 
+    bool is_anisotropic() const { return !stretches_.empty(); }
     Stretch stretch_at(const SurfacePlace& place) const {
-        return anisotropy_ ? anisotropy_->of(mesh_, place.triangle) : Stretch{};
+        return is_anisotropic() ? stretches_[place.triangle] : Stretch{};
     }
 
     /// Separates places that outdated lists let collide; the others stay.
@@ -122,13 +126,20 @@ private:
         return crowded;
     }
 
-    /// The list of all places reaches this far.
+    /// The lists of all places reach this far, in the metric of each.
     double reach() const { return (1 + skin) * radius_; }
 
-    /// Updates the positions of the active places and sorts all of them.
+    /// Updates the positions of the active places and sorts all of them, into boxes of the usual
+    /// reach on the surface.
     PointIndex index_places() {
         for (const std::uint32_t k : active_) positions_[k] = position_of(mesh_, places_[k]);
-        return {positions_, reach()};
+        double side = reach();
+        if (is_anisotropic()) {
+            double sum = 0;
+            for (const SurfacePlace& place : places_) sum += stretch_at(place).longest();
+            side *= sum / static_cast<double>(places_.size());
+        }
+        return {positions_, side};
     }
 
     /// Rebuilds the lists of the active places.
@@ -140,8 +151,7 @@ private:
             for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
                 const auto n = static_cast<std::size_t>(row);
                 const std::uint32_t k = active_[n];
-                const double ratio = anisotropy_ ? anisotropy_->ratio_of(places_[k].triangle) : 1;
-                find_others_of(k, index, reach() * std::sqrt(ratio), unfolding, part);
+                find_others_of(k, index, unfolding, part);
                 ends_[n] = part.neighbours.size();
                 turns_[k] = {1, 0};
                 moved_[k] = {};
@@ -149,16 +159,24 @@ private:
         });
     }
 
-    void find_others_of(std::uint32_t k, const PointIndex& index, double reach,
-                        Unfolding& unfolding, Part& part) const {
-        unfolding.around(places_[k], reach);
-        index.near(positions_[k], reach, [&](std::uint32_t number) {
+    void find_others_of(std::uint32_t k, const PointIndex& index, Unfolding& unfolding,
+                        Part& part) const {
+        const Stretch metric = stretch_at(places_[k]);
+        double longest = reach();
+        if (is_anisotropic()) {
+            unfolding.around(places_[k], reach(), metric);
+            longest *= metric.longest();
+        } else {
+            unfolding.around(places_[k], reach());
+        }
+        index.near(positions_[k], longest, [&](std::uint32_t number) {
             const FlatTriangle* flat = unfolding.flat_of(places_[number].triangle);
             if (number == k || !flat) return;
             const Vector2d stood = position_of(*flat, places_[number].weights);
-            const double square = dot(stood, stood);
+            const Vector2d seen = metric(stood);
             const Vector3d apart = positions_[number] - positions_[k];
-            if (square > reach * reach || !Unfolding::is_image(square, dot(apart, apart))) return;
+            if (dot(seen, seen) > reach() * reach()) return;
+            if (!Unfolding::is_image(dot(stood, stood), dot(apart, apart))) return;
             const Vector2d base = (*flat)[1] - (*flat)[0];
             part.neighbours.add(number, stood * (1 / radius_), base * (1 / length(base)));
         });
@@ -202,9 +220,9 @@ private:
     std::vector<SurfacePlace>& places_;
     Team& team_;
     const std::atomic<bool>& cancel_;
-    const Anisotropy* anisotropy_;
     double radius_;
     EdgeShapes shapes_;
+    std::vector<Stretch> stretches_;  ///< By triangle; empty without an anisotropy.
     /// Since the lists were made, in the frame of that time: the rotation of the frame of each
     /// place's triangle, and the movement of the place (in radii). A round reads `moved_`, writes
     /// `moving_`.

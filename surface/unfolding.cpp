@@ -32,16 +32,17 @@ EdgeShapes::EdgeShapes(const SurfaceMesh& mesh) {
     }
 }
 
+template <typename Metric>
 void Unfolding::add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered,
-                    double square) {
+                    double square, double square_of_longest, const Metric& metric) {
     const auto piece = static_cast<std::uint32_t>(pieces_.size());
     pieces_.push_back({triangle, flat});
     marks_[triangle] = first_mark_ + static_cast<std::uint32_t>(pieces_.size());
     for (std::uint32_t k = 0; k < 3; ++k) {
         const TriangleEdge other = mesh_.across[triangle][k];
         if (k == entered || !other.exists() || flat_of(other.triangle)) continue;
-        const double distance = square_to(flat[corner_after(k)], flat[k]);
-        if (distance > square || square_in_space(triangle, k) > square) {
+        const double distance = square_to(metric(flat[corner_after(k)]), metric(flat[k]));
+        if (distance > square || square_in_space(triangle, k) > square_of_longest) {
             is_everything_ = false;
             continue;
         }
@@ -59,6 +60,19 @@ double Unfolding::square_in_space(std::uint32_t triangle, std::uint32_t edge) co
 }
 
 std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, double radius) {
+    return spread(place, radius, radius, [](Vector2d v) { return v; });
+}
+
+std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, double radius,
+                                                    const Stretch& metric) {
+    return spread(place, radius, radius * metric.longest(), metric);
+}
+
+/// Paths of at most `radius` in the metric are at most `longest` on the surface.
+template <typename Metric>
+std::span<const Unfolding::Piece> Unfolding::spread(const SurfacePlace& place, double radius,
+                                                    double longest, const Metric& metric) {
+    const double square_of_radius = radius * radius, square_of_longest = longest * longest;
     first_mark_ += static_cast<std::uint32_t>(pieces_.size());
     if (first_mark_ > std::numeric_limits<std::uint32_t>::max() - marks_.size()) {
         std::fill(marks_.begin(), marks_.end(), 0);
@@ -71,7 +85,7 @@ std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, d
     FlatTriangle flat = own_frame(mesh_, place.triangle);
     const Vector2d origin = position_of(flat, place.weights);
     for (Vector2d& corner : flat) corner = corner - origin;
-    add(place.triangle, flat, 3, radius * radius);
+    add(place.triangle, flat, 3, square_of_radius, square_of_longest, metric);
     while (!fronts_.empty()) {
         std::pop_heap(fronts_.begin(), fronts_.end());
         const auto [square, number, edge] = fronts_.back();
@@ -83,7 +97,7 @@ std::span<const Unfolding::Piece> Unfolding::around(const SurfacePlace& place, d
         flat[k] = piece.flat[corner_after(edge)];
         flat[corner_after(k)] = piece.flat[edge];
         flat[corner_before(k)] = shapes_.apex(into, flat[k], flat[corner_after(k)]);
-        add(into.triangle, flat, k, radius * radius);
+        add(into.triangle, flat, k, square_of_radius, square_of_longest, metric);
     }
     return pieces_;
 }

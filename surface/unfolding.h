@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/flat.h"
+#include "surface/anisotropy.h"
 
 #include <span>
 #include <tuple>
@@ -55,6 +56,8 @@ public:
     /// All triangles reached by a path of at most `radius` from the place, which is the origin, in
     /// the frame of the place's triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
+    /// The same with distances from the place in a metric of that frame.
+    std::span<const Piece> around(const SurfacePlace& place, double radius, const Stretch& metric);
 
     /// Whether the last patch contains all triangles connected with the place.
     bool is_everything() const { return is_everything_; }
@@ -76,8 +79,12 @@ private:
             return std::tie(b.square, b.piece, b.edge) < std::tie(a.square, a.piece, a.edge);
         }
     };
-    void add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered,
-             double square);
+    template <typename Metric>
+    std::span<const Piece> spread(const SurfacePlace& place, double radius, double longest,
+                                  const Metric& metric);
+    template <typename Metric>
+    void add(std::uint32_t triangle, const FlatTriangle& flat, std::uint32_t entered, double square,
+             double square_of_longest, const Metric& metric);
     double square_in_space(std::uint32_t triangle, std::uint32_t edge) const;
 
     const SurfaceMesh& mesh_;
