@@ -71,12 +71,6 @@ SurfaceMesh::Box box_of(const std::vector<Joint>& points) {
     return box;
 }
 
-/// Squared; 0 inside.
-double square_of_distance(const SurfaceMesh::Box& box, Vector3d p) {
-    const Vector3d away = p - least(greatest(p, box.low), box.high);
-    return dot(away, away);
-}
-
 }  // namespace
 
 LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_radius)
@@ -87,24 +81,31 @@ LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_
       // Where one ball contains the other there is no cone.
       growth(extent > 0 ? std::clamp((to_radius - from_radius) / extent, -steepest, steepest) : 0),
       lean(growth / std::sqrt(1 - growth * growth)),
-      middle(start + direction * (extent / 2)),
-      // A little more than it is, for rounding.
-      reach(1.000001 * (extent / 2 + std::max(radius, radius + growth * extent))) {}
+      // A little larger than it must be, for rounding.
+      ball{start + direction * (extent / 2),
+           1.000001 * (extent / 2 + std::max(radius, radius + growth * extent))} {}
 
-double LimbBody::Bone::distance_to(Vector3d p) const {
-    const Vector3d away = p - from;
-    const double along = dot(away, direction);
-    const double aside = std::sqrt(std::max(0.0, dot(away, away) - along * along));
-    // The ball whose flesh is nearest.
-    const double place = std::clamp(along + lean * aside, 0.0, extent);
-    const double rest = along - place;
-    return std::sqrt(aside * aside + rest * rest) - radius - growth * place;
+// Its comparisons are such that compilers make them instructions for vectors.
+WITH_WIDE_VECTORS void LimbBody::Bone::lower(Numbers& distances, const Block& points) const {
+    for (std::size_t k = 0; k < block_size; ++k) {
+        const Vector3d away{points.x[k] - from.x, points.y[k] - from.y, points.z[k] - from.z};
+        const double along = dot(away, direction);
+        const double square = dot(away, away) - along * along;
+        const double aside = std::sqrt(square > 0 ? square : 0);
+        // The ball whose flesh is nearest.
+        const double nearest = along + lean * aside;
+        const double place = nearest < 0 ? 0 : nearest > extent ? extent : nearest;
+        const double rest = along - place;
+        const double distance = std::sqrt(aside * aside + rest * rest) - radius - growth * place;
+        distances[k] = distance < distances[k] ? distance : distances[k];
+    }
 }
 
-bool LimbBody::Bone::may_be_within(double distance, Vector3d p) const {
-    const Vector3d away = p - middle;
-    const double most = std::max(distance + reach, 0.0);
-    return dot(away, away) <= most * most;
+SurfaceMesh::Box LimbBody::Block::box() const {
+    const auto [left, right] = std::ranges::minmax(x);
+    const auto [bottom, top] = std::ranges::minmax(y);
+    const auto [back, front] = std::ranges::minmax(z);
+    return {{left, bottom, back}, {right, top, front}};
 }
 
 LimbBody::LimbBody(const std::vector<Limb>& limbs) {
@@ -128,26 +129,63 @@ void LimbBody::add(const Limb& limb, double side) {
 }
 
 double LimbBody::operator()(Vector3d p) const {
-    double sum = -1;
-    for (const Part& part : parts_) {
-        const double reach = softnesses_of_reach * part.softness;
-        if (square_of_distance(part.box, p) >= reach * reach) continue;
-        const Vector3d q = divided(p, part.flat);
-        double distance = reach;
-        for (std::size_t k = part.first; k < part.last; ++k) {
-            if (!bones_[k].may_be_within(distance, q)) continue;
-            distance = std::min(distance, bones_[k].distance_to(q));
+    double value = 0;
+    evaluate({&p, 1}, {&value, 1});
+    return value;
+}
+
+void LimbBody::evaluate(std::span<const Vector3d> points, std::span<double> values) const {
+    for (std::size_t first = 0; first < points.size(); first += block_size) {
+        const std::size_t count = std::min(block_size, points.size() - first);
+        Block block;
+        for (std::size_t k = 0; k < block_size; ++k) {
+            const Vector3d& p = points[first + std::min(k, count - 1)];
+            block.x[k] = p.x;
+            block.y[k] = p.y;
+            block.z[k] = p.z;
         }
-        const double term = 1 - distance / reach;
-        sum += term * term * term * term;
+        const SurfaceMesh::Box box = block.box();
+        Numbers sums;
+        sums.fill(-1);
+        for (const Part& part : parts_) add_part(part, block, box, sums);
+        std::copy_n(sums.data(), count, values.data() + first);
     }
-    return sum;
+}
+
+/// Adds the terms of a limb at the points, which are in the box.
+void LimbBody::add_part(const Part& part, const Block& points, const SurfaceMesh::Box& box,
+                        Numbers& sums) const {
+    const double reach = softnesses_of_reach * part.softness;
+    const Vector3d gap = greatest({}, greatest(part.box.low - box.high, box.low - part.box.high));
+    if (dot(gap, gap) >= reach * reach) return;
+    Block flattened;
+    for (std::size_t k = 0; k < block_size; ++k) {
+        flattened.x[k] = points.x[k] / part.flat.x;
+        flattened.y[k] = points.y[k] / part.flat.y;
+        flattened.z[k] = points.z[k] / part.flat.z;
+    }
+    const Vector3d low = divided(box.low, part.flat), high = divided(box.high, part.flat);
+    const Ball ball{(low + high) * 0.5, 0.500001 * length(high - low)};
+    Numbers distances;
+    distances.fill(reach);
+    double largest = reach;
+    for (std::size_t bone = part.first; bone < part.last; ++bone) {
+        // Bones too far away to be nearest to any point are not measured.
+        const Vector3d away = bones_[bone].ball.middle - ball.middle;
+        const double most = std::max(largest + bones_[bone].ball.radius + ball.radius, 0.0);
+        if (dot(away, away) > most * most) continue;
+        bones_[bone].lower(distances, flattened);
+        largest = std::ranges::max(distances);
+    }
+    for (std::size_t k = 0; k < block_size; ++k) {
+        const double term = 1 - distances[k] / reach;
+        sums[k] += term * term * term * term;
+    }
 }
 
 Result<SurfaceMesh> LimbBody::mesh(double edge, const std::atomic<bool>& cancel) const {
     const auto function = [this](std::span<const Vector3d> points, std::span<double> values) {
-        std::transform(points.begin(), points.end(), values.begin(),
-                       [this](Vector3d p) { return (*this)(p); });
+        evaluate(points, values);
     };
     SurfaceMesh::Box box = parts_[0].box;
     for (const Part& part : parts_) {

@@ -3,10 +3,13 @@
 
 #include "core/result.h"
 #include "core/vector3.h"
+#include "core/wide_vectors.h"
 #include "mesh/surface_mesh.h"
 
 #include <atomic>
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -38,27 +41,40 @@ public:
 
     /// Positive inside, −1 far outside.
     double operator()(Vector3d p) const;
+    /// The same at many points, faster where successive ones are near each other.
+    void evaluate(std::span<const Vector3d> points, std::span<double> values) const;
 
     /// The surface, moved so that it stands on y = 0. `edge` and failures are those of
     /// implicit_surface().
     Result<SurfaceMesh> mesh(double edge, const std::atomic<bool>& cancel) const;
 
 private:
+    /// Some points, side by side for vectors of numbers.
+    static constexpr std::size_t block_size = 8;
+    using Numbers = std::array<double, block_size>;
+    struct Block {
+        Numbers x, y, z;
+
+        SurfaceMesh::Box box() const;
+    };
+    /// A ball that contains something.
+    struct Ball {
+        Vector3d middle;
+        double radius = 0;
+    };
+
     /// A cone between two balls, in coordinates divided by `flat`.
     struct Bone {
         Bone(Vector3d from, double from_radius, Vector3d to, double to_radius);
 
-        /// From its flesh to a point; negative inside.
-        double distance_to(Vector3d p) const;
-        /// Cheap: false only if the distance to the point is larger.
-        bool may_be_within(double distance, Vector3d p) const;
+        /// Lowers `distances` to those from its flesh to the points; negative inside.
+        WITH_WIDE_VECTORS void lower(Numbers& distances, const Block& points) const;
 
         Vector3d from, direction;
         double extent = 0;
         double radius = 0, growth = 0;  ///< At its start; with each length along it.
         double lean = 0;  ///< Of normals along the bone, for each length away from it.
-        Vector3d middle;
-        double reach = 0;  ///< The radius of a ball around the middle that contains the flesh.
+        Ball ball;        ///< Contains the flesh.
     };
     /// One limb on one side, with a box that contains its flesh.
     struct Part {
@@ -69,6 +85,8 @@ private:
     };
 
     void add(const Limb& limb, double side);
+    void add_part(const Part& part, const Block& points, const SurfaceMesh::Box& box,
+                  Numbers& sums) const;
 
     std::vector<Bone> bones_;
     std::vector<Part> parts_;
