@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 
 namespace cascade {
 
@@ -35,8 +37,9 @@ struct Spread {
     void add(const Spread& other);
 };
 
-/// `for_each(take)` calls `take(value)` for every value, in the same order each time. Squares are
-/// summed in a second pass, because a difference of sums would lose small patterns.
+/// The statistics of values: `for_each(take)` calls `take(value)` for every value, in the same
+/// order each time. Squares are summed in a second pass, because a difference of sums would lose
+/// small patterns.
 template <typename ForEach>
 Spread spread_of(const ForEach& for_each) {
     Spread spread;
@@ -56,5 +59,10 @@ Spread spread_of(const ForEach& for_each) {
     });
     return spread;
 }
+
+/// The same of adjacent values. `counts` may be null; else values count where it is not 0. Several
+/// times as fast where all are finite and all count.
+Spread spread_of(std::span<const float> values, const std::uint8_t* counts = nullptr);
+Spread spread_of(std::span<const double> values, const std::uint8_t* counts = nullptr);
 
 }  // namespace cascade

@@ -19,12 +19,11 @@ double position_in(ValueRange range, float value) {
 
 Spread spread_of(const Field& field) {
     const PlaneLayout& layout = field.layout();
-    return spread_of([&](const auto& take) {
-        for (std::int64_t j = 0; j < layout.height; ++j) {
-            const float* row = field.row(j);
-            for (std::int64_t i = 0; i < layout.width; ++i) take(double{row[i]});
-        }
-    });
+    Spread spread;
+    for (std::int64_t j = 0; j < layout.height; ++j) {
+        spread.add(spread_of(std::span(field.row(j), static_cast<std::size_t>(layout.width))));
+    }
+    return spread;
 }
 
 ValueRange automatic_range(const Spread& values) {

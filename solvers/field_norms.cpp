@@ -14,7 +14,7 @@ namespace {
 /// Sums value(i) for i of [0, count): sixteen partial sums, which a compiler can keep in vectors,
 /// then those one by one.
 template <typename Value>
-inline double sum(std::int64_t count, Value value) {
+[[gnu::always_inline]] inline double sum(std::int64_t count, Value value) {
     constexpr std::int64_t lanes = 16;
     std::array<double, lanes> sums{};
     std::int64_t i = 0;
@@ -29,40 +29,97 @@ inline double sum(std::int64_t count, Value value) {
     return total;
 }
 
-template <typename ValueOfRow>
-double mean_over_cells(const PlaneLayout& layout, const Mask* inside, ValueOfRow value_of_row) {
-    double total = 0, cells = 0;
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        const auto value = value_of_row(row);
-        if (inside == nullptr) {
-            total += sum(layout.width, value);
-            cells += static_cast<double>(layout.width);
-            continue;
+/// A row of a field, or of the difference of two.
+template <typename Number>
+struct Row {
+    const Number* cells;
+    const Number* subtracted;    ///< May be null.
+    const std::uint8_t* counts;  ///< Cells count where it is not 0; null: all.
+    std::int64_t width;
+
+    /// Calls `use(value, counts)` with functions of the cell. The kinds of rows are told apart
+    /// outside of the loops.
+    template <typename Use>
+    [[gnu::always_inline]] auto visit(Use use) const {
+        const auto with_counts = [&](auto value) __attribute__((always_inline)) {
+            if (counts == nullptr) return use(value, [](std::int64_t) { return true; });
+            return use(value, [this](std::int64_t i) { return counts[i] != 0; });
+        };
+        if (subtracted == nullptr) {
+            return with_counts([this](std::int64_t i) { return double{cells[i]}; });
         }
-        const std::uint8_t* counts = inside->row(row);
-        total += sum(layout.width, [&](std::int64_t i) { return counts[i] ? value(i) : 0.0; });
-        cells += sum(layout.width, [&](std::int64_t i) { return counts[i] ? 1.0 : 0.0; });
+        return with_counts([this](std::int64_t i) { return double{cells[i]} - subtracted[i]; });
     }
-    return total / cells;
+};
+
+/// Of the cells of a row that count.
+struct RowSums {
+    double values = 0, squares = 0, cells = 0;
+};
+
+template <typename Number>
+[[gnu::always_inline]] inline RowSums sums_of(const Row<Number>& row) {
+    return row.visit([&](auto value, auto counts) __attribute__((always_inline)) {
+        return RowSums{sum(row.width, [&](std::int64_t i) { return counts(i) ? value(i) : 0.0; }),
+                       sum(row.width,
+                           [&](std::int64_t i) { return counts(i) ? value(i) * value(i) : 0.0; }),
+                       sum(row.width, [&](std::int64_t i) { return counts(i) ? 1.0 : 0.0; })};
+    });
+}
+WITH_WIDE_VECTORS RowSums row_sums(const Row<float>& row) { return sums_of(row); }
+WITH_WIDE_VECTORS RowSums row_sums(const Row<double>& row) { return sums_of(row); }
+
+template <typename Number>
+[[gnu::always_inline]] inline double squares_of(const Row<Number>& row, double mean) {
+    return row.visit([&](auto value, auto counts) __attribute__((always_inline)) {
+        return sum(row.width, [&](std::int64_t i) {
+            const double apart = value(i) - mean;
+            return counts(i) ? apart * apart : 0.0;
+        });
+    });
+}
+WITH_WIDE_VECTORS double squares_about(const Row<float>& row, double mean) {
+    return squares_of(row, mean);
+}
+WITH_WIDE_VECTORS double squares_about(const Row<double>& row, double mean) {
+    return squares_of(row, mean);
 }
 
-/// `value_of_row(row)` is a function of the cell in it.
-template <typename ValueOfRow>
-FieldMoments moments_of(const PlaneLayout& layout, const Mask* inside, ValueOfRow value_of_row) {
+/// `row_at(row)` is a Row.
+template <typename RowAt>
+RowSums sums_of_rows(const PlaneLayout& layout, RowAt row_at) {
+    RowSums total;
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        const RowSums sums = row_sums(row_at(row));
+        total.values += sums.values;
+        total.squares += sums.squares;
+        total.cells += sums.cells;
+    }
+    return total;
+}
+
+template <typename RowAt>
+FieldMoments moments_of(const PlaneLayout& layout, RowAt row_at) {
+    const RowSums sums = sums_of_rows(layout, row_at);
     FieldMoments result;
-    result.mean = mean_over_cells(layout, inside, value_of_row);
-    result.root_mean_square = std::sqrt(mean_over_cells(layout, inside, [&](std::int64_t row) {
-        return [value = value_of_row(row)](std::int64_t i) { return value(i) * value(i); };
-    }));
+    result.mean = sums.values / sums.cells;
+    result.root_mean_square = std::sqrt(sums.squares / sums.cells);
     // About the mean, because the difference of two squares would lose a pattern of small
     // amplitude.
-    result.deviation = std::sqrt(mean_over_cells(layout, inside, [&](std::int64_t row) {
-        return [value = value_of_row(row), mean = result.mean](std::int64_t i) {
-            const double apart = value(i) - mean;
-            return apart * apart;
-        };
-    }));
+    double squares = 0;
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        squares += squares_about(row_at(row), result.mean);
+    }
+    result.deviation = std::sqrt(squares / sums.cells);
     return result;
+}
+
+template <typename Number>
+auto rows_in(const Plane<Number>& plane, const Plane<Number>* subtracted, const Mask* inside) {
+    return [&plane, subtracted, inside](std::int64_t row) {
+        return Row<Number>{plane.row(row), subtracted ? subtracted->row(row) : nullptr,
+                           inside ? inside->row(row) : nullptr, plane.layout().width};
+    };
 }
 
 WITH_WIDE_VECTORS double sum_of_squares(const float* cells, std::int64_t count) {
@@ -75,30 +132,32 @@ WITH_WIDE_VECTORS double sum_of_squares(const double* cells, std::int64_t count)
 }  // namespace
 
 FieldMoments moments(const Field& field, const Mask* inside) {
-    return field.visit([&](const auto& plane) {
-        return moments_of(plane.layout(), inside, [&](std::int64_t row) {
-            return [cells = plane.row(row)](std::int64_t i) { return double{cells[i]}; };
-        });
-    });
+    return field.visit(
+        [&](const auto& plane) { return moments_of(plane.layout(), rows_in(plane, {}, inside)); });
 }
 
 FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* inside) {
     return with_number(a.precision(), [&](auto zero) {
         using Number = decltype(zero);
-        const Plane<Number>&first = a.plane<Number>(), &second = b.plane<Number>();
-        return moments_of(first.layout(), inside, [&](std::int64_t row) {
-            return [p = first.row(row), q = second.row(row)](std::int64_t i) {
-                return double{p[i]} - q[i];
-            };
-        });
+        const auto& plane = a.plane<Number>();
+        return moments_of(plane.layout(), rows_in(plane, &b.plane<Number>(), inside));
     });
 }
 
 double root_mean_square(const Field& field, const Mask* inside) {
     return field.visit([&](const auto& plane) {
-        return std::sqrt(mean_over_cells(plane.layout(), inside, [&](std::int64_t row) {
-            return [cells = plane.row(row)](std::int64_t i) { return double{cells[i]} * cells[i]; };
-        }));
+        const RowSums sums = sums_of_rows(plane.layout(), rows_in(plane, {}, inside));
+        return std::sqrt(sums.squares / sums.cells);
+    });
+}
+
+double root_mean_square_of_difference(const Field& a, const Field& b, const Mask* inside) {
+    return with_number(a.precision(), [&](auto zero) {
+        using Number = decltype(zero);
+        const auto& plane = a.plane<Number>();
+        const RowSums sums =
+            sums_of_rows(plane.layout(), rows_in(plane, &b.plane<Number>(), inside));
+        return std::sqrt(sums.squares / sums.cells);
     });
 }
 

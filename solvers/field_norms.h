@@ -24,6 +24,9 @@ FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* i
 /// The root mean square of a field's cells; NaN if one of them is NaN.
 double root_mean_square(const Field& field, const Mask* inside = nullptr);
 
+/// The same of a − b, in double precision.
+double root_mean_square_of_difference(const Field& a, const Field& b, const Mask* inside = nullptr);
+
 /// The sum of the squares of the first `cells` cells of a row. Threads can share the rows.
 double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells);
 /// The root mean square of a field of `cells` cells, from the sums of squares of its rows, added in

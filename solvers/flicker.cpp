@@ -1,6 +1,7 @@
 // Values that jump back and forth from step to step.
 #include "solvers/flicker.h"
 
+#include "core/wide_vectors.h"
 #include "solvers/field_norms.h"
 
 #include <algorithm>
@@ -13,6 +14,36 @@ namespace {
 
 /// A change that dies out becomes smaller by more than this part.
 constexpr double lasting = 0.95;
+
+/// The changes of a row of cells in two steps.
+template <typename Number>
+struct Changes {
+    const Number *before, *between, *after;
+
+    double first(std::int64_t i) const { return double{between[i]} - before[i]; }
+    double second(std::int64_t i) const { return double{after[i]} - between[i]; }
+    /// Have both the size `least`, and the second one undoes the first?
+    bool is_undone(std::int64_t i, double least) const {
+        return (first(i) * second(i) < 0) & (std::abs(first(i)) >= least) &
+               (std::abs(second(i)) >= least);
+    }
+};
+
+template <typename Number>
+[[gnu::always_inline]] inline std::int64_t count_undone(const Changes<Number>& changes,
+                                                        std::int64_t width, double least) {
+    std::int64_t count = 0;
+    for (std::int64_t i = 0; i < width; ++i) count += changes.is_undone(i, least) ? 1 : 0;
+    return count;
+}
+WITH_WIDE_VECTORS std::int64_t undone_in(const Changes<float>& changes, std::int64_t width,
+                                         double least) {
+    return count_undone(changes, width, least);
+}
+WITH_WIDE_VECTORS std::int64_t undone_in(const Changes<double>& changes, std::int64_t width,
+                                         double least) {
+    return count_undone(changes, width, least);
+}
 
 }  // namespace
 
@@ -39,20 +70,27 @@ void FlickerWatch::compare(Species& seen, const Field& now) const {
         const auto &a = seen.before_last.plane<Number>(), &b = seen.last.plane<Number>(),
                    &c = now.plane<Number>();
         for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+            const Changes<Number> changes{a.row(row), b.row(row), c.row(row)};
+            const std::uint8_t* const counts = inside_ != nullptr ? inside_->row(row) : nullptr;
+            std::uint8_t* const steady = seen.steady.row(row);
+            seen.cells += static_cast<double>(
+                counts == nullptr ? layout.width
+                                  : layout.width - std::count(counts, counts + layout.width, 0));
+            // In most rows of most runs no change is undone.
+            if (undone_in(changes, layout.width, least) == 0) {
+                std::fill_n(steady, layout.width, std::uint8_t{0});
+                continue;
+            }
             for (std::int64_t i = 0; i < layout.width; ++i) {
-                if (inside_ != nullptr && inside_->row(row)[i] == 0) continue;
-                ++seen.cells;
-                const double middle = b.row(row)[i];
-                const double first = middle - a.row(row)[i], second = c.row(row)[i] - middle;
-                const bool is_undone =
-                    first * second < 0 && std::abs(first) >= least && std::abs(second) >= least;
+                if (counts != nullptr && counts[i] == 0) continue;
+                const bool is_undone = changes.is_undone(i, least);
                 if (is_undone) ++seen.undone;
-                std::uint8_t& steady = seen.steady.row(row)[i];
-                steady = (is_first || steady != 0) && is_undone &&
-                         std::abs(second) >= lasting * std::abs(first);
-                if (steady == 0) continue;
+                const double first = std::abs(changes.first(i));
+                const double second = std::abs(changes.second(i));
+                steady[i] = (is_first || steady[i] != 0) && is_undone && second >= lasting * first;
+                if (steady[i] == 0) continue;
                 ++seen.flickering;
-                seen.largest = std::max(seen.largest, std::abs(second));
+                seen.largest = std::max(seen.largest, second);
             }
         }
     });

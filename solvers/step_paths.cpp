@@ -25,7 +25,7 @@ void StepPath::see(std::span<const Field> species) {
             last_.push_back(species[k].clone());
             continue;
         }
-        lengths_[k] += moments_of_difference(species[k], last_[k], inside_).root_mean_square;
+        lengths_[k] += root_mean_square_of_difference(species[k], last_[k], inside_);
         last_[k] = species[k].clone();
     }
 }
@@ -35,12 +35,11 @@ PathDifference difference(const StepPath& coarse, const StepPath& fine, std::siz
     PathDifference found;
     found.coarse = coarse.length(species);
     found.fine = fine.length(species);
-    found.apart =
-        moments_of_difference(coarse.end(species), fine.end(species), inside).root_mean_square;
+    found.apart = root_mean_square_of_difference(coarse.end(species), fine.end(species), inside);
     const double longer = std::max(found.coarse, found.fine);
     const double shorter = std::min(found.coarse, found.fine);
-    const double values = std::max(moments(coarse.end(species), inside).root_mean_square,
-                                   moments(fine.end(species), inside).root_mean_square);
+    const double values = std::max(root_mean_square(coarse.end(species), inside),
+                                   root_mean_square(fine.end(species), inside));
     const bool is_else = found.apart > half_the_way * longer || shorter < half_the_way * longer;
     found.is_apart = is_else && longer > least_part_of_values * values;
     return found;

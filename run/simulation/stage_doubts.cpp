@@ -184,7 +184,7 @@ double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
     for (std::size_t s = 0; s < species.size(); ++s) {
         const double largest = largest_magnitude(std::span(&rates[s], 1));
         if (largest > 0)
-            step = std::min(step, 0.005 * moments(species[s], counted).root_mean_square / largest);
+            step = std::min(step, 0.005 * root_mean_square(species[s], counted) / largest);
     }
     if (!std::isfinite(step) || !(step > 0)) return 0;
     std::vector<Field> moved;
@@ -227,7 +227,7 @@ std::optional<LostChangeReport> find_lost_change(const EndedStage& ended) {
     const Mask* frozen = state.frozen.empty() ? nullptr : &state.frozen;
     for (std::size_t s = 0; s < rates.size(); ++s) {
         const LostChange found = lost_change(state.species[s], rates[s], step, counted, frozen);
-        const double value = moments(state.species[s], counted).root_mean_square;
+        const double value = root_mean_square(state.species[s], counted);
         if (found.part < 0.95 || !(found.rate * time >= lost_change_threshold * value)) continue;
         LostChangeReport report;
         report.stage = view.stage().name;
@@ -285,7 +285,7 @@ bool has_stood_still(const StageView& view) {
         return false;
     const std::vector<Field> rates = view.rates();
     return std::all_of(rates.begin(), rates.end(), [&](const Field& rate) {
-        return moments(rate, view.environment().counted()).root_mean_square == 0;
+        return root_mean_square(rate, view.environment().counted()) == 0;
     });
 }
 

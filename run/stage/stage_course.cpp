@@ -15,7 +15,7 @@ namespace {
 /// When there are this many moments, every other one is dropped.
 constexpr std::size_t most_moments = 40;
 /// With more cells than this, rows are left out.
-constexpr std::int64_t most_cells = 1 << 15;
+constexpr std::int64_t most_cells = 1 << 14;
 
 /// A pattern is growing if deviation and range of every species rose in each of the last three
 /// tenths of its age, in the last one at least by this part: as much time again would make it at
@@ -33,16 +33,13 @@ constexpr double least_fall = 0.05;
 
 Spread spread_of(const Field& field, const Mask* inside, std::int64_t every_row) {
     return field.visit([&](const auto& plane) {
-        return cascade::spread_of([&](const auto& take) {
-            const PlaneLayout& layout = plane.layout();
-            for (std::int64_t row = 0; row < layout.row_count(); row += every_row) {
-                const auto* cells = plane.row(row);
-                const std::uint8_t* counts = inside != nullptr ? inside->row(row) : nullptr;
-                for (std::int64_t i = 0; i < layout.width; ++i) {
-                    if (counts == nullptr || counts[i] != 0) take(double{cells[i]});
-                }
-            }
-        });
+        Spread spread;
+        const PlaneLayout& layout = plane.layout();
+        for (std::int64_t row = 0; row < layout.row_count(); row += every_row) {
+            const std::span cells(plane.row(row), static_cast<std::size_t>(layout.width));
+            spread.add(cascade::spread_of(cells, inside != nullptr ? inside->row(row) : nullptr));
+        }
+        return spread;
     });
 }
 

@@ -27,7 +27,8 @@ enum class Trend {
 };
 
 /// Remembers a few moments of a stage, spread roughly evenly over its steps. It keeps numbers only,
-/// so it costs no planes, and reads rows of some ten thousand cells at most, so it costs no time.
+/// so it costs no planes, and reads rows of some ten thousand cells at most, in vectors. Before it
+/// did so, all moments of 28,000 steps of 128² cells took 7 % of their time.
 class StageCourse {
 public:
     bool empty() const { return moments_.empty(); }
