@@ -18,6 +18,10 @@ if(CASCADE_SANITIZE)
   target_link_options(cascade_options INTERFACE -fsanitize=${CASCADE_SANITIZE})
 endif()
 
+# Loops with square roots and choices, which compilers make vectors of only without errno and traps.
+set_source_files_properties(mesh/limbs.cpp solvers/flicker.cpp surface/repulsion.cpp
+  PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
+
 # With CASCADE_UNITY several files of a target are compiled as one, so that their headers are read once: a
 # full build takes a third of the time, a change of one file takes longer. Not for builds with warnings as
 # errors, since files that are compiled together can cause warnings that each of them does not.

@@ -12,35 +12,40 @@ namespace {
 /// Values that compilers keep in a few vectors.
 constexpr std::size_t lanes = 16;
 
-/// Of a multiple of `lanes` values, at least one. The sum is not finite if one of them is not.
+/// Combines values by lanes: `combine(so_far, value)`. Compilers make vectors of one such loop, but
+/// not of one that does several things.
+template <typename Result, typename Number, typename Combine>
+[[gnu::always_inline]] inline std::array<Result, lanes> by_lanes(std::span<const Number> values,
+                                                                 Result first, Combine combine) {
+    std::array<Result, lanes> results;
+    results.fill(first);
+    for (std::size_t k = 0; k < values.size(); k += lanes) {
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            results[lane] = combine(results[lane], values[k + lane]);
+        }
+    }
+    return results;
+}
+
+/// Of a multiple of `lanes` values, at least one. The mean is not finite if one of them is not.
 template <typename Number>
 [[gnu::always_inline]] inline Spread spread_of_finite(std::span<const Number> values) {
-    std::array<double, lanes> sums{}, squares{};
-    std::array<Number, lanes> smallest, largest;
-    for (std::size_t lane = 0; lane < lanes; ++lane) smallest[lane] = largest[lane] = values[0];
-    for (std::size_t k = 0; k < values.size(); k += lanes) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const Number value = values[k + lane];
-            sums[lane] += value;
-            smallest[lane] = value < smallest[lane] ? value : smallest[lane];
-            largest[lane] = value > largest[lane] ? value : largest[lane];
-        }
-    }
     Spread spread;
     spread.count = static_cast<double>(values.size());
+    const auto sums =
+        by_lanes(values, 0.0, [](double sum, Number value) { return sum + double{value}; });
     for (const double sum : sums) spread.mean += sum;
     spread.mean /= spread.count;
-    for (std::size_t k = 0; k < values.size(); k += lanes) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const double apart = values[k + lane] - spread.mean;
-            squares[lane] += apart * apart;
-        }
-    }
+    const auto squares = by_lanes(values, 0.0, [mean = spread.mean](double sum, Number value) {
+        return sum + (double{value} - mean) * (double{value} - mean);
+    });
     for (const double square : squares) spread.squares += square;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        spread.smallest = std::min(spread.smallest, double{smallest[lane]});
-        spread.largest = std::max(spread.largest, double{largest[lane]});
-    }
+    spread.smallest = std::ranges::min(by_lanes(values, values[0], [](Number least, Number value) {
+        return value < least ? value : least;
+    }));
+    spread.largest = std::ranges::max(by_lanes(values, values[0], [](Number most, Number value) {
+        return value > most ? value : most;
+    }));
     return spread;
 }
 

@@ -13,8 +13,9 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t cells_of_block = 64;
-/// Of grids with more cells only some bands of blocks are looked at.
-constexpr std::int64_t most_cells = std::int64_t{1} << 22;
+/// Of grids with more cells than `many_cells`, every second to fourth band of blocks is looked at;
+/// of those with more than `most_cells`, no more than there are in so many cells.
+constexpr std::int64_t many_cells = std::int64_t{1} << 14, most_cells = std::int64_t{1} << 22;
 /// The limits of correlation, for neighbours on a grid and for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;
 
@@ -78,7 +79,8 @@ public:
             return stretches(count, side, std::max<std::int64_t>(side / 2, 1) * apart);
         };
         const std::int64_t cells = layout_.width * layout_.row_count();
-        const std::int64_t apart = (cells + most_cells - 1) / most_cells;
+        const std::int64_t apart = std::max(std::clamp<std::int64_t>(cells / many_cells, 1, 4),
+                                            (cells + most_cells - 1) / most_cells);
         for (const Stretch k : cut(layout_.depth, sides[2])) {
             for (const Stretch j : cut(layout_.height, sides[1], apart)) {
                 for (const Stretch i : cut(layout_.width, sides[0])) look_at({i, j, k});

@@ -12,7 +12,7 @@ namespace cascade {
 /// enough. A block counts if the correlation of neighbours is below −½, and also further below 0
 /// than white noise would bring it with the same number of pairs (4.5 standard deviations of
 /// Fisher's z). Blocks that are almost even are skipped, and so are fields of fewer than 8 pairs.
-/// Of more than 2²² cells of a grid, bands of blocks at equal distances stand for all.
+/// Of more than 2¹⁵ cells of a grid, bands of blocks at equal distances stand for all.
 /// In a field of linked cells a block is 64 cells that are adjacent in memory, and the limit is
 /// −0.3, because three cells that are neighbours of each other cannot all alternate. `inside` says
 /// which cells count; nullptr: all.

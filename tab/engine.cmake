@@ -51,7 +51,6 @@ foreach(room solvers measure)
     CASCADE_FFTW_LIBRARY="fftw3" CASCADE_FFTW_FLOAT_LIBRARY="fftw3f")
 endforeach()
 target_compile_definitions(cascade_run PRIVATE CASCADE_HAS_JIT=0)
-set_source_files_properties(surface/repulsion.cpp mesh/limbs.cpp PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
 
 file(GLOB tab_sources CONFIGURE_DEPENDS tab/*.cpp tab/substitutes/*.cpp)
 add_executable(engine ${tab_sources})
