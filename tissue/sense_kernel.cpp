@@ -185,7 +185,9 @@ PlaceValue of_points(const SurfaceMesh& mesh, std::vector<float> values) {
 PlaceValue of_cells(const CellFilter& filter, std::vector<float> values) {
     return [&filter, values = std::move(values)](const NearPlace& near) {
         if (near.place.triangle == NearPlace::no_triangle) return 0.0;
-        thread_local std::vector<CellShare> shares;  // Its memory serves all calls.
+        constexpr std::size_t usual_most = 32;
+        std::vector<CellShare> shares;
+        shares.reserve(usual_most);
         filter.shares(near.place, shares);
         double sum = 0;
         for (const CellShare& share : shares) sum += double{share.weight} * values[share.cell];
