@@ -24,8 +24,8 @@ struct Changes {
     double second(std::int64_t i) const { return double{after[i]} - between[i]; }
     /// Have both the size `least`, and the second one undoes the first?
     bool is_undone(std::int64_t i, double least) const {
-        return (first(i) * second(i) < 0) & (std::abs(first(i)) >= least) &
-               (std::abs(second(i)) >= least);
+        const double one = first(i), other = second(i);
+        return one * other < 0 && std::abs(one) >= least && std::abs(other) >= least;
     }
 };
 
