@@ -6,8 +6,8 @@
 #include "core/wide_vectors.h"
 #include "mesh/surface_mesh.h"
 
-#include <atomic>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <span>
 #include <vector>

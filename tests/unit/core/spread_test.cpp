@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -23,6 +26,47 @@ TEST(Spread, MeanDeviationAndEnds) {
     EXPECT_EQ(spread.smallest, 1);
     EXPECT_EQ(spread.largest, 8);
     EXPECT_FALSE(spread.is_even());
+}
+
+/// Some of them not finite, if wanted.
+std::vector<float> numbers(std::size_t count, bool are_finite) {
+    std::vector<float> values;
+    for (std::size_t k = 0; k < count; ++k) {
+        const bool is_finite = are_finite || k % 11 != 5;
+        values.push_back(is_finite ? 3 + 0.5F * std::sin(static_cast<float>(k * k))
+                                   : std::numeric_limits<float>::infinity());
+    }
+    return values;
+}
+
+void expect_same(const Spread& found, const Spread& expected) {
+    EXPECT_EQ(found.count, expected.count);
+    EXPECT_NEAR(found.mean, expected.mean, 1e-14 * std::abs(expected.mean));
+    EXPECT_NEAR(found.squares, expected.squares, 1e-12 * expected.squares);
+    EXPECT_EQ(found.smallest, expected.smallest);
+    EXPECT_EQ(found.largest, expected.largest);
+}
+
+TEST(Spread, OfAdjacentValuesIsThatOfEach) {
+    for (const std::size_t count : {0, 1, 15, 16, 17, 100, 257}) {
+        for (const bool are_finite : {true, false}) {
+            const std::vector<float> values = numbers(count, are_finite);
+            const std::vector<double> wide(values.begin(), values.end());
+            expect_same(spread_of(std::span(values)), of(wide));
+            expect_same(spread_of(std::span(wide)), of(wide));
+        }
+    }
+}
+
+TEST(Spread, LeavesOutValuesThatDoNotCount) {
+    const std::vector<float> values = numbers(300, true);
+    std::vector<std::uint8_t> counts;
+    std::vector<double> counted;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        counts.push_back(k % 100 < 60 || k % 7 == 0 ? 1 : 0);
+        if (counts.back() != 0) counted.push_back(double{values[k]});
+    }
+    expect_same(spread_of(std::span(values), counts.data()), of(counted));
 }
 
 TEST(Spread, OfBothIsThatOfAll) {
