@@ -38,9 +38,7 @@ std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
         for (std::size_t k = 0; k < others.size(); ++k) {
             if (nearest[k] != TriangleEdge::none) continue;
             double least = 0;
-            index.near(others[k], reach, [&](std::uint32_t point) {
-                const Vector3d apart = points[point] - others[k];
-                const double square = dot(apart, apart);
+            index.near(others[k], reach, [&](std::uint32_t point, double square) {
                 const bool is_first = nearest[k] == TriangleEdge::none;
                 if (!is_first && (square > least || (square == least && point > nearest[k])))
                     return;

@@ -28,7 +28,8 @@ PointIndex::PointIndex(std::span<const Vector3d> points, double reach) : reach_(
     for (const Vector3d& p : points) {
         low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
     }
-    const std::size_t slots = std::bit_ceil(2 * points.size() + 1);
+    // At least as many as a block has boxes in a row.
+    const std::size_t slots = std::bit_ceil(2 * points.size() + 3);
     mask_ = slots - 1;
     starts_.assign(slots + 1, 0);
     std::vector<Box> boxes;

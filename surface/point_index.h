@@ -3,6 +3,7 @@
 
 #include "core/vector3.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -16,14 +17,16 @@ public:
     /// `reach`, positive, is about the usual search radius. The points must outlive it unchanged.
     PointIndex(std::span<const Vector3d> points, double reach);
 
-    /// Calls `visit(number)` for all points at most `radius` from `centre`, including a point at
-    /// `centre`, in an order that only depends on the points. A radius of many times `reach`
-    /// searches many boxes, but never more than there are points.
+    /// Calls `visit(number, square)`, with the square of its distance, for all points at most
+    /// `radius` from `centre`, one at `centre` included, in an order that only depends on the
+    /// points. A radius of many times `reach` searches many boxes, but never more than there are
+    /// points.
     template <typename Visit>
     void near(Vector3d centre, double radius, const Visit& visit) const {
         const auto look_at = [&](const Entry& entry) {
             const Vector3d apart = entry.point - centre;
-            if (dot(apart, apart) <= radius * radius) visit(entry.number);
+            const double square = dot(apart, apart);
+            if (square <= radius * radius) visit(entry.number, square);
         };
         const double side = 2 * std::ceil(radius / reach_) + 1;
         if (side * side * side > static_cast<double>(entries_.size()) + 27) {
@@ -36,10 +39,15 @@ public:
         const Box last = box_of(centre + Vector3d{wide, wide, wide});
         for (std::int32_t z = first.z; z <= last.z; ++z) {
             for (std::int32_t y = first.y; y <= last.y; ++y) {
-                for (std::int32_t x = first.x; x <= last.x; ++x) {
+                for (std::int32_t x = first.x, end = 0; x <= last.x; x = end) {
+                    // The slots of a block's boxes along x are adjacent.
+                    end = std::min(last.x, x | 3) + 1;
                     const std::size_t slot = slot_of({x, y, z});
-                    for (std::uint32_t k = starts_[slot]; k < starts_[slot + 1]; ++k) {
-                        if (entries_[k].box == Box{x, y, z}) look_at(entries_[k]);
+                    const std::uint32_t stop = starts_[slot + static_cast<std::size_t>(end - x)];
+                    for (std::uint32_t k = starts_[slot]; k < stop; ++k) {
+                        const Box& box = entries_[k].box;
+                        if (((box.y ^ y) | (box.z ^ z)) != 0) continue;
+                        if (box.x >= x && box.x < end) look_at(entries_[k]);
                     }
                 }
             }
@@ -47,12 +55,8 @@ public:
     }
 
 private:
-    /// Compared number by number: compilers make a call of memcmp() of the comparison of arrays.
     struct Box {
         std::int32_t x = 0, y = 0, z = 0;
-        friend bool operator==(const Box& a, const Box& b) {
-            return ((a.x ^ b.x) | (a.y ^ b.y) | (a.z ^ b.z)) == 0;
-        }
     };
     struct Entry {
         Box box;
@@ -60,7 +64,8 @@ private:
         Vector3d point;
     };
     Box box_of(Vector3d p) const;
-    /// Boxes of a block of 4 × 4 × 4 have adjacent slots, so that a search reads few cache lines.
+    /// Boxes of a block of 4 × 4 × 4 have adjacent slots, those along x in order, so that a search
+    /// reads few cache lines.
     std::size_t slot_of(const Box& box) const {
         std::uint32_t hash = static_cast<std::uint32_t>(box.x >> 2) * 0x9e3779b1u;
         hash = (hash ^ static_cast<std::uint32_t>(box.y >> 2)) * 0x85ebca77u;

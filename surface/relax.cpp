@@ -112,7 +112,7 @@ private:
             part.crowded.clear();
             for (std::int64_t row = part.range.begin; row < part.range.end && !cancel_; ++row) {
                 const std::uint32_t k = active_[static_cast<std::size_t>(row)];
-                index.near(positions_[k], crowd * radius_, [&](std::uint32_t other) {
+                index.near(positions_[k], crowd * radius_, [&](std::uint32_t other, double) {
                     if (other != k) part.crowded.insert(part.crowded.end(), {k, other});
                 });
             }
@@ -169,14 +169,13 @@ private:
         } else {
             unfolding.around(places_[k], reach());
         }
-        index.near(positions_[k], longest, [&](std::uint32_t number) {
+        index.near(positions_[k], longest, [&](std::uint32_t number, double square_in_space) {
             const FlatTriangle* flat = unfolding.flat_of(places_[number].triangle);
             if (number == k || !flat) return;
             const Vector2d stood = position_of(*flat, places_[number].weights);
             const Vector2d seen = metric(stood);
-            const Vector3d apart = positions_[number] - positions_[k];
             if (dot(seen, seen) > reach() * reach()) return;
-            if (!Unfolding::is_image(dot(stood, stood), dot(apart, apart))) return;
+            if (!Unfolding::is_image(dot(stood, stood), square_in_space)) return;
             const Vector2d base = (*flat)[1] - (*flat)[0];
             part.neighbours.add(number, stood * (1 / radius_), base * (1 / length(base)));
         });

@@ -23,7 +23,7 @@ Vector2f own_direction(std::uint32_t number) {
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-/// Replaces the movements of neighbours, `first` and those after it, by their forces on a place. A
+/// Replaces the movements of `count` neighbours from `first` on by their forces on a place. A
 /// neighbour that coincides with the place pushes in the direction `apart`. Returns the number of
 /// those.
 WITH_WIDE_VECTORS std::uint32_t find_forces(const NeighbourList& neighbours, std::size_t first,
@@ -53,25 +53,29 @@ WITH_WIDE_VECTORS std::uint32_t find_forces(const NeighbourList& neighbours, std
 
 }  // namespace
 
-void NeighbourList::clear() {
-    numbers.clear();
-    for (std::vector<float>* values : {&stood_x, &stood_y, &turn_x, &turn_y}) values->clear();
-}
-
 void NeighbourList::add(std::uint32_t number, Vector2d stood, Vector2d turn) {
-    numbers.push_back(number);
-    stood_x.push_back(static_cast<float>(stood.x));
-    stood_y.push_back(static_cast<float>(stood.y));
-    turn_x.push_back(static_cast<float>(turn.x));
-    turn_y.push_back(static_cast<float>(turn.y));
+    if (size_ + together >= numbers.size()) {
+        const std::size_t room = 2 * size_ + 2 * together;
+        numbers.resize(room);
+        for (std::vector<float>* values : {&stood_x, &stood_y, &turn_x, &turn_y})
+            values->resize(room);
+    }
+    numbers[size_] = number;
+    stood_x[size_] = static_cast<float>(stood.x);
+    stood_y[size_] = static_cast<float>(stood.y);
+    turn_x[size_] = static_cast<float>(turn.x);
+    turn_y[size_] = static_cast<float>(turn.y);
+    ++size_;
 }
 
 Vector2f Repulsion::push_on(const Pushed& place, const NeighbourList& neighbours, std::size_t first,
                             std::size_t end, const std::vector<Vector2f>& moved) {
-    const std::size_t count = end - first;
-    if (x_.size() < count) {
-        x_.resize(count);
-        y_.resize(count);
+    // Those after the last neighbour, of the next place, only fill the last vector.
+    constexpr std::size_t together = NeighbourList::together;
+    const std::size_t count = end - first, filled = (count + together - 1) / together * together;
+    if (x_.size() < filled) {
+        x_.resize(filled);
+        y_.resize(filled);
     }
     const auto find = [&](Vector2f apart) {
         for (std::size_t n = 0; n < count; ++n) {
@@ -79,7 +83,7 @@ Vector2f Repulsion::push_on(const Pushed& place, const NeighbourList& neighbours
             x_[n] = by.x;
             y_[n] = by.y;
         }
-        return find_forces(neighbours, first, count, place, apart, x_.data(), y_.data());
+        return find_forces(neighbours, first, filled, place, apart, x_.data(), y_.data());
     };
     if (find({}) > 0) find(own_direction(place.number));
     Vector2f push;

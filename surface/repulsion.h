@@ -19,13 +19,21 @@ struct Vector2f {
 
 /// Neighbours of places: their numbers, their positions when the list was made, in radii and in the
 /// frame of the place at that time, and the rotations of their own frames relative to that.
-struct NeighbourList {
+class NeighbourList {
+public:
+    /// Forces are computed for this number of neighbours at a time; lists have room for so many
+    /// more than they need.
+    static constexpr std::size_t together = 16;
+
     std::vector<std::uint32_t> numbers;
     std::vector<float> stood_x, stood_y, turn_x, turn_y;
 
-    std::size_t size() const { return numbers.size(); }
-    void clear();
+    std::size_t size() const { return size_; }
+    void clear() { size_ = 0; }
     void add(std::uint32_t number, Vector2d stood, Vector2d turn);
+
+private:
+    std::size_t size_ = 0;
 };
 
 /// Sums forces; one per thread.

@@ -89,12 +89,11 @@ private:
 
     void collect_neighbours(std::uint32_t cell, double wide) {
         neighbours_.clear();
-        index_.near(position_, wide, [&](std::uint32_t other) {
+        index_.near(position_, wide, [&](std::uint32_t other, double square_in_space) {
             const FlatTriangle* flat = unfolding_.flat_of(places_[other].triangle);
             if (other == cell || !flat) return;
             const Vector2d image = position_of(*flat, places_[other].weights);
-            const Vector3d apart = positions_[other] - position_;
-            if (!Unfolding::is_image(dot(image, image), dot(apart, apart))) return;
+            if (!Unfolding::is_image(dot(image, image), square_in_space)) return;
             const Vector2d place = stretch_(image);
             const double distance = length(place);
             if (distance > 0) neighbours_.push_back({distance, other, place});
