@@ -18,7 +18,7 @@ if(CASCADE_SANITIZE)
   target_link_options(cascade_options INTERFACE -fsanitize=${CASCADE_SANITIZE})
 endif()
 
-# Loops with square roots and choices, which compilers make vectors of only without errno and traps.
+# Compilers vectorise loops with square roots and choices only without errno and floating-point traps.
 set_source_files_properties(mesh/limbs.cpp solvers/flicker.cpp surface/repulsion.cpp
   PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
 

@@ -85,7 +85,7 @@ LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_
       ball{start + direction * (extent / 2),
            1.000001 * (extent / 2 + std::max(radius, radius + growth * extent))} {}
 
-// Its comparisons are such that compilers make them instructions for vectors.
+// Written with plain comparisons, so that compilers vectorise the loop.
 WITH_WIDE_VECTORS void LimbBody::Bone::lower(Numbers& distances, const Block& points) const {
     for (std::size_t k = 0; k < block_size; ++k) {
         const Vector3d away{points.x[k] - from.x, points.y[k] - from.y, points.z[k] - from.z};

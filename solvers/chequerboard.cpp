@@ -13,8 +13,8 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t cells_of_block = 64;
-/// Of grids with more cells than `many_cells`, every second to fourth band of blocks is looked at;
-/// of those with more than `most_cells`, no more than there are in so many cells.
+/// On a grid of more than `many_cells` cells only every second, third or fourth band of blocks is
+/// examined. On one of more than `most_cells`, the bands hold about `most_cells` cells in all.
 constexpr std::int64_t many_cells = std::int64_t{1} << 14, most_cells = std::int64_t{1} << 22;
 /// The limits of correlation, for neighbours on a grid and for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;

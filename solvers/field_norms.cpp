@@ -37,8 +37,8 @@ struct Row {
     const std::uint8_t* counts;  ///< Cells count where it is not 0; null: all.
     std::int64_t width;
 
-    /// Calls `use(value, counts)` with functions of the cell. The kinds of rows are told apart
-    /// outside of the loops.
+    /// Calls `use(value, counts)` with functions of the cell. The branches on the kind of row are
+    /// taken here, outside the loops.
     template <typename Use>
     [[gnu::always_inline]] auto visit(Use use) const {
         const auto with_counts = [&](auto value) __attribute__((always_inline)) {
@@ -52,22 +52,14 @@ struct Row {
     }
 };
 
-/// Of the cells of a row that count.
-struct RowSums {
-    double values = 0, squares = 0, cells = 0;
-};
-
 template <typename Number>
-[[gnu::always_inline]] inline RowSums sums_of(const Row<Number>& row) {
+[[gnu::always_inline]] inline double sum_of(const Row<Number>& row) {
     return row.visit([&](auto value, auto counts) __attribute__((always_inline)) {
-        return RowSums{sum(row.width, [&](std::int64_t i) { return counts(i) ? value(i) : 0.0; }),
-                       sum(row.width,
-                           [&](std::int64_t i) { return counts(i) ? value(i) * value(i) : 0.0; }),
-                       sum(row.width, [&](std::int64_t i) { return counts(i) ? 1.0 : 0.0; })};
+        return sum(row.width, [&](std::int64_t i) { return counts(i) ? value(i) : 0.0; });
     });
 }
-WITH_WIDE_VECTORS RowSums row_sums(const Row<float>& row) { return sums_of(row); }
-WITH_WIDE_VECTORS RowSums row_sums(const Row<double>& row) { return sums_of(row); }
+WITH_WIDE_VECTORS double row_sum(const Row<float>& row) { return sum_of(row); }
+WITH_WIDE_VECTORS double row_sum(const Row<double>& row) { return sum_of(row); }
 
 template <typename Number>
 [[gnu::always_inline]] inline double squares_of(const Row<Number>& row, double mean) {
@@ -85,32 +77,32 @@ WITH_WIDE_VECTORS double squares_about(const Row<double>& row, double mean) {
     return squares_of(row, mean);
 }
 
-/// `row_at(row)` is a Row.
+/// The root of the mean of (value − mean)²; `row_at(row)` is a Row.
 template <typename RowAt>
-RowSums sums_of_rows(const PlaneLayout& layout, RowAt row_at) {
-    RowSums total;
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        const RowSums sums = row_sums(row_at(row));
-        total.values += sums.values;
-        total.squares += sums.squares;
-        total.cells += sums.cells;
+double root_mean_square_about(double mean, const PlaneLayout& layout, RowAt row_at) {
+    double squares = 0, cells = 0;
+    for (std::int64_t number = 0; number < layout.row_count(); ++number) {
+        const auto row = row_at(number);
+        squares += squares_about(row, mean);
+        cells += static_cast<double>(cells_that_count(row.counts, row.width));
     }
-    return total;
+    return std::sqrt(squares / cells);
 }
 
 template <typename RowAt>
 FieldMoments moments_of(const PlaneLayout& layout, RowAt row_at) {
-    const RowSums sums = sums_of_rows(layout, row_at);
+    double values = 0, cells = 0;
+    for (std::int64_t number = 0; number < layout.row_count(); ++number) {
+        const auto row = row_at(number);
+        values += row_sum(row);
+        cells += static_cast<double>(cells_that_count(row.counts, row.width));
+    }
     FieldMoments result;
-    result.mean = sums.values / sums.cells;
-    result.root_mean_square = std::sqrt(sums.squares / sums.cells);
+    result.mean = values / cells;
+    result.root_mean_square = root_mean_square_about(0, layout, row_at);
     // About the mean, because the difference of two squares would lose a pattern of small
     // amplitude.
-    double squares = 0;
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        squares += squares_about(row_at(row), result.mean);
-    }
-    result.deviation = std::sqrt(squares / sums.cells);
+    result.deviation = root_mean_square_about(result.mean, layout, row_at);
     return result;
 }
 
@@ -131,6 +123,11 @@ WITH_WIDE_VECTORS double sum_of_squares(const double* cells, std::int64_t count)
 
 }  // namespace
 
+std::int64_t cells_that_count(const std::uint8_t* counts, std::int64_t width) {
+    if (counts == nullptr) return width;
+    return width - std::count(counts, counts + width, std::uint8_t{0});
+}
+
 FieldMoments moments(const Field& field, const Mask* inside) {
     return field.visit(
         [&](const auto& plane) { return moments_of(plane.layout(), rows_in(plane, {}, inside)); });
@@ -146,8 +143,7 @@ FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* i
 
 double root_mean_square(const Field& field, const Mask* inside) {
     return field.visit([&](const auto& plane) {
-        const RowSums sums = sums_of_rows(plane.layout(), rows_in(plane, {}, inside));
-        return std::sqrt(sums.squares / sums.cells);
+        return root_mean_square_about(0, plane.layout(), rows_in(plane, {}, inside));
     });
 }
 
@@ -155,9 +151,8 @@ double root_mean_square_of_difference(const Field& a, const Field& b, const Mask
     return with_number(a.precision(), [&](auto zero) {
         using Number = decltype(zero);
         const auto& plane = a.plane<Number>();
-        const RowSums sums =
-            sums_of_rows(plane.layout(), rows_in(plane, &b.plane<Number>(), inside));
-        return std::sqrt(sums.squares / sums.cells);
+        return root_mean_square_about(0, plane.layout(),
+                                      rows_in(plane, &b.plane<Number>(), inside));
     });
 }
 

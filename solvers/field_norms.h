@@ -11,6 +11,9 @@ namespace cascade {
 
 // With a mask `inside`, cells count where it is not 0; without one (nullptr) all cells count.
 
+/// The number of cells of a row of a mask that count; `width` without one (nullptr).
+std::int64_t cells_that_count(const std::uint8_t* counts, std::int64_t width);
+
 /// Mean and deviation of a field's cells.
 struct FieldMoments {
     double mean = 0;

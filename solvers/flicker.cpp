@@ -73,9 +73,7 @@ void FlickerWatch::compare(Species& seen, const Field& now) const {
             const Changes<Number> changes{a.row(row), b.row(row), c.row(row)};
             const std::uint8_t* const counts = inside_ != nullptr ? inside_->row(row) : nullptr;
             std::uint8_t* const steady = seen.steady.row(row);
-            seen.cells += static_cast<double>(
-                counts == nullptr ? layout.width
-                                  : layout.width - std::count(counts, counts + layout.width, 0));
+            seen.cells += static_cast<double>(cells_that_count(counts, layout.width));
             // In most rows of most runs no change is undone.
             if (undone_in(changes, layout.width, least) == 0) {
                 std::fill_n(steady, layout.width, std::uint8_t{0});

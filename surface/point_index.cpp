@@ -28,7 +28,7 @@ PointIndex::PointIndex(std::span<const Vector3d> points, double reach) : reach_(
     for (const Vector3d& p : points) {
         low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
     }
-    // At least as many as a block has boxes in a row.
+    // At least four, because the four boxes of a block along x have adjacent slots.
     const std::size_t slots = std::bit_ceil(2 * points.size() + 3);
     mask_ = slots - 1;
     starts_.assign(slots + 1, 0);

@@ -21,8 +21,8 @@ struct Vector2f {
 /// frame of the place at that time, and the rotations of their own frames relative to that.
 class NeighbourList {
 public:
-    /// Forces are computed for this number of neighbours at a time; lists have room for so many
-    /// more than they need.
+    /// Forces are computed for this many neighbours at a time, so a list has memory for as many
+    /// beyond its end.
     static constexpr std::size_t together = 16;
 
     std::vector<std::uint32_t> numbers;
