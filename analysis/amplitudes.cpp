@@ -2,13 +2,11 @@
 // steps of 0.
 #include "analysis/amplitudes.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace cascade::analysis {
 
@@ -18,9 +16,9 @@ namespace {
 constexpr double no_change = 1e-6, no_product = 1e-6;
 
 /// The rates as a polynomial of the change of the state: f(u) = J u + ½ Q(u, u) + ⅙ C(u, u, u).
-class Polynomial {
+class RatePolynomial {
 public:
-    Polynomial(const LocalRates& rates, const Vector& state)
+    RatePolynomial(const LocalRates& rates, const Vector& state)
         : rates_(rates), state_(state), size_(std::max(state.cwiseAbs().maxCoeff(), 0.01)) {}
 
     /// Q(a, b).
@@ -75,12 +73,9 @@ struct Critical {
 
 std::optional<Critical> critical_wave(const Matrix& jacobian, double resolution) {
     const auto null_vector = [&](const Matrix& matrix) -> std::optional<Vector> {
-        const Eigen::EigenSolver<Matrix> solver(matrix);
-        Eigen::Index nearest = 0;
-        solver.eigenvalues().cwiseAbs().minCoeff(&nearest);
-        const Complex rate = solver.eigenvalues()[nearest];
-        if (std::abs(rate.imag()) > resolution) return std::nullopt;
-        return Vector(solver.eigenvectors().col(nearest).real());
+        EigenPair nearest = least_eigenpair(matrix);
+        if (std::abs(nearest.value.imag()) > resolution) return std::nullopt;
+        return std::move(nearest.vector);
     };
     const auto wave = null_vector(jacobian), adjoint = null_vector(jacobian.transpose());
     if (!wave || !adjoint) return std::nullopt;
@@ -128,7 +123,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
         return jacobian_of(model, matrices, lattice, phases);
     };
     const auto at = [&](double across, double up) { return Matrix(wave_at(across, up).real()); };
-    const Eigen::MatrixXcd critical_jacobian = wave_at(phase, 0);
+    const ComplexMatrix critical_jacobian = wave_at(phase, 0);
     const Matrix at_wave = critical_jacobian.real();
     const double size = at_wave.cwiseAbs().maxCoeff();
     const auto critical = critical_wave(at_wave, 1e-6 * size);
@@ -136,12 +131,10 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const double travels = critical_jacobian.imag().cwiseAbs().maxCoeff();
     if (!critical || travels > 1e-9 * size) return std::nullopt;
     const auto& [wave, adjoint] = *critical;
-    const Polynomial polynomial(rates, state);
+    const RatePolynomial polynomial(rates, state);
     if (!polynomial.is_local(wave)) return std::nullopt;
-    const Eigen::FullPivLU<Matrix> rest(at(0, 0));
-    if (std::abs(rest.matrixLU().diagonal().cwiseAbs().minCoeff()) <= 1e-9 * size) {
-        return std::nullopt;
-    }
+    const Matrix at_rest = at(0, 0);
+    if (least_pivot(at_rest) <= 1e-9 * size) return std::nullopt;
 
     const Vector square = polynomial.second(wave, wave), cube = polynomial.third(wave, wave);
     const double largest =
@@ -152,9 +145,9 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     if (std::abs(result.quadratic) <= no_product * largest) result.quadratic = 0;
     const auto by = [&](const Vector& mode) { return adjoint.dot(polynomial.second(wave, mode)); };
     const auto answer = [](const Matrix& matrix, const Vector& forcing) {
-        return Vector(-matrix.fullPivLu().solve(forcing));
+        return Vector(-solution_of(matrix, forcing));
     };
-    const double from_mean = by(-rest.solve(square));
+    const double from_mean = by(answer(at_rest, square));
     result.self = -(from_mean + by(answer(at(2 * phase, 0), square / 2)) + adjoint.dot(cube) / 2);
     result.cross = std::numeric_limits<double>::quiet_NaN();
     if (!has_plane) return result;

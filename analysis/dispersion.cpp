@@ -1,8 +1,6 @@
 // Samples rates along directions, and refines the fastest wave and the ends of bands.
 #include "analysis/dispersion.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -251,7 +249,7 @@ double GrowingWave::cells() const {
 
 std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matrices,
                                  const Lattice& lattice, const Phases& phases) {
-    const Eigen::MatrixXcd sum = jacobian_of(model, matrices, lattice, phases);
+    const ComplexMatrix sum = jacobian_of(model, matrices, lattice, phases);
     const bool is_real = sum.imag().cwiseAbs().maxCoeff() == 0;
     std::vector<Complex> values;
     if (sum.rows() == 1) {
@@ -262,12 +260,10 @@ std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matri
         const Complex root = std::sqrt(apart * apart + sum(0, 1) * sum(1, 0));
         values = {half + root, half - root};
     } else if (is_real) {
-        const Matrix real = sum.real();
-        const Eigen::VectorXcd found = Eigen::EigenSolver<Matrix>(real, false).eigenvalues();
+        const ComplexVector found = eigenvalues_of(Matrix(sum.real()));
         values.assign(found.begin(), found.end());
     } else {
-        const Eigen::VectorXcd found =
-            Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(sum, false).eigenvalues();
+        const ComplexVector found = eigenvalues_of(sum);
         values.assign(found.begin(), found.end());
     }
     std::sort(values.begin(), values.end(), [](Complex a, Complex b) {

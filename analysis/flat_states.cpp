@@ -2,9 +2,6 @@
 // equations, since the Jacobian alone is singular then.
 #include "analysis/flat_states.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -92,7 +89,7 @@ private:
     Vector step_of(const Vector& x, const Vector& residual) const {
         Matrix all(residual.size(), x.size());
         all << rates_.jacobian(x), conserved_;
-        const Vector step = -all.completeOrthogonalDecomposition().solve(residual);
+        const Vector step = -least_squares(all, residual);
         double slope = 0;  // Of log m along the step.
         for (const Vector& state : known_) {
             const Vector apart = (x - state).cwiseQuotient(sizes_);
@@ -108,7 +105,7 @@ public:
     bool is_in_family(const Vector& x) const {
         Matrix all(x.size() + conserved_.rows(), x.size());
         all << rates_.jacobian(x), conserved_;
-        const Vector values = all.jacobiSvd().singularValues();
+        const Vector values = singular_values(all);
         return values[values.size() - 1] < 1e-9 * values[0];
     }
 
@@ -167,11 +164,7 @@ Matrix conserved_totals(const LocalRates& rates) {
     }
     if (changes.cols() == 0) return Matrix(0, count);
     if (changes.cwiseAbs().maxCoeff() == 0) return Matrix::Identity(count, count);
-    const Eigen::JacobiSVD<Matrix> svd(changes, Eigen::ComputeFullU);
-    const Vector values = svd.singularValues();
-    Eigen::Index rank = 0;
-    while (rank < std::min(values.size(), count) && values[rank] > 1e-11 * values[0]) ++rank;
-    return svd.matrixU().rightCols(count - rank).transpose();
+    return rows_across_columns(changes, 1e-11);
 }
 
 std::optional<Vector> flat_state_near(const LocalRates& rates, const Vector& species,

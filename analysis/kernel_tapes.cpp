@@ -10,22 +10,22 @@ namespace cascade::analysis {
 
 namespace {
 
-std::vector<NodeKind> inputs_of(const LinearModel& model) {
+std::vector<NodeKind> inputs_of_kernels(const LinearModel& model) {
     std::vector<NodeKind> inputs{LagPart::distance, LagPart::direction_x, LagPart::direction_y,
                                  LagPart::direction_z};
     inputs.insert(inputs.end(), model.varied.begin(), model.varied.end());
     return inputs;
 }
 
-std::vector<double> inputs_at(const std::array<double, lag_part_count>& lag,
-                              std::span<const double> varied) {
+std::vector<double> inputs_of_lag(const std::array<double, lag_part_count>& lag,
+                                  std::span<const double> varied) {
     std::vector<double> inputs(lag.begin(), lag.end());
     inputs.insert(inputs.end(), varied.begin(), varied.end());
     return inputs;
 }
 
 Tape tape_of(const LinearModel& model, NodeId root) {
-    return {model.algebra, std::array{root}, inputs_of(model)};
+    return {model.algebra, std::array{root}, inputs_of_kernels(model)};
 }
 
 bool reads_items(const LinearModel& model, NodeId root) {
@@ -45,7 +45,7 @@ KernelTapes::KernelTapes(const LinearModel& model, const KernelFormula& kernel)
 
 std::optional<double> KernelTapes::reach(std::span<const double> varied) const {
     if (!reach_) return std::nullopt;
-    const double value = reach_->run(inputs_at({}, varied)).front();
+    const double value = reach_->run(inputs_of_lag({}, varied)).front();
     return value > 0 ? value : 0;
 }
 
@@ -66,7 +66,7 @@ std::shared_ptr<const WaveKernel> KernelTapes::at(std::span<const double> varied
         const double each = length > 0 ? 1 / length : 0;
         const std::array seen{length * grid.spacing, parts[0] * each, parts[1] * each,
                               parts[2] * each};
-        weighted.weights.push_back(content * weight_.run(inputs_at(seen, varied)).front());
+        weighted.weights.push_back(content * weight_.run(inputs_of_lag(seen, varied)).front());
     }
     return std::make_shared<const WaveKernel>(weighted);
 }

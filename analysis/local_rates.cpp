@@ -2,8 +2,6 @@
 // give the field.
 #include "analysis/local_rates.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +10,7 @@ namespace cascade::analysis {
 
 namespace {
 
-std::vector<NodeKind> inputs_of(const LinearModel& model) {
+std::vector<NodeKind> inputs_of_rates(const LinearModel& model) {
     std::vector<NodeKind> inputs(model.species.begin(), model.species.end());
     inputs.insert(inputs.end(), model.varied.begin(), model.varied.end());
     for (const KernelFormula& kernel : model.kernels) inputs.emplace_back(kernel.sum);
@@ -65,9 +63,9 @@ bool Matrices::are_finite() const {
                        [](const auto& kernel) { return kernel != nullptr; });
 }
 
-Eigen::MatrixXcd jacobian_of(const LinearModel& model, const Matrices& matrices,
-                             const Lattice& lattice, const Phases& phases) {
-    Eigen::MatrixXcd sum = matrices.terms[0].cast<Complex>();
+ComplexMatrix jacobian_of(const LinearModel& model, const Matrices& matrices,
+                          const Lattice& lattice, const Phases& phases) {
+    ComplexMatrix sum = matrices.terms[0].cast<Complex>();
     for (std::size_t k = 1; k < matrices.terms.size(); ++k) {
         sum +=
             symbol(model.terms[k].operators, lattice, matrices.kernels, phases) * matrices.terms[k];
@@ -76,11 +74,11 @@ Eigen::MatrixXcd jacobian_of(const LinearModel& model, const Matrices& matrices,
     // A wave that no field changes a constraint by, such as the mean of a potential, is 0 in it.
     const auto species = static_cast<Eigen::Index>(model.species_count());
     const auto unknowns = static_cast<Eigen::Index>(model.unknowns.size());
-    Eigen::MatrixXcd by_unknowns = sum.bottomRightCorner(unknowns, unknowns);
+    ComplexMatrix by_unknowns = sum.bottomRightCorner(unknowns, unknowns);
     const double least = 1e-14 * largest_of_unknowns(matrices, unknowns);
     by_unknowns = (by_unknowns.array().abs() < least).select(Complex(), by_unknowns);
-    const Eigen::MatrixXcd fields = by_unknowns.completeOrthogonalDecomposition().solve(
-        sum.bottomLeftCorner(unknowns, species));
+    const ComplexMatrix fields =
+        least_squares(by_unknowns, sum.bottomLeftCorner(unknowns, species));
     return sum.topLeftCorner(species, species) - sum.topRightCorner(species, unknowns) * fields;
 }
 
@@ -88,10 +86,10 @@ LocalRates::LocalRates(const LinearModel& model)
     : model_(model),
       lattice_(lattice_of(*model.program)),
       kernel_tapes_(kernel_tapes_of(model)),
-      start_(model.algebra, starts_of(model, &StartValue::value), inputs_of(model)),
-      scatter_(model.algebra, starts_of(model, &StartValue::scatter), inputs_of(model)),
-      rates_(model.algebra, model.rates, inputs_of(model)),
-      matrices_(model.algebra, entries_of(model), inputs_of(model)),
+      start_(model.algebra, starts_of(model, &StartValue::value), inputs_of_rates(model)),
+      scatter_(model.algebra, starts_of(model, &StartValue::scatter), inputs_of_rates(model)),
+      rates_(model.algebra, model.rates, inputs_of_rates(model)),
+      matrices_(model.algebra, entries_of(model), inputs_of_rates(model)),
       varied_(model.varied.size(), 0.0) {
     for (const KernelTapes& tapes : kernel_tapes_) kernels_.push_back(tapes.at(varied_));
 }

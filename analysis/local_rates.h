@@ -2,17 +2,13 @@
 #pragma once
 
 #include "analysis/kernel_tapes.h"
+#include "analysis/linear_algebra.h"
 #include "analysis/linear_model.h"
 #include "analysis/tape.h"
-
-#include <Eigen/Core>
 
 #include <vector>
 
 namespace cascade::analysis {
-
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
 
 /// The Jacobian of all waves in a state.
 struct Matrices {
@@ -24,8 +20,8 @@ struct Matrices {
 
 /// The Jacobian of a wave: how fast species change with species, the fields of constraints
 /// following at once.
-Eigen::MatrixXcd jacobian_of(const LinearModel& model, const Matrices& matrices,
-                             const Lattice& lattice, const Phases& phases);
+ComplexMatrix jacobian_of(const LinearModel& model, const Matrices& matrices,
+                          const Lattice& lattice, const Phases& phases);
 
 class LocalRates {
 public:

@@ -1,8 +1,6 @@
 // A flat state is followed from value to value by Newton's method, each time from the last one.
 #include "analysis/parameters.h"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,8 +82,7 @@ private:
         };
         const double moved = distance(to - from);
         if (moved <= 0.5) return false;
-        const Vector slope =
-            rates_.jacobian(from).completeOrthogonalDecomposition().solve(-rates_.rates(from));
+        const Vector slope = least_squares(rates_.jacobian(from), -rates_.rates(from));
         return !(distance(to - from - slope) <= 0.25 * moved);
     }
 

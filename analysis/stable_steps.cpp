@@ -11,18 +11,18 @@ namespace cascade::analysis {
 
 namespace {
 
-struct Polynomial {
+struct StepPolynomial {
     Solver solver;
     std::array<double, 7> coefficients;
 };
-constexpr std::array<Polynomial, 5> polynomials{
+constexpr std::array<StepPolynomial, 5> polynomials{
     {{Solver::euler, {1, 1, 0, 0, 0, 0, 0}},
      {Solver::rk2, {1, 1, 1.0 / 2, 0, 0, 0, 0}},
      {Solver::rk4, {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24, 0, 0}},
      {Solver::rk23, {1, 1, 1.0 / 2, 1.0 / 6, 0, 0, 0}},
      {Solver::rk45, {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 600}}}};
 
-bool is_stable(const Polynomial& polynomial, Complex z) {
+bool is_stable(const StepPolynomial& polynomial, Complex z) {
     Complex sum = 0;
     for (std::size_t k = polynomial.coefficients.size(); k-- > 0;) {
         sum = sum * z + polynomial.coefficients[k];
@@ -31,7 +31,7 @@ bool is_stable(const Polynomial& polynomial, Complex z) {
 }
 
 /// Where the ray at this angle from the negative axis, 0 … π/2, leaves the region of stability.
-double reach(const Polynomial& polynomial, double angle) {
+double reach(const StepPolynomial& polynomial, double angle) {
     const Complex direction = std::polar(1.0, std::numbers::pi - angle);
     constexpr double most = 8;
     double inside = 0, outside = most;
@@ -64,7 +64,7 @@ std::vector<StableStep> stable_steps(std::span<const Complex> rates) {
         if (std::abs(rate) > std::abs(known)) known = rate;
     }
     std::vector<StableStep> steps;
-    for (const Polynomial& polynomial : polynomials) {
+    for (const StepPolynomial& polynomial : polynomials) {
         StableStep step{polynomial.solver, std::numeric_limits<double>::infinity()};
         for (const Complex rate : largest) {
             if (rate == Complex()) continue;

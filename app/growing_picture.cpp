@@ -12,7 +12,7 @@ constexpr std::chrono::milliseconds first_after(500), apart(200);
 /// Drawing takes at most a tenth of the time.
 constexpr int rest_for_drawing = 9;
 /// Its own among the pictures of a terminal.
-constexpr std::uint32_t number = 0xca5cade;
+constexpr std::uint32_t picture_number = 0xca5cade;
 
 }  // namespace
 
@@ -27,7 +27,8 @@ bool GrowingPicture::is_due() const { return painter_ && Clock::now() >= next_; 
 void GrowingPicture::draw() {
     const Clock::time_point begun = Clock::now();
     const Canvas canvas = painter_->canvas(run_.simulation());
-    const std::string text = pictures_.draw(painter_->image(canvas), console_.out(), number);
+    const std::string text =
+        pictures_.draw(painter_->image(canvas), console_.out(), picture_number);
     erase();
     console_.draw(text);
     lines_ = std::count(text.begin(), text.end(), '\n');
@@ -36,7 +37,7 @@ void GrowingPicture::draw() {
 }
 
 void GrowingPicture::erase() {
-    if (lines_ > 0) console_.draw(pictures_.erase(std::exchange(lines_, 0), number));
+    if (lines_ > 0) console_.draw(pictures_.erase(std::exchange(lines_, 0), picture_number));
 }
 
 }  // namespace cascade

@@ -10,6 +10,7 @@
 #include "export/map_texels.h"
 #include "export/render_vertices.h"
 #include "mesh/normals.h"
+#include "mesh/triangle_mesh.h"
 #include "picture/srgb.h"
 
 #include <fmt/format.h>
@@ -219,8 +220,7 @@ private:
         const Vector3d raised = own.painter->raised_normal(own.places, normal);
         const Vector3d bumped =
             unit(Vector3d{dot(raised, tangent), dot(raised, bitangent), dot(raised, normal)});
-        return {static_cast<float>(bumped.x), static_cast<float>(bumped.y),
-                static_cast<float>(bumped.z)};
+        return single(bumped);
     }
 
     Bake finish(std::int64_t covered, const TextureLayout::Overlap& overlap) {

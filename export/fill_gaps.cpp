@@ -70,11 +70,12 @@ PartialTexture halved(const PartialTexture& fine) {
 }
 
 /// The coarse texels on either side of a fine one's centre, and the weight of the second one.
-struct Between {
+struct CoarseNeighbours {
     std::int64_t first = 0, second = 0;
     float part = 0;
 };
-Between between(std::int64_t fine, std::int64_t fine_size, std::int64_t coarse_size) {
+CoarseNeighbours coarse_neighbours(std::int64_t fine, std::int64_t fine_size,
+                                   std::int64_t coarse_size) {
     const float place = (static_cast<float>(fine) + 0.5F) * static_cast<float>(coarse_size) /
                             static_cast<float>(fine_size) -
                         0.5F;
@@ -86,11 +87,11 @@ Between between(std::int64_t fine, std::int64_t fine_size, std::int64_t coarse_s
 /// Fills gaps from a coarse texture without gaps.
 void take_from(const PartialTexture& coarse, PartialTexture& fine) {
     for (std::int64_t y = 0; y < fine.height; ++y) {
-        const Between down = between(y, fine.height, coarse.height);
+        const CoarseNeighbours down = coarse_neighbours(y, fine.height, coarse.height);
         for (std::int64_t x = 0; x < fine.width; ++x) {
             const auto at = static_cast<std::size_t>(y * fine.width + x);
             if (fine.is_filled[at] != 0) continue;
-            const Between across = between(x, fine.width, coarse.width);
+            const CoarseNeighbours across = coarse_neighbours(x, fine.width, coarse.width);
             const auto mixed = [&](std::int64_t row, std::size_t c) {
                 const auto line = static_cast<std::size_t>(row * coarse.width);
                 return coarse.texels[line + static_cast<std::size_t>(across.first)][c] *

@@ -57,7 +57,7 @@ private:
     std::vector<double> areas_;
 };
 
-ModelLevel level_of(const ModelLevel& finer, Simplified simplified) {
+ModelLevel level_below(const ModelLevel& finer, Simplified simplified) {
     const MergedMeans means(simplified, areas_of_points(finer.mesh));
     ModelLevel level;
     if (!finer.colours.empty()) {
@@ -92,7 +92,7 @@ Result<std::vector<ModelLevel>> levels_of(ModelLevel finest, int count, double p
         if (!simplified) return tl::unexpected(simplified.error());
         // The topology may need nearly all triangles that are left.
         if (2 * simplified->mesh.triangles.size() > triangles) break;
-        levels.push_back(level_of(finer, *std::move(simplified)));
+        levels.push_back(level_below(finer, *std::move(simplified)));
     }
     return levels;
 }

@@ -6,6 +6,7 @@
 #include "export/channels.h"
 #include "export/fill_gaps.h"
 #include "export/map_texels.h"
+#include "mesh/triangle_mesh.h"
 #include "picture/srgb.h"
 
 #include <algorithm>
@@ -18,11 +19,11 @@ namespace cascade {
 namespace {
 
 /// Where samples of an axis lie between cells.
-struct Between {
+struct SamplePlace {
     std::int64_t before = 0;  ///< The cell whose middle is before the sample; may be −1.
     float part = 0;           ///< Of the way to the next one.
 };
-Between between(std::int64_t sample, std::int64_t samples, std::int64_t cells) {
+SamplePlace place_of_sample(std::int64_t sample, std::int64_t samples, std::int64_t cells) {
     const double place = (static_cast<double>(sample) + 0.5) * static_cast<double>(cells) /
                              static_cast<double>(samples) -
                          0.5;
@@ -56,7 +57,7 @@ public:
     std::span<const MaterialPart> parts() const { return parts_; }
 
     /// The values of all columns at a place between rows.
-    void row_at(const Between& down, std::span<float> line) const {
+    void row_at(const SamplePlace& down, std::span<float> line) const {
         std::array<const float*, cells_between> rows{};
         for (std::size_t k = 0; k < rows.size(); ++k) {
             const std::int64_t row = cells_.row(down.before + static_cast<std::int64_t>(k) - 2);
@@ -66,7 +67,7 @@ public:
     }
 
     /// The values at a place between columns of a line.
-    void at(std::span<const float> line, const Between& across, std::span<float> values) const {
+    void at(std::span<const float> line, const SamplePlace& across, std::span<float> values) const {
         std::array<const float*, cells_between> columns{};
         for (std::size_t k = 0; k < columns.size(); ++k) {
             const std::int64_t column =
@@ -172,12 +173,12 @@ private:
             const Image& colour = baker_.maps_.colour;
             std::fill(sums_.begin(), sums_.end(), Sum());
             for (std::int64_t j = y * samples; j < (y + 1) * samples; ++j) {
-                baker_.values_.row_at(between(j, colour.height * samples, baker_.cells_.rows),
-                                      line_);
+                baker_.values_.row_at(
+                    place_of_sample(j, colour.height * samples, baker_.cells_.rows), line_);
                 for (std::int64_t i = 0; i < colour.width * samples; ++i) {
-                    baker_.values_.at(line_,
-                                      between(i, colour.width * samples, baker_.cells_.columns),
-                                      here_);
+                    baker_.values_.at(
+                        line_, place_of_sample(i, colour.width * samples, baker_.cells_.columns),
+                        here_);
                     add(sums_[static_cast<std::size_t>(i / samples)]);
                 }
             }
@@ -277,9 +278,7 @@ private:
             const double up =
                 rise(x, rows[1], x, rows[0]) / apart(y, relief.height, cells_.repeats[1], down);
             const Vector3d normal = unit(Vector3d{-right, -up, 1});
-            maps_.normals.at(x, y) =
-                stored_direction({static_cast<float>(normal.x), static_cast<float>(normal.y),
-                                  static_cast<float>(normal.z)});
+            maps_.normals.at(x, y) = stored_direction(single(normal));
         }
     }
 

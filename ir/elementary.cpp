@@ -25,11 +25,11 @@ constexpr ByPrecision<double> log2_of_e = {0x1.715476p+0, 0x1.71547652b82fep+0};
 
 /// ln 2 as a head of 14 (42) bits, whose product with the exponent of a number is exact, and a
 /// tail.
-struct Split {
+struct SplitNumber {
     double head;
     double tail;
 };
-constexpr ByPrecision<Split> ln2 = {
+constexpr ByPrecision<SplitNumber> ln2 = {
     {{0x1.62e8p-1, -0x1.e8082ep-16}, {0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45}}};
 
 /// Beyond this magnitude of the argument, exp is infinite or 0.

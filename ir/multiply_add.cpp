@@ -16,11 +16,12 @@ namespace cascade {
 namespace {
 
 /// All choices but the one in which every operand is a scalar.
-constexpr unsigned scalar_choices = 7;
+constexpr unsigned varying_choices = 7;
 
 template <unsigned scalars, typename Number>
-CASCADE_WITH_MULTIPLY_ADD void loop(Number* __restrict out, const Number* a, const Number* b,
-                                    const Number* c, std::int64_t count) {
+CASCADE_WITH_MULTIPLY_ADD void multiply_add_block(Number* __restrict out, const Number* a,
+                                                  const Number* b, const Number* c,
+                                                  std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) {
         const Number x = a[scalars & 1 ? 0 : i];
         const Number y = b[scalars & 2 ? 0 : i];
@@ -34,9 +35,9 @@ CASCADE_WITH_MULTIPLY_ADD void loop(Number* __restrict out, const Number* a, con
 }
 
 template <typename Number, unsigned... scalars>
-constexpr std::array<BlockLoop<Number>, scalar_choices> loops_of(
+constexpr std::array<BlockLoop<Number>, varying_choices> multiply_add_blocks(
     std::integer_sequence<unsigned, scalars...>) {
-    return {&loop<scalars, Number>...};
+    return {&multiply_add_block<scalars, Number>...};
 }
 
 }  // namespace
@@ -61,7 +62,7 @@ bool multiplies_and_adds(const CellKernel& kernel) {
 template <typename Number>
 BlockLoop<Number> multiply_add_loop(unsigned scalar_operands) {
     static constexpr auto loops =
-        loops_of<Number>(std::make_integer_sequence<unsigned, scalar_choices>{});
+        multiply_add_blocks<Number>(std::make_integer_sequence<unsigned, varying_choices>{});
     return loops.at(scalar_operands);
 }
 

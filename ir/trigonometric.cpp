@@ -17,13 +17,13 @@ namespace cascade {
 namespace {
 
 /// The constants of the reduction.
-struct Reduction {
+struct AngleReduction {
     double largest_angle;
     double largest_direct_angle;
     double many;                         ///< Quarter turns subtracted from large angles at once.
     std::array<double, 5> quarter_turn;  ///< Four parts and the rest.
 };
-constexpr ByPrecision<Reduction> reductions = {
+constexpr ByPrecision<AngleReduction> angle_reductions = {
     {{0x1p24, 0x1p13, 0x1p12, {0x1.92p+0, 0x1.fb8p-12, -0x1.5ep-23, 0x1.0b8p-34, -0x1.cf72cep-45}},
      {0x1p53,
       0x1p27,
@@ -64,7 +64,7 @@ Sum exact_difference(Expression a, Expression b) {
 
 /// The angle minus n · unit quarter turns.
 Sum take_off(Expression angle, Expression n, double unit) {
-    const std::array<double, 5>& quarter_turn = angle.pick(reductions).quarter_turn;
+    const std::array<double, 5>& quarter_turn = angle.pick(angle_reductions).quarter_turn;
     const Expression rough =
         (angle - n * (quarter_turn[0] * unit)) - n * (quarter_turn[1] * unit);  // Exact.
     const Sum third = exact_difference(rough, n * (quarter_turn[2] * unit));
@@ -99,7 +99,7 @@ struct Reduced {
 
 /// Reduces an angle that is not negative.
 Reduced reduce(Expression angle) {
-    const Reduction& by = angle.pick(reductions);
+    const AngleReduction& by = angle.pick(angle_reductions);
     const double per_radian = angle.pick(quarter_turns_per_radian);
     const Expression turns = round_to_whole(angle * (per_radian / by.many)).number;
     const Expression whole = (by.largest_direct_angle < angle).choose(turns, angle.number(0));
@@ -113,7 +113,7 @@ Reduced reduce(Expression angle) {
 
 Expression nan_if_too_large(Expression angle, Expression value) {
     const Expression is_angle =
-        angle.binary(Op::less_equal, angle.number(angle.pick(reductions).largest_angle));
+        angle.binary(Op::less_equal, angle.number(angle.pick(angle_reductions).largest_angle));
     return is_angle.choose(value, angle.number(nan));
 }
 

@@ -25,13 +25,13 @@ std::uint32_t layer_size(const CentredLattice& lattice, bool is_centre) {
                                       row_length(lattice, 1, is_centre));
 }
 
-struct Corner {
+struct CrossedCorner {
     std::uint32_t number = 0;
     double value = 0;
 };
-using Tetrahedron = std::array<Corner, 4>;
+using Tetrahedron = std::array<CrossedCorner, 4>;
 
-Crossing crossing(const Corner& a, const Corner& b) {
+Crossing crossing(const CrossedCorner& a, const CrossedCorner& b) {
     if (a.number > b.number) return crossing(b, a);
     return {std::uint64_t{a.number} << 32 | b.number, a.value / (a.value - b.value)};
 }
@@ -76,11 +76,12 @@ public:
     FaceCrosser(const CentredLattice& lattice, CrossedTriangles& triangles)
         : lattice_(lattice), triangles_(triangles) {}
 
-    Corner corner(const LatticePoint& point, const LatticeLayer& layer) const {
+    CrossedCorner corner(const LatticePoint& point, const LatticeLayer& layer) const {
         return {lattice_.number_of(point), layer.values[index_in_layer(lattice_, point)]};
     }
     /// `ring`: the corners of the face, counterclockwise seen from the second centre.
-    void face(const Corner& first, const Corner& second, const std::array<Corner, 4>& ring) {
+    void face(const CrossedCorner& first, const CrossedCorner& second,
+              const std::array<CrossedCorner, 4>& ring) {
         for (std::size_t k = 0; k < 4; ++k) {
             cross({first, ring[k], ring[(k + 1) % 4], second}, triangles_);
         }

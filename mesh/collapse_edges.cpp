@@ -8,7 +8,7 @@ namespace cascade {
 namespace {
 
 constexpr double least_cosine = 0.26;  ///< Of the rotation of a triangle: 75°.
-constexpr unsigned most_neighbours = 10;
+constexpr unsigned most_edges_at_point = 10;
 
 void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest,
               MergedVertices* merged) {
@@ -19,7 +19,7 @@ void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest
     if (mesh.is_boundary(a) || mesh.is_boundary(b)) return;
     // A vertex with three triangles would keep two, which would coincide.
     if (mesh.valence(mesh.opposite_vh(h)) < 4 || mesh.valence(mesh.opposite_vh(other)) < 4) return;
-    if (mesh.valence(a) + mesh.valence(b) > most_neighbours + 4) return;
+    if (mesh.valence(a) + mesh.valence(b) > most_edges_at_point + 4) return;
     const Vector3d to = merged ? merged->place(mesh, a, b) : from + apart * 0.5;
     if (!keep_shape(mesh, a, b, to, longest) || !keep_shape(mesh, b, a, to, longest)) return;
     if (!mesh.is_collapse_ok(other)) return;

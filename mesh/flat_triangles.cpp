@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double flat = 1e-10;
+constexpr double flatness = 1e-10;
 constexpr int most_rounds = 8;  ///< A strip of flat triangles takes several.
 
 using Corners = std::array<Vector3d, 3>;
@@ -32,7 +32,7 @@ bool is_flat(const Corners& corners) {
     const std::uint32_t k = longest_edge(corners);
     const Vector3d along = corners[corner_after(k)] - corners[k];
     const Vector3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-    return length(normal) <= flat * dot(along, along);
+    return length(normal) <= flatness * dot(along, along);
 }
 
 std::size_t count_flat(const SurfaceMesh& mesh) {

@@ -5,6 +5,7 @@
 #include "mesh/centred_lattice.h"
 #include "mesh/edge_pairs.h"
 #include "mesh/isotropic_remesh.h"
+#include "mesh/shapes.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace cascade {
 
 namespace {
 
-constexpr double least_length = 1e-60, largest_length = 1e60;
 /// Corners keep this distance from the ends of edges, where triangles would have no area.
 constexpr double least_part = 0.1;
 /// Search distances for the surface from a point, in edges, nearest first.
@@ -280,7 +280,7 @@ private:
 Result<void> check_request(const ImplicitRequest& request) {
     const Vector3d size = request.high - request.low;
     for (const double length : {size.x, size.y, size.z, request.edge}) {
-        if (length >= least_length && length <= largest_length) continue;
+        if (length >= least_shape_length && length <= largest_shape_length) continue;
         return failure(fmt::format("a box from {} to {} with edges of {:.6g} holds no surface",
                                    text_of(request.low), text_of(request.high), request.edge));
     }

@@ -5,14 +5,6 @@
 
 namespace cascade {
 
-namespace {
-
-Vector3 single(const Vector3d& a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-
-}  // namespace
-
 std::uint64_t Instances::triangle_count() const {
     std::uint64_t count = 0;
     for (const Placement& placement : placements) count += meshes[placement.mesh].triangles.size();

@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double longest = 4.0 / 3;  ///< Of the target edge length.
+constexpr double longest_edge_part = 4.0 / 3;  ///< Of the target edge length.
 /// The length below which edges are collapsed in each round: the shortest first.
 constexpr std::array shortest = {0.3, 0.5, 0.65, 0.8, 0.8, 0.0, 0.0, 0.0};
 constexpr int most_flip_passes = 6;
@@ -119,7 +119,7 @@ Result<void> isotropic_remesh(SurfaceMesh& mesh, double edge, const BringBack& b
         if (cancel) return {};
         Result<HalfEdges> edited = half_edges(mesh);
         if (!edited) return tl::unexpected(edited.error());
-        if (short_edge > 0) collapse_edges(*edited, short_edge * edge, longest * edge);
+        if (short_edge > 0) collapse_edges(*edited, short_edge * edge, longest_edge_part * edge);
         flip_edges(*edited);
         mesh = surface_mesh(*edited);
         const std::vector<Vector3d> normals = point_normals(mesh);

@@ -9,14 +9,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace cascade {
 
 namespace {
 
-constexpr double tau = 2 * std::numbers::pi;
 constexpr double length_of_curve = 28.826;
 
 Vector3d curve(double phi) {

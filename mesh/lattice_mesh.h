@@ -5,10 +5,14 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace cascade {
+
+/// The angle of a whole turn.
+inline constexpr double tau = 2 * std::numbers::pi;
 
 /// Rectangle (i, j) of a lattice as two triangles; adjacent rectangles are cut along different
 /// diagonals, which avoids a preferred direction.

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t most_points = std::numeric_limits<std::int32_t>::max();
 
 /// The indices in a corner of a face, from 0.
-struct Corner {
+struct FaceCorner {
     std::uint32_t point = 0;
     std::optional<std::uint32_t> texture;
 };
@@ -86,7 +86,7 @@ private:
 
     bool read_face(const Words& words) {
         for (std::size_t k = 1; k < words.size(); ++k) {
-            const std::optional<Corner> corner = corner_in(words[k]);
+            const std::optional<FaceCorner> corner = corner_in(words[k]);
             if (!corner) return false;
             soup_.corners.push_back(corner->point);
             all_have_texture_ = all_have_texture_ && corner->texture;
@@ -97,11 +97,11 @@ private:
     }
 
     /// Parses "point", "point/texture", "point//normal" or "point/texture/normal".
-    std::optional<Corner> corner_in(std::string_view word) const {
+    std::optional<FaceCorner> corner_in(std::string_view word) const {
         const std::size_t slash = std::min(word.find('/'), word.size());
         const auto point = number_of(word.substr(0, slash), std::ssize(soup_.points));
         if (!point) return std::nullopt;
-        Corner corner{*point, std::nullopt};
+        FaceCorner corner{*point, std::nullopt};
         const std::string_view rest = word.substr(std::min(slash + 1, word.size()));
         const std::string_view texture = rest.substr(0, rest.find('/'));
         if (texture.empty()) return corner;

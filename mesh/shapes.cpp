@@ -18,11 +18,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double tau = 2 * std::numbers::pi;
-constexpr double least_length = 1e-60, largest_length = 1e60;
-
 Result<void> check_length(std::string_view name, double length) {
-    if (length >= least_length && length <= largest_length) return {};
+    if (length >= least_shape_length && length <= largest_shape_length) return {};
     return failure(fmt::format("{} {} is no length to make a surface of", name, length));
 }
 

@@ -9,6 +9,8 @@ namespace cascade {
 
 /// The largest number of triangles of a shape.
 inline constexpr double most_shape_triangles = 1 << 24;
+/// The limits of its lengths.
+inline constexpr double least_shape_length = 1e-60, largest_shape_length = 1e60;
 
 // `edge` is the approximate length of the triangles' edges. All lengths are in 10⁻⁶⁰ … 10⁶⁰. Fails
 // on others, and if there were more than `most_shape_triangles`. Throws std::bad_alloc.

@@ -19,7 +19,7 @@ namespace {
 using OpenMesh::Decimater::ModBaseT;
 using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdges>;
 
-constexpr unsigned most_neighbours = 12;
+constexpr unsigned most_edges_of_merged = 12;
 /// Where collapses cost nothing else, as in a flat part of one colour, short edges go first.
 constexpr double weight_of_length = 1e-5;
 /// The sides of a boundary, against its distance from the plane of the triangles.
@@ -132,7 +132,7 @@ private:
 
     bool is_allowed(const CollapseInfo& collapse) {
         if (!keeps_triangles(collapse.vl) || !keeps_triangles(collapse.vr)) return false;
-        if (mesh().valence(collapse.v0) + mesh().valence(collapse.v1) > most_neighbours + 4) {
+        if (mesh().valence(collapse.v0) + mesh().valence(collapse.v1) > most_edges_of_merged + 4) {
             return false;
         }
         return keep_shape(mesh(), collapse.v0, collapse.v1, position(mesh(), collapse.v1),

@@ -53,6 +53,9 @@ struct SurfaceMesh {
         return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
     }
     double area(std::size_t triangle) const { return length(double_area_normal(triangle)) / 2; }
+    Vector3d centroid(std::size_t triangle) const {
+        return (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) * (1.0 / 3);
+    }
     /// The angle of a triangle at its corner k, 0 … π.
     double angle(std::size_t triangle, std::size_t k) const;
     /// The sum over all triangles, in their order.

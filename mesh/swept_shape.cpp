@@ -17,13 +17,9 @@ namespace cascade {
 
 namespace {
 
-constexpr double step = 1e-5;        ///< Of differences in t and s.
-constexpr double pole_step = 1e-4;   ///< How far from a pole its normals are measured.
-constexpr double least_part = 1e-9;  ///< What is smaller, relative to the shape, is a point.
-
-Vector3 to_single(const Vector3d& a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
+constexpr double step = 1e-5;            ///< Of differences in t and s.
+constexpr double pole_step = 1e-4;       ///< How far from a pole its normals are measured.
+constexpr double vanishing_part = 1e-9;  ///< What is smaller, relative to the shape, is a point.
 
 /// Evaluates a surface, and remembers the first place at which it is not finite.
 class Probe {
@@ -67,12 +63,12 @@ public:
         if (!probe_.fault().empty()) return failure(probe_.fault());
         const double size = length(high_ - low_);
         for (const std::uint32_t end : {0u, facets_.along}) {
-            if (is_point(end, least_part * size)) make_pole(end);
+            if (is_point(end, vanishing_part * size)) make_pole(end);
             else add_cap(end);
         }
         for (std::uint32_t i = 0; i < facets_.along; ++i) join(i);
         const double volume = this->volume();
-        if (!(std::abs(volume) > least_part * size * size * size)) {
+        if (!(std::abs(volume) > vanishing_part * size * size * size)) {
             return failure("the shape encloses no volume");
         }
         if (volume < 0) turn_around();
@@ -90,7 +86,7 @@ private:
     std::uint32_t add(Vector3d place, Vector3d normal, double shade) {
         places_.push_back(place);
         normals_.push_back(normal);
-        mesh_.positions.push_back(to_single(place));
+        mesh_.positions.push_back(single(place));
         if (shade_) mesh_.shades.push_back(static_cast<float>(std::clamp(shade, 0.0, 1.0)));
         return static_cast<std::uint32_t>(places_.size() - 1);
     }
@@ -199,7 +195,7 @@ private:
         smooth_normals(mesh_);
         for (std::size_t k = 0; k < normals_.size(); ++k) {
             const Vector3d normal = unit(normals_[k]);
-            if (length(normal) > 0.5) mesh_.normals[k] = to_single(normal);
+            if (length(normal) > 0.5) mesh_.normals[k] = single(normal);
         }
     }
 
@@ -279,7 +275,7 @@ SweptSurface surface_of(Tube tube) {
             Vector3d along = unit(derivative(tube.middle, t));
             if (!(length(along) > 0.5)) along = {0, 1, 0};
             Vector3d across = Vector3d{1, 0, 0} - along * along.x;
-            if (length(across) < least_part) across = Vector3d{0, 0, 1} - along * along.z;
+            if (length(across) < vanishing_part) across = Vector3d{0, 0, 1} - along * along.z;
             across = unit(across);
             ring = {t, tube.middle(t), across, cross(across, along)};
         }

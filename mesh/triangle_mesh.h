@@ -9,6 +9,11 @@
 
 namespace cascade {
 
+/// A point or direction as these meshes have it.
+inline Vector3 single(const Vector3d& a) {
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
 struct TriangleMesh {
     std::vector<Vector3> positions;
     std::vector<Vector3> normals;                         ///< One per position, of length 1.

@@ -13,6 +13,11 @@ inline constexpr Colour sheet_ground{0.96F, 0.955F, 0.94F};
 inline constexpr Colour sheet_frame{0.72F, 0.71F, 0.69F};
 inline constexpr Colour sheet_ink{0.16F, 0.16F, 0.17F};
 
+/// Pixels around what is on a sheet or map.
+inline constexpr std::int64_t sheet_margin = 16;
+/// The height in pixels of the band drawn for a line of cells.
+inline constexpr std::int64_t least_band_height = 24;
+
 /// Fills pixels (x, y) … (x + width − 1, y + height − 1), which must be within the image.
 void fill_rectangle(Image& image, std::int64_t x, std::int64_t y, std::int64_t width,
                     std::int64_t height, Colour colour);

@@ -11,9 +11,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t comfortable_side = 128;  // Pictures below half of this are enlarged.
-constexpr std::int64_t least_height = 24;       // Height of the band drawn for a line of cells.
-constexpr std::int64_t margin = 16;             // Around everything.
+constexpr std::int64_t comfortable_tile = 128;  // Pictures below half of this are enlarged.
 constexpr std::int64_t gap = 6;                 // Between tiles, and between tiles and labels.
 constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 
@@ -21,8 +19,8 @@ constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 struct MapLayout {
     std::int64_t factor = 1, dot = 1;
     std::int64_t tile_width = 0, tile_height = 0;
-    std::int64_t left = margin;  ///< Of the first column of tiles.
-    std::int64_t top = margin;   ///< Of the upper row of tiles.
+    std::int64_t left = sheet_margin;  ///< Of the first column of tiles.
+    std::int64_t top = sheet_margin;   ///< Of the upper row of tiles.
     std::int64_t width = 0, height = 0;
 };
 
@@ -33,13 +31,13 @@ void lay_out_tiles(std::span<const MapTile> tiles, MapLayout& layout) {
     for (const MapTile& tile : tiles) {
         longest = std::max({longest, tile.image.width, tile.image.height});
     }
-    layout.factor = std::max<std::int64_t>(1, comfortable_side / longest);
+    layout.factor = std::max<std::int64_t>(1, comfortable_tile / longest);
     for (const MapTile& tile : tiles) {
         layout.tile_width = std::max(layout.tile_width, tile.image.width * layout.factor);
         layout.tile_height = std::max(layout.tile_height, tile.image.height * layout.factor);
     }
-    if (layout.tile_width == 0) layout.tile_width = layout.tile_height = comfortable_side;
-    layout.tile_height = std::max(layout.tile_height, least_height);
+    if (layout.tile_width == 0) layout.tile_width = layout.tile_height = comfortable_tile;
+    layout.tile_height = std::max(layout.tile_height, least_band_height);
     layout.dot = std::clamp<std::int64_t>(layout.tile_width / 96, 1, 3);
 }
 
@@ -59,10 +57,10 @@ MapLayout lay_out(std::span<const MapTile> tiles, const MapAxis& across, const M
     const auto rows = static_cast<std::int64_t>(up.values.size());
     const std::int64_t tiles_width = columns * (layout.tile_width + gap) - gap;
     const std::int64_t needed =
-        std::max({layout.left + tiles_width, margin + text_width(up.name, layout.dot),
+        std::max({layout.left + tiles_width, sheet_margin + text_width(up.name, layout.dot),
                   layout.left + text_width(across.name, layout.dot)});
-    layout.width = needed + margin;
-    layout.height = layout.top + rows * (layout.tile_height + gap) - gap + margin;
+    layout.width = needed + sheet_margin;
+    layout.height = layout.top + rows * (layout.tile_height + gap) - gap + sheet_margin;
     if (!across.name.empty()) layout.height += 2 * line + gap;
     return layout;
 }
@@ -78,7 +76,7 @@ void draw_tile(Image& map, const MapTile& tile, const MapLayout& layout, std::in
                std::int64_t y) {
     if (!is_empty(tile.image)) {
         draw_framed(map, tile.image, x, y, layout.factor,
-                    std::max(tile.image.height * layout.factor, least_height));
+                    std::max(tile.image.height * layout.factor, least_band_height));
         return;
     }
     fill_rectangle(map, x - 1, y - 1, layout.tile_width + 2, layout.tile_height + 2, sheet_frame);
@@ -91,7 +89,8 @@ void draw_axes(Image& map, const MapAxis& across, const MapAxis& up, const MapLa
     const std::int64_t line = text_height(layout.dot) + gap;
     const auto rows = static_cast<std::int64_t>(up.values.size());
     if (!up.name.empty()) {
-        draw_text(map, up.name, margin, margin, layout.width - 2 * margin, layout.dot);
+        draw_text(map, up.name, sheet_margin, sheet_margin, layout.width - 2 * sheet_margin,
+                  layout.dot);
         for (std::int64_t row = 0; row < rows; ++row) {
             const std::string& value = up.values[static_cast<std::size_t>(row)];
             const std::int64_t width = text_width(value, layout.dot);

@@ -9,10 +9,8 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t comfortable_side = 192;  // Pictures below half of this are enlarged.
-constexpr std::int64_t least_height = 24;       // Height of the band drawn for a line of cells.
-constexpr std::int64_t margin = 16;             // Around the panels and between them.
-constexpr std::int64_t label_gap = 6;           // Between a picture's frame and its label.
+constexpr std::int64_t comfortable_panel = 192;  // Pictures below half of this are enlarged.
+constexpr std::int64_t label_gap = 6;            // Between a picture's frame and its label.
 
 /// Sizes in pixels common to all panels of a sheet.
 struct Sizes {
@@ -23,7 +21,7 @@ struct Sizes {
 };
 
 std::int64_t shown_height(const Image& image, std::int64_t factor) {
-    return std::max(image.height * factor, least_height);
+    return std::max(image.height * factor, least_band_height);
 }
 
 Sizes sizes_of(std::span<const Panel> panels) {
@@ -32,12 +30,12 @@ Sizes sizes_of(std::span<const Panel> panels) {
         longest = std::max({longest, panel.image.width, panel.image.height});
     }
     Sizes sizes;
-    sizes.enlarge = std::max<std::int64_t>(1, comfortable_side / longest);
+    sizes.enlarge = std::max<std::int64_t>(1, comfortable_panel / longest);
     for (const Panel& panel : panels) {
         sizes.width = std::max(sizes.width, panel.image.width * sizes.enlarge);
         sizes.height = std::max(sizes.height, shown_height(panel.image, sizes.enlarge));
     }
-    sizes.width = std::max(sizes.width, comfortable_side / 2);
+    sizes.width = std::max(sizes.width, comfortable_panel / 2);
     sizes.dot = std::clamp<std::int64_t>(sizes.width / 96, 1, 3);
     return sizes;
 }
@@ -50,14 +48,15 @@ Image make_sheet(std::span<const Panel> panels, int columns) {
     const std::int64_t across = std::min<std::int64_t>(columns, count);
     const std::int64_t down = (count + across - 1) / across;
     const Sizes sizes = sizes_of(panels);
-    const std::int64_t panel_width = sizes.width + margin;
+    const std::int64_t panel_width = sizes.width + sheet_margin;
     const std::int64_t label_height = label_gap + text_height(sizes.dot);
-    const std::int64_t panel_height = sizes.height + label_height + margin;
-    Image sheet(across * panel_width + margin, down * panel_height + margin, sheet_ground);
+    const std::int64_t panel_height = sizes.height + label_height + sheet_margin;
+    Image sheet(across * panel_width + sheet_margin, down * panel_height + sheet_margin,
+                sheet_ground);
     for (std::int64_t k = 0; k < count; ++k) {
         const Panel& panel = panels[static_cast<std::size_t>(k)];
-        const std::int64_t x = margin + k % across * panel_width;
-        const std::int64_t y = margin + k / across * panel_height;
+        const std::int64_t x = sheet_margin + k % across * panel_width;
+        const std::int64_t y = sheet_margin + k / across * panel_height;
         const std::int64_t height = shown_height(panel.image, sizes.enlarge);
         draw_framed(sheet, panel.image, x, y, sizes.enlarge, height);
         // Directly under the picture, even if others in its row are taller.

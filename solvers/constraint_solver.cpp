@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 /// On grids and on linked cells.
-constexpr int most_iterations = 200, most_iterations_on_links = 2000;
+constexpr int most_iterations_on_grids = 200, most_iterations_on_links = 2000;
 /// The Laplacian is no help as a preconditioner if its part of L is smaller than this fraction of
 /// the rest, measured on a field that alternates from cell to cell.
 constexpr double least_laplacian = 1e-3;
@@ -321,7 +321,7 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
     };
     begin_again();
     int taken = 0;
-    const int most = stencil_ ? most_iterations : most_iterations_on_links;
+    const int most = stencil_ ? most_iterations_on_grids : most_iterations_on_links;
     while (left > wanted && taken < most) {
         ++taken;
         double next_rho = dot(worker, shadow_, residual_);

@@ -16,7 +16,7 @@ constexpr int rounds = 3;
 // Long enough for a tiling to fill the caches.
 constexpr double turn_seconds = 0.002;
 // Long enough for a clock, and shorter than the time slice of another program.
-constexpr double batch_seconds = 0.00025;
+constexpr double trial_batch_seconds = 0.00025;
 // The first steps meet cold caches, and threads that wake up.
 constexpr double warm_up_seconds = 0.01;
 // The part of a run that the first round of trials may cost.
@@ -58,7 +58,7 @@ std::int64_t TileTuner::sweeps_in(double seconds) const {
     return most_levels_ * static_cast<std::int64_t>(std::clamp(tiles, 1.0, 1e9));
 }
 
-std::int64_t TileTuner::sweeps_of_trial() const { return sweeps_in(batch_seconds); }
+std::int64_t TileTuner::sweeps_of_trial() const { return sweeps_in(trial_batch_seconds); }
 
 bool TileTuner::is_due(double left) const {
     if (candidates_.size() < 2 || rested_seconds_ < warm_up_seconds) return false;

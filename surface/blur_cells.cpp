@@ -12,8 +12,8 @@ namespace {
 
 /// Limit of a Voronoi edge's length over distance: nearly coinciding cells would make steps short.
 constexpr double most_flow = 4;
-constexpr double least_area = 0.2;  ///< As a fraction of the average.
-constexpr double precision = 1e-4;  ///< Sum of the omitted terms of the series.
+constexpr double least_blurred_area = 0.2;  ///< As a fraction of the average.
+constexpr double precision = 1e-4;          ///< Sum of the omitted terms of the series.
 
 /// The coefficients of the flow between cells, in units of the average area.
 struct Flows {
@@ -31,7 +31,7 @@ Flows flows_of(const SurfaceCells& cells) {
     }
     std::size_t edge = 0;
     for (std::size_t cell = 0; cell < cells.ends.size(); ++cell) {
-        const double area = std::max(least_area, cells.areas[cell] / average);
+        const double area = std::max(least_blurred_area, cells.areas[cell] / average);
         flows.inverse_areas.push_back(static_cast<float>(1 / area));
         double sum = 0;
         for (; edge < cells.ends[cell]; ++edge) sum += static_cast<double>(flows.edges[edge]);

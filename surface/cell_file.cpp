@@ -32,7 +32,8 @@ static_assert(sizeof(Header) == 64);
 
 constexpr std::uint64_t bytes_per_cell = 4 + 3 * 8 + 8 + 8;
 constexpr std::uint64_t bytes_per_edge = 4 + 8 + 8;
-constexpr std::uint64_t most = std::uint64_t{1} << 40;  // Keeps sums of sizes from overflowing.
+// Keeps sums of sizes from overflowing.
+constexpr std::uint64_t most_entries = std::uint64_t{1} << 40;
 
 template <typename T>
 void append(std::string& bytes, const T& value) {
@@ -103,7 +104,7 @@ Result<Header> parse_header(std::string_view bytes, const CellKey& key) {
     if (header.key != key.words) {
         return failure("holds cells of another surface or made in another way");
     }
-    if (header.cells > most || header.edges > most) {
+    if (header.cells > most_entries || header.edges > most_entries) {
         return failure("is damaged: it cannot be as large as it says");
     }
     return header;

@@ -2,6 +2,7 @@
 #include "surface/cell_filter.h"
 
 #include "core/enough_memory.h"
+#include "mesh/triangle_mesh.h"
 #include "surface/point_index.h"
 #include "surface/relax.h"
 
@@ -21,10 +22,6 @@ constexpr std::size_t most_boxes = 0xffffffff;
 
 /// In radii: images of one cell that are no farther apart are merged.
 constexpr float same_point_distance = 0.004F;
-
-Vector3 single(Vector3d v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 /// The weight for the square of a distance, in radii.
 float weight_of(float square) { return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3)); }

@@ -13,7 +13,7 @@ namespace {
 
 // A cell smaller than this part of the mean counts as this large, because steps would have to be
 // just as short.
-constexpr double least_area = 1e-3;
+constexpr double least_conducting_area = 1e-3;
 // The sum of a spread cell's weights is at most this over the mean area. Regular hexagons have
 // 3.46.
 constexpr double most_weight = 7.5;
@@ -35,7 +35,8 @@ class Loosening {
 public:
     Loosening(const SurfaceCells& cells, double unit) : cells_(cells), made_{cells.areas, {}} {
         const double mean = mean_area();
-        for (double& area : made_.areas) area = std::max(area, least_area * mean) / (unit * unit);
+        for (double& area : made_.areas)
+            area = std::max(area, least_conducting_area * mean) / (unit * unit);
         for (const VoronoiEdge& edge : cells.edges)
             made_.flows.push_back(edge.distance > 0 ? edge.weight() : 0);
         add_up();

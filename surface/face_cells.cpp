@@ -24,10 +24,6 @@ struct Face {
     double nearest = std::numeric_limits<double>::infinity();  ///< Squared, to the centroid.
 };
 
-Vector3d centroid_of(const SurfaceMesh& mesh, std::uint32_t t) {
-    return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
-}
-
 /// The place of a triangle nearest to a point, or approximately so if that is at its border.
 SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point) {
     const Vector3d origin = mesh.corner(t, 0);
@@ -87,7 +83,7 @@ SurfaceCells face_cells(const SurfaceMesh& mesh) {
         const double area = mesh.area(t);
         ++face.triangles;
         face.area += area;
-        face.moment = face.moment + centroid_of(mesh, t) * area;
+        face.moment = face.moment + mesh.centroid(t) * area;
     }
     SurfaceCells cells;
     cells.places.resize(count);

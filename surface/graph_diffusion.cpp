@@ -9,10 +9,10 @@ namespace cascade {
 
 namespace {
 
-constexpr int steps = 4;
+constexpr int implicit_steps = 4;
 constexpr double residual_tolerance = 1e-6;
 constexpr double rounding = 1e-14;
-constexpr int most_rounds = 2'000;
+constexpr int most_gradient_rounds = 2'000;
 constexpr double longest_time = 100;  ///< In units of the total mass: diffusion is complete then.
 
 /// Sums are taken over blocks of this many nodes, for the same bits on any number of threads.
@@ -58,7 +58,7 @@ public:
         double gain = sum([&](std::size_t k) { return inner(rest[k], towards[k]); });
         const double enough =
             residual_tolerance * residual_tolerance * gain + rounding * rounding * scale;
-        for (int round = 0; round < most_rounds && gain > enough && !cancel; ++round) {
+        for (int round = 0; round < most_gradient_rounds && gain > enough && !cancel; ++round) {
             const double bend = sum([&](std::size_t k) {
                 image[k] = towards[k] * mass(k) - rest_at(towards, k);
                 return inner(image[k], towards[k]);
@@ -129,9 +129,9 @@ std::vector<Number> diffuse(const DiffusionGraph<Number>& graph, std::vector<Num
                             double time, Team& team, const std::atomic<bool>& cancel) {
     const double total = std::accumulate(graph.masses.begin(), graph.masses.end(), 0.0);
     if (!(time > 0) || !(total > 0) || values.empty()) return values;
-    ImplicitStep<Number> step(graph, std::min(time, longest_time * total) / steps,
+    ImplicitStep<Number> step(graph, std::min(time, longest_time * total) / implicit_steps,
                               total / static_cast<double>(values.size()), team);
-    for (int k = 0; k < steps && !cancel; ++k) step.solve(values, cancel);
+    for (int k = 0; k < implicit_steps && !cancel; ++k) step.solve(values, cancel);
     return values;
 }
 

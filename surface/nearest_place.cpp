@@ -13,7 +13,7 @@ constexpr std::uint32_t most_in_leaf = 4;
 
 /// Points farther away, in sizes of the model, are moved nearer along a straight line. This keeps
 /// the nearest place and lets distances differ despite rounding.
-constexpr double farthest = 1e5;
+constexpr double farthest_kept = 1e5;
 
 double square_distance(Vector3d a, Vector3d b) { return dot(a - b, a - b); }
 
@@ -148,9 +148,9 @@ std::optional<SurfacePlace> NearestPlace::find(Vector3d point) const {
     // A quarter of the vector, which is finite for all finite numbers.
     const Vector3d part = point * 0.25 - middle * 0.25;
     const double away = std::hypot(part.x, part.y, part.z);
-    if (away > farthest * size / 4) {
+    if (away > farthest_kept * size / 4) {
         const Vector3d towards = {part.x / away, part.y / away, part.z / away};
-        point = middle + towards * (farthest * size);
+        point = middle + towards * (farthest_kept * size);
     }
     Best best;
     search(all, point, best);

@@ -15,7 +15,7 @@ namespace {
 /// Half the width of a central difference: its error and the rounding error are both about 1e-10.
 constexpr double difference = 1e-5;
 /// A cell with a smaller fraction of the mean area counts as degenerate.
-constexpr double least_area = 1e-6;
+constexpr double degenerate_area = 1e-6;
 
 /// The metric tensor JᵀJ of a cell, where J holds the derivatives by column and by row.
 struct MetricTensor {
@@ -85,8 +85,8 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
             const MetricTensor& tensor = tensors[static_cast<std::size_t>(j * grid.width + i)];
             const double area = tensor.area();
             // Also true if all areas are 0, and if two directions are nearly parallel.
-            if (!(area > least_area * mean) ||
-                !(area > least_area * std::sqrt(tensor.m11 * tensor.m22))) {
+            if (!(area > degenerate_area * mean) ||
+                !(area > degenerate_area * std::sqrt(tensor.m11 * tensor.m22))) {
                 return failure("the surface has no area " + place_of(grid, i, j),
                                "its directions along sx and sy must differ and have a length in "
                                "every cell; keep away from poles");

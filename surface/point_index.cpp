@@ -10,10 +10,10 @@ namespace cascade {
 namespace {
 
 // Box coordinates are clamped to this range; points beyond share the outermost boxes.
-constexpr double most_boxes = 1 << 30;
+constexpr double farthest_box = 1 << 30;
 
 std::int32_t number_of(double place) {
-    return static_cast<std::int32_t>(std::floor(std::clamp(place, -most_boxes, most_boxes)));
+    return static_cast<std::int32_t>(std::floor(std::clamp(place, -farthest_box, farthest_box)));
 }
 
 }  // namespace

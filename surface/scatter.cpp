@@ -27,9 +27,7 @@ std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
     std::vector<std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>> keys;
     keys.reserve(mesh.triangles.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vector3d middle =
-            (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) * (1.0 / 3);
-        const Vector3d at = (middle - low) * scale;
+        const Vector3d at = (mesh.centroid(t) - low) * scale;
         keys.push_back({components[t],
                         morton_place(static_cast<std::uint64_t>(std::max(0.0, at.x)),
                                      static_cast<std::uint64_t>(std::max(0.0, at.y)),

@@ -15,11 +15,6 @@ double edge_angle(const SurfaceMesh& mesh, TriangleEdge edge) {
     return std::atan2(along.y, along.x);
 }
 
-Vector3d middle_of(const SurfaceMesh& mesh, std::size_t triangle) {
-    return (mesh.corner(triangle, 0) + mesh.corner(triangle, 1) + mesh.corner(triangle, 2)) *
-           (1.0 / 3);
-}
-
 TangentLink link_over(const SurfaceMesh& mesh, TriangleEdge here, TriangleEdge there) {
     const Vector3d from = mesh.corner(here.triangle, here.edge);
     const Vector3d along = mesh.corner(here.triangle, corner_after(here.edge)) - from;
@@ -31,8 +26,8 @@ TangentLink link_over(const SurfaceMesh& mesh, TriangleEdge here, TriangleEdge t
     const double out = edge_angle(mesh, here), back = edge_angle(mesh, there);
     constexpr double half_turn = std::numbers::pi;
     link.turn = here.triangle < there.triangle ? out - back - half_turn : -(back - out - half_turn);
-    link.distance = length(middle_of(mesh, here.triangle) - half_way) +
-                    length(half_way - middle_of(mesh, there.triangle));
+    link.distance = length(mesh.centroid(here.triangle) - half_way) +
+                    length(half_way - mesh.centroid(there.triangle));
     // The centroids are a third of the triangles' heights away from the edge.
     const double areas = mesh.area(here.triangle) + mesh.area(there.triangle);
     const double weight = 1.5 * dot(along, along) / areas;

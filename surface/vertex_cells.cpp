@@ -12,7 +12,7 @@ namespace cascade {
 namespace {
 
 /// Smaller weights, such as those of the diagonals of squares, are rounding errors of zero.
-constexpr double least_weight = 1e-9;
+constexpr double rounding_of_weights = 1e-9;
 
 /// Distributes the area of a triangle to its corners: by Voronoi regions, or, if an angle is
 /// obtuse, one half to it and a quarter each to the others (Meyer et al., figure 4).
@@ -63,7 +63,7 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh) {
             if (other.exists() && std::tie(t, k) > std::tie(other.triangle, other.edge)) continue;
             const double cotangents =
                 flipped.cotangent({t, k}) + (other.exists() ? flipped.cotangent(other) : 0);
-            if (cotangents / 2 < least_weight) continue;
+            if (cotangents / 2 < rounding_of_weights) continue;
             const double distance = flipped.lengths[t][k];
             edges.add(flipped.triangles[t][k], flipped.triangles[t][corner_after(k)],
                       cotangents / 2 * distance, distance);

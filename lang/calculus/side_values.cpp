@@ -251,9 +251,12 @@ Conductivity conductivity_at(const System& system,
 bool is_read_beside(const System& system, const SideSubject& subject) {
     const FlatRates rates(system);
     const auto* definition = std::get_if<DefinitionId>(&subject);
-    const std::optional<NodeId> sought =
-        definition != nullptr ? std::optional(rates.flattening.definition(*definition))
-                              : std::nullopt;
+    const NodeId sought =
+        definition != nullptr ? rates.flattening.definition(*definition) : NodeId();
+    const auto is_sought = [&](NodeId id) {
+        return definition != nullptr ? id == sought
+                                     : rates.algebra[id].is(std::get<ItemId>(subject));
+    };
     IdVector<NodeId, bool> depends;
     for (const NodeId id : ids_below<NodeId>(rates.count)) {
         const Node& node = rates.algebra[id];
@@ -263,7 +266,7 @@ bool is_read_beside(const System& system, const SideSubject& subject) {
             (differentiates(node.function) || node.type == ValueType::vector)) {
             return true;
         }
-        depends.push_back(is_read || (sought ? id == *sought : node.is(std::get<ItemId>(subject))));
+        depends.push_back(is_read || is_sought(id));
     }
     return false;
 }

@@ -23,10 +23,6 @@ constexpr double largest_coordinate = 1e15;
 /// A stage that ends by a condition gives up after this number of steps.
 constexpr std::int64_t most_steps_until = 1'000'000;
 
-Span span_of(const ast::Script& script, ast::Expression expression) {
-    return script.expressions[expression.root].span;
-}
-
 /// The call keys(…) that an expression consists of, or null.
 const ast::Call* call_of_keys(const ast::Script& script, ast::Expression expression) {
     const auto* call = std::get_if<ast::Call>(&script.expressions[expression.root].node);
@@ -152,12 +148,6 @@ const Node* sensed_too_early(const System& system, std::uint32_t stage) {
         if (*formula) look(**formula);
     }
     return found;
-}
-
-void report(Workspace& work, Span span, std::string message, std::string hint) {
-    Diagnostic diagnostic{Severity::error, span, std::move(message), std::move(hint), {}};
-    add_call(work, diagnostic);
-    work.diagnostics.add(std::move(diagnostic));
 }
 
 /// Have the cells of a stage a surface: a model, or a body that they or those before them have?

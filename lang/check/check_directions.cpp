@@ -14,8 +14,6 @@ namespace cascade::checking {
 
 namespace {
 
-using Kind = DirectionSettings::Kind;
-
 // In units of the model's longest side. Curvature is estimated triangle by triangle, so its lines
 // are smoothed a little; the lines of keys jump between the regions of two keys and are smoothed
 // more.
@@ -25,19 +23,19 @@ constexpr double largest_number = 1e15;
 
 struct DirectionName {
     std::string_view word;
-    Kind kind;
+    DirectionSettings::Kind kind;
     Arity arity;       ///< Without the optional smoothing.
     double smoothing;  ///< The default.
     std::string_view form;
 };
 constexpr std::array<DirectionName, 5> direction_names{{
-    {"axis", Kind::axis, 3, 0, "axis(0, 1, 0)"},
-    {"gradient", Kind::gradient, 1, 0, "gradient(x^2 + z^2)"},
-    {"curvature_high", Kind::curvature_high, either(0, 1), smoothing_of_curvature,
-     "curvature_high or curvature_high(0.05)"},
-    {"curvature_low", Kind::curvature_low, either(0, 1), smoothing_of_curvature,
+    {"axis", DirectionSettings::Kind::axis, 3, 0, "axis(0, 1, 0)"},
+    {"gradient", DirectionSettings::Kind::gradient, 1, 0, "gradient(x^2 + z^2)"},
+    {"curvature_high", DirectionSettings::Kind::curvature_high, either(0, 1),
+     smoothing_of_curvature, "curvature_high or curvature_high(0.05)"},
+    {"curvature_low", DirectionSettings::Kind::curvature_low, either(0, 1), smoothing_of_curvature,
      "curvature_low or curvature_low(0.05)"},
-    {"keys", Kind::keys, groups_of(6, 1), smoothing_of_keys,
+    {"keys", DirectionSettings::Kind::keys, groups_of(6, 1), smoothing_of_keys,
      "keys(x, y, z, dx, dy, dz, …) or keys(…, smoothing)"},
 }};
 
@@ -72,7 +70,7 @@ bool has_lengths(std::span<const double> numbers, std::size_t stride) {
 
 bool names_direction(std::string_view word) {
     const DirectionName* name = direction_named(word);
-    return name != nullptr && name->kind != Kind::gradient;
+    return name != nullptr && name->kind != DirectionSettings::Kind::gradient;
 }
 
 std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view word,
@@ -98,7 +96,7 @@ std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view 
         }
         read.numbers.push_back(number.value);
     }
-    const std::size_t stride = name.kind == Kind::keys ? 6 : 3;
+    const std::size_t stride = name.kind == DirectionSettings::Kind::keys ? 6 : 3;
     if (numbers.size() % stride == 1) {
         read.smoothing = read.numbers.back();
         read.numbers.pop_back();
@@ -128,7 +126,7 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
         return std::nullopt;
     }
     const std::vector<ast::Expression> arguments = arguments_of(script, statement.values[0]);
-    if (name->kind == Kind::gradient && arguments.size() == 1) {
+    if (name->kind == DirectionSettings::Kind::gradient && arguments.size() == 1) {
         Scope scope;
         scope.context = Context::position;
         auto height = check_number(work, script, arguments[0], scope);

@@ -21,10 +21,6 @@ constexpr double largest_seed = 4294967295.0;
 constexpr double same_length = 1e-6;     // Relative; what rounding in a script may leave.
 constexpr double least_spacing = 1e-15;  // Its square and inverse square are normal numbers.
 
-Span span_of(const ast::Script& script, ast::Expression expression) {
-    return script.expressions[expression.root].span;
-}
-
 /// The number of cells along one side of the grid; reports errors.
 std::optional<double> check_side(Workspace& work, const ast::Script& script,
                                  ast::Expression expression) {

@@ -14,7 +14,7 @@ namespace cascade::checking {
 namespace {
 
 /// How a node is read.
-struct Readers {
+struct ReadBy {
     bool by_cell = false;      ///< As the cell's value.
     bool by_link = false;      ///< As a neighbour's, inside of a sum over neighbours.
     bool as_distance = false;  ///< For near(d).
@@ -71,7 +71,7 @@ void ExpressionChecker::check_link(Node& node) {
 
 /// Is everything read where it has a value? Reports errors.
 bool ExpressionChecker::has_places(NodeId root) {
-    IdVector<NodeId, Readers> readers(root.index() + 1);
+    IdVector<NodeId, ReadBy> readers(root.index() + 1);
     readers[root].by_cell = true;
     bool has_places = true;
     const auto refuse = [&](NodeId id, std::string message, std::string hint) {
@@ -81,7 +81,7 @@ bool ExpressionChecker::has_places(NodeId root) {
     };
     const System& system = work_.program.systems[scope_.system];
     for (const NodeId id : readers.ids_backwards()) {
-        const Readers read = readers[id];
+        const ReadBy read = readers[id];
         if (!read.by_cell && !read.by_link && !read.as_distance) continue;
         const Node& node = formula_.nodes[id];
         if (read.as_distance && may_differ_by_cell(node, system)) {
@@ -99,7 +99,7 @@ bool ExpressionChecker::has_places(NodeId root) {
                    "names outside are the cell's own");
         }
         for (std::size_t k = 0; k < node.operand_count; ++k) {
-            Readers& operand = readers[node.operands[k]];
+            ReadBy& operand = readers[node.operands[k]];
             if (is_over_neighbours(node.function)) {
                 (k == 0 ? operand.by_link : operand.as_distance) = true;
             } else if (is_aggregate(node) || (is_own && read.by_link)) {

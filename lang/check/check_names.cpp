@@ -16,17 +16,6 @@ const System& system_at(const Workspace& work, SystemId index) {
     return work.program.systems[index];
 }
 
-void report(Workspace& work, Span span, std::string message, std::string hint,
-            std::string note = "") {
-    Diagnostic diagnostic;
-    diagnostic.span = span;
-    diagnostic.message = std::move(message);
-    diagnostic.hint = std::move(hint);
-    if (!note.empty()) diagnostic.notes.push_back({std::nullopt, std::move(note)});
-    add_call(work, diagnostic);
-    work.diagnostics.add(std::move(diagnostic));
-}
-
 /// True where an expression cannot read the names of a system.
 bool is_constant(const Scope& scope) {
     return scope.context == Context::constant || scope.context == Context::position ||

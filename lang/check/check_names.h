@@ -177,6 +177,10 @@ std::string list_names(const std::vector<std::string>& names);
 /// Adds a note on the call of the script's own function that is being checked, if there is one.
 void add_call(const Workspace& work, Diagnostic& diagnostic);
 
+/// Reports an error in an expression, with a note (if not empty) and one on such a call.
+void report(Workspace& work, Span span, std::string message, std::string hint,
+            std::string note = "");
+
 /// Reports the second use of a name, with a note at the first.
 void report_twice(Workspace& work, Span second, Span first, std::string message);
 

@@ -12,10 +12,6 @@ namespace cascade::checking {
 
 namespace {
 
-Span span_of(const ast::Script& script, ast::Expression expression) {
-    return script.expressions[expression.root].span;
-}
-
 /// A hint for `0,0125`, digits on both sides of a comma: a decimal comma.
 std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() != 2) return "";

@@ -271,7 +271,7 @@ std::vector<ShapeForm> checked_shapes(Workspace& work, const ast::Script& script
 }
 
 /// The shapes that a script may look up in the library.
-std::vector<std::string_view> names_wanted(const ast::Script& script) {
+std::vector<std::string_view> shapes_wanted(const ast::Script& script) {
     std::vector<std::string_view> own, wanted;
     for (const ast::Block& block : script.blocks) {
         if (block.kind != ast::BlockKind::shape) continue;
@@ -291,7 +291,7 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
 
 std::vector<ShapeForm> check_shapes(Workspace& work, const ast::Script& script, Sources& sources) {
     return checked_shapes(work, script,
-                          read_library_shapes(names_wanted(script), sources, work.diagnostics));
+                          read_library_shapes(shapes_wanted(script), sources, work.diagnostics));
 }
 
 const ShapeForm* find_shape(const std::vector<ShapeForm>& shapes, std::string_view name) {

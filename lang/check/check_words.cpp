@@ -155,6 +155,16 @@ void add_call(const Workspace& work, Diagnostic& diagnostic) {
     if (work.call) diagnostic.notes.push_back({*work.call, "in the expansion of this call"});
 }
 
+void report(Workspace& work, Span span, std::string message, std::string hint, std::string note) {
+    Diagnostic diagnostic;
+    diagnostic.span = span;
+    diagnostic.message = std::move(message);
+    diagnostic.hint = std::move(hint);
+    if (!note.empty()) diagnostic.notes.push_back({std::nullopt, std::move(note)});
+    add_call(work, diagnostic);
+    work.diagnostics.add(std::move(diagnostic));
+}
+
 std::vector<std::string> quantity_names(const System& system) {
     std::vector<std::string> names;
     for (const ItemId item : system.quantities.ids()) {

@@ -22,8 +22,6 @@ constexpr std::int64_t most_members = 1000;
 constexpr std::size_t most_indices = 64;
 constexpr std::size_t most_declarations = 100'000;
 
-using Kind = ast::StatementKind;
-
 /// One end of the range of an index; reports errors.
 std::optional<std::int64_t> check_end(Workspace& work, const SystemStatement& from,
                                       ast::Expression expression) {
@@ -72,7 +70,8 @@ SystemId id_of(const Workspace& work, const System& system) {
 void collect_indices(Workspace& work, System& system, std::span<const SystemStatement> statements) {
     std::unordered_map<std::string_view, const SystemStatement*> latest;
     for (const SystemStatement& each : statements) {
-        if (each.statement->kind != Kind::index || each.statement->values.size() != 2) continue;
+        if (each.statement->kind != ast::StatementKind::index || each.statement->values.size() != 2)
+            continue;
         const auto [first, is_new] = latest.try_emplace(each.statement->name.text, &each);
         if (is_new) continue;
         if (first->second->level == each.level) {
@@ -202,7 +201,7 @@ std::vector<Declaration> expand_statement(Workspace& work, const System& system,
     }
     const std::size_t count = statement.values.size();
     const bool is_one_member = std::ranges::all_of(words, is_number);
-    const bool is_list = statement.kind == Kind::value && count > 1 && !is_one_member;
+    const bool is_list = statement.kind == ast::StatementKind::value && count > 1 && !is_one_member;
     if (is_list) check_list(work, script, statement, members);
     std::vector<Declaration> declarations;
     std::vector<std::int64_t> values;
@@ -228,14 +227,16 @@ class StatementList {
 public:
     void add(Declaration declaration) {
         switch (declaration.kind()) {
-            case Kind::value:
-            case Kind::definition: return add_declaration(std::move(declaration));
-            case Kind::rate: return add_rate(std::move(declaration));
-            case Kind::rate_term: rates_[declaration.name].push_back(all_.size()); break;
-            case Kind::constraint: break;
-            case Kind::at_least:
-            case Kind::at_most: return add_bound(std::move(declaration));
-            case Kind::index: return;
+            case ast::StatementKind::value:
+            case ast::StatementKind::definition: return add_declaration(std::move(declaration));
+            case ast::StatementKind::rate: return add_rate(std::move(declaration));
+            case ast::StatementKind::rate_term:
+                rates_[declaration.name].push_back(all_.size());
+                break;
+            case ast::StatementKind::constraint: break;
+            case ast::StatementKind::at_least:
+            case ast::StatementKind::at_most: return add_bound(std::move(declaration));
+            case ast::StatementKind::index: return;
         }
         keep(std::move(declaration));
     }
@@ -282,9 +283,9 @@ private:
             const Declaration& other = all_[i];
             if (other.level < declaration.level) {
                 dropped_[i] = true;
-            } else if (other.kind() == Kind::rate && is_finer(declaration, other)) {
+            } else if (other.kind() == ast::StatementKind::rate && is_finer(declaration, other)) {
                 dropped_[i] = true;
-            } else if (other.kind() == Kind::rate && is_finer(other, declaration)) {
+            } else if (other.kind() == ast::StatementKind::rate && is_finer(other, declaration)) {
                 return;
             }
         }
@@ -294,8 +295,9 @@ private:
     }
 
     void add_bound(Declaration declaration) {
-        auto& before = declaration.kind() == Kind::at_least ? lower_[declaration.name]
-                                                            : upper_[declaration.name];
+        auto& before = declaration.kind() == ast::StatementKind::at_least
+                           ? lower_[declaration.name]
+                           : upper_[declaration.name];
         std::erase_if(before, [&](std::size_t i) {
             if (all_[i].level == declaration.level) return false;
             dropped_[i] = true;
@@ -319,7 +321,8 @@ std::vector<Declaration> system_declarations(Workspace& work, System& system,
     StatementList list;
     for (const SystemStatement& each : statements) {
         const ast::Statement& statement = *each.statement;
-        if (statement.kind == Kind::index || statement.name.empty() || statement.values.empty()) {
+        if (statement.kind == ast::StatementKind::index || statement.name.empty() ||
+            statement.values.empty()) {
             continue;
         }
         for (Declaration& declaration :

@@ -50,9 +50,7 @@ private:
     }
     NodeId part_of(ast::ExprId id) const { return NodeId(id - expression_.first); }
     void error(Span span, std::string message, std::string hint = "") {
-        Diagnostic diagnostic{Severity::error, span, std::move(message), std::move(hint), {}};
-        add_call(work_, diagnostic);
-        work_.diagnostics.add(std::move(diagnostic));
+        report(work_, span, std::move(message), std::move(hint));
         parts_.back().has_error = true;
     }
 

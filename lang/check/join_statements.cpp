@@ -1,6 +1,7 @@
 // Statements are compared by what they are about and, where two bases disagree, by their text.
 #include "lang/check/join_statements.h"
 
+#include "lang/check/system_statements.h"
 #include "lang/syntax/index_words.h"
 #include "lang/vocabulary/settings.h"
 
@@ -17,20 +18,10 @@ namespace cascade::checking {
 
 namespace {
 
-using Kind = ast::StatementKind;
-
-/// What a statement is about; a later statement about the same replaces it.
-std::string subject_of(const ast::Statement& statement) {
-    Kind kind = statement.kind;
-    if (kind == Kind::rate_term) kind = Kind::rate;
-    if (kind == Kind::definition) kind = Kind::value;
-    return fmt::format("{} {} {}", static_cast<int>(kind), statement.name.text,
-                       statement.after.text);
-}
-
 /// Does `later` replace `earlier`, if it is of a higher level and about the same subject?
 bool replaces(const ast::Statement& later, const ast::Statement& earlier) {
-    if (later.kind == Kind::rate_term || later.kind == Kind::constraint) return false;
+    if (later.kind == ast::StatementKind::rate_term || later.kind == ast::StatementKind::constraint)
+        return false;
     return !is_of_some_members(later.index) || later.index.text == earlier.index.text;
 }
 
@@ -62,14 +53,14 @@ void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
     statements = effective(statements);
     std::unordered_set<std::string> said;  // By the block itself.
     for (const ast::Statement& own : block.statements) {
-        if (own.kind != Kind::rate_term)
+        if (own.kind != ast::StatementKind::rate_term)
             said.insert(subject_of(own) + " " + std::string(own.index.text));
     }
     std::unordered_set<const ast::Statement*> known;
     std::unordered_map<std::string, const ast::Statement*> by_subject;
     for (const SystemStatement& each : statements) {
         known.insert(each.statement);
-        if (each.statement->kind == Kind::rate_term) continue;
+        if (each.statement->kind == ast::StatementKind::rate_term) continue;
         by_subject.try_emplace(subject_of(*each.statement) + " " +
                                    std::string(each.statement->index.text),
                                each.statement);
@@ -77,7 +68,7 @@ void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
     for (const SystemStatement& each : effective(more)) {
         const ast::Statement& statement = *each.statement;
         if (known.contains(&statement)) continue;
-        if (statement.kind == Kind::rate_term) {
+        if (statement.kind == ast::StatementKind::rate_term) {
             statements.push_back(each);
             continue;
         }

@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view blank_characters = " \t\r\n";
 
 bool is_word_character(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -27,7 +27,7 @@ std::string_view first_word(std::string_view text) {
 }
 
 std::string_view without_blanks_before(std::string_view text) {
-    return text.substr(std::min(text.find_first_not_of(blanks), text.size()));
+    return text.substr(std::min(text.find_first_not_of(blank_characters), text.size()));
 }
 
 void add_items(std::vector<KnownName>& names, const System& system) {
@@ -167,7 +167,7 @@ TextPlace place_at_end(std::string_view text) {
         if (ends_line || ends_statement) {
             begin = k + 1;
             last = 0;
-        } else if (c != '#' && blanks.find(c) == std::string_view::npos) {
+        } else if (c != '#' && blank_characters.find(c) == std::string_view::npos) {
             last = c;
         }
     }

@@ -21,15 +21,6 @@ bool is_rate(const ast::Statement& statement) {
            statement.kind == ast::StatementKind::rate_term;
 }
 
-/// The subject of a statement. In a derived system a statement replaces the inherited one with the
-/// same subject, unless it is a term to be added.
-std::string subject_of(const ast::Statement& statement) {
-    auto kind = is_rate(statement) ? ast::StatementKind::rate : statement.kind;
-    if (kind == ast::StatementKind::definition) kind = ast::StatementKind::value;
-    return fmt::format("{} {} {}", static_cast<int>(kind), statement.name.text,
-                       statement.after.text);
-}
-
 /// "[2]" for a statement about one member of a family, "[i,2]" for one about some, else "".
 std::string member_of(const ast::Statement& statement) {
     if (!is_of_some_members(statement.index)) return "";
@@ -49,6 +40,13 @@ SaidStatement said(const ast::Script& script, const Sources& sources,
 }
 
 }  // namespace
+
+std::string subject_of(const ast::Statement& statement) {
+    auto kind = is_rate(statement) ? ast::StatementKind::rate : statement.kind;
+    if (kind == ast::StatementKind::definition) kind = ast::StatementKind::value;
+    return fmt::format("{} {} {}", static_cast<int>(kind), statement.name.text,
+                       statement.after.text);
+}
 
 SystemBlocks system_blocks(const ast::Script& script) {
     SystemBlocks blocks;

@@ -26,6 +26,10 @@ struct SaidStatement {
     const Sources* range_sources = nullptr;
 };
 
+/// The subject of a statement. In a derived system a statement replaces the inherited one with the
+/// same subject, unless it is a term to be added.
+std::string subject_of(const ast::Statement& statement);
+
 /// The `system` blocks of a script by name.
 using SystemBlocks = std::unordered_map<std::string_view, const ast::Block*>;
 SystemBlocks system_blocks(const ast::Script& script);

@@ -23,9 +23,9 @@ bool is_constraint(const Declaration* declaration) {
 
 /// The nodes of the dependencies: definitions by their ids, and then one for each family, which
 /// depends on all its members.
-class Readers {
+class DefinitionReads {
 public:
-    Readers(const Declarations& definitions, const NameTable& names)
+    DefinitionReads(const Declarations& definitions, const NameTable& names)
         : definitions_(definitions), names_(names), reads_(definitions.size()) {
         for (const DefinitionId id : definitions.ids()) {
             const std::string_view family = family_of(id);
@@ -78,7 +78,7 @@ private:
 };
 
 std::vector<DefinitionId> order_of(const Declarations& definitions, const NameTable& names) {
-    const Order order = topological_order(Readers(definitions, names).reads());
+    const Order order = topological_order(DefinitionReads(definitions, names).reads());
     std::vector<DefinitionId> ids;
     if (order.cycles.empty()) {
         for (const std::uint32_t node : order.order) {

@@ -66,11 +66,10 @@ private:
     }
     /// Pushes an operator's pieces, in brackets if `own` binds more loosely than `least`.
     void push_operator(std::vector<Piece> pieces, int own, int least) {
-        if (own < least) {
-            pieces.insert(pieces.begin(), both("(", "\\left("));
-            pieces.emplace_back(both(")", "\\right)"));
-        }
+        // What is pushed last comes first.
+        if (own < least) stack_.emplace_back(both(")", "\\right)"));
         push(std::move(pieces));
+        if (own < least) stack_.emplace_back(both("(", "\\left("));
     }
 
     void write(const Operand& operand) {

@@ -11,17 +11,18 @@ namespace cascade {
 
 namespace {
 
-struct Letter {
+/// A letter, digit or sign of a raised or lowered text.
+struct SmallLetter {
     std::string_view name;
     std::string_view unicode;
 };
 
-constexpr Letter above[] = {
+constexpr SmallLetter raised_letters[] = {
     {"0", "⁰"}, {"1", "¹"}, {"2", "²"}, {"3", "³"}, {"4", "⁴"}, {"5", "⁵"}, {"6", "⁶"},
     {"7", "⁷"}, {"8", "⁸"}, {"9", "⁹"}, {"-", "⁻"}, {"+", "⁺"}, {"n", "ⁿ"}, {"i", "ⁱ"},
 };
 
-constexpr Letter below[] = {
+constexpr SmallLetter lowered_letters[] = {
     {"0", "₀"}, {"1", "₁"}, {"2", "₂"}, {"3", "₃"}, {"4", "₄"}, {"5", "₅"}, {"6", "₆"}, {"7", "₇"},
     {"8", "₈"}, {"9", "₉"}, {"-", "₋"}, {"+", "₊"}, {"(", "₍"}, {")", "₎"}, {"a", "ₐ"}, {"e", "ₑ"},
     {"h", "ₕ"}, {"i", "ᵢ"}, {"j", "ⱼ"}, {"k", "ₖ"}, {"l", "ₗ"}, {"m", "ₘ"}, {"n", "ₙ"}, {"o", "ₒ"},
@@ -29,33 +30,31 @@ constexpr Letter below[] = {
 };
 
 template <std::size_t count>
-const Letter* find(const Letter (&letters)[count], std::string_view name) {
+const SmallLetter* find(const SmallLetter (&letters)[count], std::string_view name) {
     const auto* const end = letters + count;
     const auto* const found =
-        std::find_if(letters, end, [&](const Letter& letter) { return letter.name == name; });
+        std::find_if(letters, end, [&](const SmallLetter& letter) { return letter.name == name; });
     return found == end ? nullptr : found;
 }
 
 template <std::size_t count>
-std::optional<std::string> replaced(const Letter (&letters)[count], std::string_view text) {
+std::optional<std::string> replaced(const SmallLetter (&letters)[count], std::string_view text) {
     std::string result;
     for (std::size_t k = 0; k < text.size(); ++k) {
-        const Letter* const letter = find(letters, text.substr(k, 1));
+        const SmallLetter* const letter = find(letters, text.substr(k, 1));
         if (letter == nullptr) return std::nullopt;
         result += letter->unicode;
     }
     return result;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 /// A name is a stem, the digits after it, and a subscript after the first `_`.
-struct Parts {
+struct NameParts {
     std::string_view stem, below;
     bool has_bar = false;  ///< True if there is a `_`.
 };
 
-Parts parts_of(std::string_view name) {
+NameParts parts_of(std::string_view name) {
     const std::size_t bar = name.find('_', 1);
     if (bar != std::string_view::npos && bar + 1 < name.size()) {
         return {name.substr(0, bar), name.substr(bar + 1), true};
@@ -110,15 +109,19 @@ std::string tex_text(std::string_view text) {
 }
 
 bool has_subscript(std::string_view name) {
-    const Parts parts = parts_of(name);
+    const NameParts parts = parts_of(name);
     return !parts.has_bar || subscript(parts.below).has_value();
 }
 
-std::optional<std::string> superscript(std::string_view text) { return replaced(above, text); }
-std::optional<std::string> subscript(std::string_view text) { return replaced(below, text); }
+std::optional<std::string> superscript(std::string_view text) {
+    return replaced(raised_letters, text);
+}
+std::optional<std::string> subscript(std::string_view text) {
+    return replaced(lowered_letters, text);
+}
 
 std::string Symbols::name(std::string_view name) const {
-    const Parts parts = parts_of(name);
+    const NameParts parts = parts_of(name);
     if (notation == Notation::tex) {
         const std::string word = tex_word(parts.stem);
         const bool is_greek = !greek_letter(parts.stem).empty();

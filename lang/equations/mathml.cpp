@@ -15,7 +15,7 @@ namespace {
 struct Sign {
     std::string_view command, text;
 };
-constexpr Sign operators[] = {
+constexpr Sign signs_of_commands[] = {
     {"\\lor", "∨"},  {"\\land", "∧"},   {"\\lnot", "¬"},   {"\\le", "≤"},      {"\\ge", "≥"},
     {"\\ne", "≠"},   {"\\cdot", "·"},   {"\\times", "×"},  {"\\partial", "∂"}, {"\\sum", "∑"},
     {"\\prod", "∏"}, {"\\lfloor", "⌊"}, {"\\rfloor", "⌋"}, {"\\lceil", "⌈"},   {"\\rceil", "⌉"},
@@ -27,7 +27,7 @@ std::string element(std::string_view tag, std::string_view text) {
         ">");
 }
 
-std::string escaped(std::string_view text) {
+std::string escaped_markup(std::string_view text) {
     std::string result;
     for (const char c : text) {
         if (c == '<') result += "&lt;";
@@ -148,15 +148,15 @@ private:
             skip("{}");
         }
         skip("}");
-        return escaped(text);
+        return escaped_markup(text);
     }
     std::string bracket() {
         if (at_ < tex_.size() && tex_[at_] == '\\') return element("mo", sign_of(command()));
-        const std::string text = escaped(tex_.substr(at_++, 1));
+        const std::string text = escaped_markup(tex_.substr(at_++, 1));
         return text == "." ? "" : element("mo", text);
     }
     static std::string_view sign_of(std::string_view command) {
-        for (const Sign& row : operators) {
+        for (const Sign& row : signs_of_commands) {
             if (row.command == command) return row.text;
         }
         return {};
@@ -185,7 +185,7 @@ private:
         if (c == '&') return end_cell();
         const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
         if (is_letter) return add_and_close(element("mi", std::string(1, c)));
-        add_and_close(element("mo", c == '-' ? "−" : escaped(std::string(1, c))));
+        add_and_close(element("mo", c == '-' ? "−" : escaped_markup(std::string(1, c))));
     }
 
     void read_command() {
@@ -232,7 +232,7 @@ private:
         // \alpha, \varphi; \ln, \max.
         std::string_view name = word.substr(1);
         if (name == "varepsilon" || name == "varphi") name.remove_prefix(3);
-        add_and_close(element("mi", escaped(Symbols().name(name))));
+        add_and_close(element("mi", escaped_markup(Symbols().name(name))));
     }
 
     void end_cell() {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t before_comment = 2;   // Blanks, at least.
 constexpr std::size_t goes_on_by = 4;       // Beyond its statement, if no bracket decides.
 constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
 
 enum class Alignment { free, relation, sum };
 
@@ -47,7 +47,7 @@ public:
 
 private:
     bool respelled_;
-    std::size_t kept_ = none, needed_ = 0, widest_ = 0, fewest_ = none;
+    std::size_t kept_ = no_column, needed_ = 0, widest_ = 0, fewest_ = no_column;
 };
 
 class Placer {
@@ -106,7 +106,7 @@ private:
         struct Candidate {
             std::size_t cell = 0;
             Alignment alignment = Alignment::free;
-            std::size_t column = none;  ///< Index into `columns`.
+            std::size_t column = no_column;  ///< Index into `columns`.
         };
         std::vector<Column> columns;
         std::vector<Candidate> above;
@@ -124,7 +124,7 @@ private:
                 const bool meets = k < above.size() && word(line - 1, above[k].cell).column == at &&
                                    above[k].alignment == candidate.alignment;
                 if (!meets) continue;
-                if (above[k].column == none) {
+                if (above[k].column == no_column) {
                     above[k].column = columns.size();
                     columns.push_back({{}, at, false});
                     add(columns.back(), line - 1, above[k].cell);
@@ -187,7 +187,7 @@ private:
             place_up_to(line, here.cells.size());
         } else if (!here.cells.empty()) {
             brackets_.clear();
-            value_column_ = none;
+            value_column_ = no_column;
             statement_column_ = here.indentation;
         }
         for (std::size_t cell = 0; cell < here.cells.size(); ++cell) follow(line, cell);
@@ -199,7 +199,7 @@ private:
     std::size_t helpful_start(std::size_t line) const {
         const bool is_comment = lines_[line].cells.empty();
         if (brackets_.empty()) {
-            return value_column_ == none ? statement_column_ + goes_on_by : value_column_;
+            return value_column_ == no_column ? statement_column_ + goes_on_by : value_column_;
         }
         const bool closes = !is_comment && (word(line, 0).kind == TokenKind::close_round ||
                                             word(line, 0).kind == TokenKind::close_square);
@@ -220,11 +220,11 @@ private:
                 if (!brackets_.empty()) brackets_.pop_back();
                 break;
             case TokenKind::semicolon:
-            case TokenKind::open_curly: value_column_ = none; break;
+            case TokenKind::open_curly: value_column_ = no_column; break;
             case TokenKind::colon:
             case TokenKind::assign:
             case TokenKind::plus_assign:
-                if (brackets_.empty() && value_column_ == none && !is_last) {
+                if (brackets_.empty() && value_column_ == no_column && !is_last) {
                     value_column_ = here.cells[cell + 1].column;
                 }
                 break;
@@ -266,7 +266,7 @@ private:
     std::vector<std::size_t> placed_;  ///< By line: the number of cells that are placed.
     bool respelled_;
     std::vector<Bracket> brackets_;
-    std::size_t value_column_ = none;
+    std::size_t value_column_ = no_column;
     std::size_t statement_column_ = 0;
 };
 

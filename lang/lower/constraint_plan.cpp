@@ -13,10 +13,10 @@ namespace cascade::lowering {
 
 namespace {
 
-using Parts = IdVector<NodeId, std::optional<NodeId>>;
+using LinearParts = IdVector<NodeId, std::optional<NodeId>>;
 
 /// Adds the linear part of a node to the graph; nothing if the node does not depend on the unknown.
-std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const Parts& parts) {
+std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const LinearParts& parts) {
     Node node = graph[id];
     if (node.is<Unknown>()) return id;
     bool depends = false;
@@ -43,7 +43,7 @@ std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const Parts
 /// The linear part of `root` as an expression of its own.
 Expressions linear_part(const Expressions& from, NodeId root) {
     Expressions linear = from;
-    Parts parts;
+    LinearParts parts;
     for (const NodeId id : ids_below<NodeId>(root.index() + 1)) {
         parts.push_back(linear_part(linear.graph, id, parts));
     }

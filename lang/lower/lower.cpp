@@ -34,11 +34,7 @@ StepGraph::StepGraph(const Program& program, std::uint32_t stage, const PlanOpti
     if (options.keeps_step_invariants) step_invariants = step_invariant_nodes(graph, roots);
 }
 
-}  // namespace lowering
-
 namespace {
-
-using namespace lowering;
 
 /// The value of views outside of the mask.
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
@@ -76,12 +72,24 @@ StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptio
 
 }  // namespace
 
+}  // namespace lowering
+
+namespace {
+
+using lowering::Expressions;
+using lowering::PassContext;
+using lowering::PlanBuilder;
+using lowering::PlanGraph;
+using lowering::StepGraph;
+
+}  // namespace
+
 StepPlan plan_uniform_start(const Program& program, std::uint32_t stage) {
-    return plan_items(program, stage, {}, true);
+    return lowering::plan_items(program, stage, {}, true);
 }
 
 StepPlan plan_start(const Program& program, std::uint32_t stage, const PlanOptions& options) {
-    return plan_items(program, stage, options, false);
+    return lowering::plan_items(program, stage, options, false);
 }
 
 StepPlan plan_rates(const Program& program, std::uint32_t stage, const PlanOptions& options) {
@@ -129,7 +137,7 @@ SidePlans plan_side(const Program& program, const SideSetting& setting, Side sid
     if (setting.kind == SideKind::slope) {
         lowered.roots[0] = across_side(lowered.graph, context, lowered.roots[0], side);
     }
-    const PlanGraph graph(std::move(lowered), context, Draws::once);
+    const PlanGraph graph(std::move(lowered), context, lowering::Draws::once);
     const NodeId value = graph.roots()[0];
     SidePlans plans;
     plans.changes = !graph.is_step_invariant(value);
@@ -157,7 +165,7 @@ StepPlan plan_view(const Program& program, std::span<const Formula* const> formu
             builder.result(is_number ? "value" : channels[channel],
                            graph.is_uniform(root)
                                ? value
-                               : builder.last_pass().within_mask(value, nothing));
+                               : builder.last_pass().within_mask(value, lowering::nothing));
         }
     }
     return std::move(builder).finish();
@@ -195,7 +203,7 @@ StepPlan plan_view(const Program& program, const Formula& formula, std::uint32_t
 
 StepPlan plan_mask(const Program& program) {
     CHECK(program.domain.mask, "lowering: the domain has a mask");
-    const PassContext context{program, 0, Extent::grid};
+    const PassContext context{program, 0, lowering::Extent::grid};
     const std::array formula{&program.domain.mask->formula};
     const PlanGraph graph(
         lower_expressions(flat_formulas(formula, context, {"mask", false, "domain"}), context),
@@ -207,8 +215,8 @@ StepPlan plan_mask(const Program& program) {
 
 std::string describe_graphs(const Program& program) {
     std::string text;
-    watch_lowering(program, [&](const PassContext& context, std::string_view what,
-                                std::string_view pass, const Expressions& after) {
+    lowering::watch_lowering(program, [&](const PassContext& context, std::string_view what,
+                                          std::string_view pass, const Expressions& after) {
         text += fmt::format("# stage '{}': {}, after {}\n{}\n", program.stages[context.stage].name,
                             what, pass, print(after, context));
     });

@@ -13,10 +13,9 @@ namespace cascade::lowering {
 
 namespace {
 
-constexpr std::array first_derivatives{Function::dx, Function::dy, Function::dz};
 constexpr std::array second_derivatives{Function::dxx, Function::dyy, Function::dzz};
 
-class Stencils : public GraphPass {
+class StencilPass : public GraphPass {
     using GraphPass::GraphPass;
 
     bool is_fourth() const { return context().program.domain.stencil == StencilKind::fourth; }
@@ -76,7 +75,7 @@ class Stencils : public GraphPass {
 }  // namespace
 
 Expressions write_out_stencils(const Expressions& from, const PassContext& context) {
-    return Stencils(from, context).run();
+    return StencilPass(from, context).run();
 }
 
 }  // namespace cascade::lowering

@@ -10,9 +10,9 @@
 
 namespace cascade {
 
-namespace {
+namespace lowering {
 
-using namespace lowering;
+namespace {
 
 /// The results of a sweep: the form applied to the rates and inputs of every species.
 class SweepEmitter {
@@ -220,6 +220,8 @@ private:
 
 }  // namespace
 
+}  // namespace lowering
+
 SweepForm euler_form() {
     SweepForm form;
     const SweepTerm value{SweepTerm::Source::value, 0, SweepTerm::Weight::one, 0};
@@ -230,7 +232,7 @@ SweepForm euler_form() {
 
 StepPlan plan_sweep(const Program& program, std::uint32_t stage, const SweepForm& form,
                     const PlanOptions& options) {
-    return SweepEmitter(program, stage, form).plan(options);
+    return lowering::SweepEmitter(program, stage, form).plan(options);
 }
 
 StepPlan plan_step(const Program& program, std::uint32_t stage, const PlanOptions& options) {

@@ -17,7 +17,7 @@ bool has_own_text(TokenKind kind) {
 }
 
 /// A string on one line, whatever bytes it has.
-std::string escaped(std::string_view text) {
+std::string quoted(std::string_view text) {
     std::string result = "\"";
     for (std::size_t offset = 0; offset < text.size();) {
         const CodePoint point = decode_utf8(text, offset);
@@ -64,7 +64,7 @@ std::string print_tokens(const std::vector<Token>& tokens, const Sources& source
         if (has_own_text(token.kind)) {
             std::string_view text = token.text;
             if (token.kind == TokenKind::text) text = text.substr(1, text.size() - 2);
-            result += " " + escaped(text);
+            result += " " + quoted(text);
         }
         result += "\n";
     }

@@ -10,7 +10,6 @@ namespace cascade {
 
 namespace {
 
-constexpr std::array first_derivatives{Function::dx, Function::dy, Function::dz};
 constexpr std::array right_planes{ModelPlane::right_x, ModelPlane::right_y, ModelPlane::right_z};
 constexpr std::array down_planes{ModelPlane::down_x, ModelPlane::down_y, ModelPlane::down_z};
 

@@ -160,4 +160,9 @@ struct Script {
     std::vector<ExprId> arguments;
 };
 
+/// The place of an expression of the script.
+inline Span span_of(const Script& script, Expression expression) {
+    return script.expressions[expression.root].span;
+}
+
 }  // namespace cascade::ast

@@ -8,56 +8,57 @@ namespace cascade {
 
 namespace {
 
-using Kind = TokenKind;
+/// What its author means by a character.
+using Meant = TokenKind;
 
 // clang-format off
 constexpr LookAlike look_alikes[] = {
     // Primes: typographic quotation marks, accents, the mathematical prime.
-    {U'\u2018', Kind::prime, "'"}, {U'\u2019', Kind::prime, "'"},
-    {U'\u00b4', Kind::prime, "'"}, {U'\u02b9', Kind::prime, "'"}, {U'\uff07', Kind::prime, "'"},
+    {U'\u2018', Meant::prime, "'"}, {U'\u2019', Meant::prime, "'"},
+    {U'\u00b4', Meant::prime, "'"}, {U'\u02b9', Meant::prime, "'"}, {U'\uff07', Meant::prime, "'"},
     // Quotation marks.
-    {U'\u201c', Kind::text, "\""}, {U'\u201d', Kind::text, "\""}, {U'\u201e', Kind::text, "\""},
-    {U'\u00ab', Kind::text, "\""}, {U'\u00bb', Kind::text, "\""}, {U'\uff02', Kind::text, "\""},
+    {U'\u201c', Meant::text, "\""}, {U'\u201d', Meant::text, "\""}, {U'\u201e', Meant::text, "\""},
+    {U'\u00ab', Meant::text, "\""}, {U'\u00bb', Meant::text, "\""}, {U'\uff02', Meant::text, "\""},
     // Hyphens, dashes and the minus sign.
-    {U'\u2010', Kind::minus, "-"}, {U'\u2011', Kind::minus, "-"}, {U'\u2012', Kind::minus, "-"},
-    {U'\u2013', Kind::minus, "-"}, {U'\u2014', Kind::minus, "-"}, {U'\uff0d', Kind::minus, "-"},
+    {U'\u2010', Meant::minus, "-"}, {U'\u2011', Meant::minus, "-"}, {U'\u2012', Meant::minus, "-"},
+    {U'\u2013', Meant::minus, "-"}, {U'\u2014', Meant::minus, "-"}, {U'\uff0d', Meant::minus, "-"},
     // Multiplication and division signs.
-    {U'\u2217', Kind::star, "*"},  {U'\u2022', Kind::star, "*"},  {U'\uff0a', Kind::star, "*"},
-    {U'\u00f7', Kind::slash, "/"}, {U'\u2044', Kind::slash, "/"}, {U'\u2215', Kind::slash, "/"},
-    {U'\uff0f', Kind::slash, "/"}, {U'\uff0b', Kind::plus, "+"},  {U'\u02c6', Kind::caret, "^"},
+    {U'\u2217', Meant::star, "*"},  {U'\u2022', Meant::star, "*"},  {U'\uff0a', Meant::star, "*"},
+    {U'\u00f7', Meant::slash, "/"}, {U'\u2044', Meant::slash, "/"}, {U'\u2215', Meant::slash, "/"},
+    {U'\uff0f', Meant::slash, "/"}, {U'\uff0b', Meant::plus, "+"},  {U'\u02c6', Meant::caret, "^"},
     // Comparisons.
-    {U'\uff1c', Kind::less, "<"},           {U'\uff1e', Kind::greater, ">"},
+    {U'\uff1c', Meant::less, "<"},           {U'\uff1e', Meant::greater, ">"},
     // Full-width punctuation.
-    {U'\uff08', Kind::open_round, "("},     {U'\uff09', Kind::close_round, ")"},
-    {U'\uff3b', Kind::open_square, "["},    {U'\uff3d', Kind::close_square, "]"},
-    {U'\uff5b', Kind::open_curly, "{"},     {U'\uff5d', Kind::close_curly, "}"},
-    {U'\uff0c', Kind::comma, ","},          {U'\uff1a', Kind::colon, ":"},
-    {U'\uff1b', Kind::semicolon, ";"},      {U'\uff1d', Kind::assign, "="},
+    {U'\uff08', Meant::open_round, "("},     {U'\uff09', Meant::close_round, ")"},
+    {U'\uff3b', Meant::open_square, "["},    {U'\uff3d', Meant::close_square, "]"},
+    {U'\uff5b', Meant::open_curly, "{"},     {U'\uff5d', Meant::close_curly, "}"},
+    {U'\uff0c', Meant::comma, ","},          {U'\uff1a', Meant::colon, ":"},
+    {U'\uff1b', Meant::semicolon, ";"},      {U'\uff1d', Meant::assign, "="},
     // Sums and products over indices.
-    {U'\u2211', Kind::garbage, "sum(… over i)"},
-    // Superscripts that are letters.
-    {U'\u207f', Kind::garbage, "^n"},       {U'\u2071', Kind::garbage, "^i"},
+    {U'\u2211', Meant::garbage, "sum(… over i)"},
+    // Superscripts that are latin_look_alikes.
+    {U'\u207f', Meant::garbage, "^n"},       {U'\u2071', Meant::garbage, "^i"},
     // Blanks.
-    {U'\u00a0', Kind::newline, " "}, {U'\u2002', Kind::newline, " "},
-    {U'\u2003', Kind::newline, " "}, {U'\u2007', Kind::newline, " "},
-    {U'\u2009', Kind::newline, " "}, {U'\u200a', Kind::newline, " "},
-    {U'\u200b', Kind::newline, " "}, {U'\u202f', Kind::newline, " "},
-    {U'\u205f', Kind::newline, " "}, {U'\u3000', Kind::newline, " "},
-    {U'\ufeff', Kind::newline, " "},
+    {U'\u00a0', Meant::newline, " "}, {U'\u2002', Meant::newline, " "},
+    {U'\u2003', Meant::newline, " "}, {U'\u2007', Meant::newline, " "},
+    {U'\u2009', Meant::newline, " "}, {U'\u200a', Meant::newline, " "},
+    {U'\u200b', Meant::newline, " "}, {U'\u202f', Meant::newline, " "},
+    {U'\u205f', Meant::newline, " "}, {U'\u3000', Meant::newline, " "},
+    {U'\ufeff', Meant::newline, " "},
 };
 // clang-format on
 
-struct Letter {
+struct LatinLookAlike {
     char32_t code_point;
     std::string_view spelling;
 };
 
 // clang-format off
-constexpr Letter letters[] = {
-    // Cyrillic letters that look like Latin ones.
+constexpr LatinLookAlike latin_look_alikes[] = {
+    // Cyrillic latin_look_alikes that look like Latin ones.
     {U'а', "a"}, {U'е', "e"}, {U'о', "o"}, {U'р', "p"}, {U'с', "c"}, {U'у', "y"}, {U'х', "x"},
     {U'і', "i"}, {U'ѕ', "s"}, {U'ј', "j"},
-    // Greek letters that look like Latin ones.
+    // Greek latin_look_alikes that look like Latin ones.
     {U'ο', "o"}, {U'Α', "A"}, {U'Β', "B"}, {U'Ε', "E"}, {U'Ζ', "Z"}, {U'Η', "H"}, {U'Ι', "I"},
     {U'Κ', "K"}, {U'Μ', "M"}, {U'Ν', "N"}, {U'Ο', "O"}, {U'Ρ', "P"}, {U'Τ', "T"}, {U'Υ', "Y"},
     {U'Χ', "X"}, {U'ς', "sigma"}, {U'\u212a', "K"}, {U'ℓ', "l"}, {U'ħ', "h"}, {U'ℏ', "h"},
@@ -98,10 +99,10 @@ const LookAlike* find_look_alike(char32_t code_point) {
 }
 
 std::string_view latin_spelling(char32_t code_point) {
-    const auto found = std::find_if(std::begin(letters), std::end(letters), [&](const Letter& row) {
-        return row.code_point == code_point;
-    });
-    return found == std::end(letters) ? styled_spelling(code_point) : found->spelling;
+    const auto found =
+        std::find_if(std::begin(latin_look_alikes), std::end(latin_look_alikes),
+                     [&](const LatinLookAlike& row) { return row.code_point == code_point; });
+    return found == std::end(latin_look_alikes) ? styled_spelling(code_point) : found->spelling;
 }
 
 }  // namespace cascade

@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t none = ~std::size_t{0};
+constexpr std::size_t no_token = ~std::size_t{0};
 
 class PaperReader {
 public:
@@ -424,10 +424,10 @@ private:
     std::vector<Token> out_;
     std::size_t at_ = 0;
     std::vector<Open> open_;
-    std::size_t closings_ = 0;            ///< Brackets to close where the operand here ends.
-    bool is_divisor_ = false;             ///< The product so far has been divided.
-    std::size_t power_end_ = none;        ///< The last raised number that is a power.
-    std::size_t application_end_ = none;  ///< The last token of an operator and its operand.
+    std::size_t closings_ = 0;                ///< Brackets to close where the operand here ends.
+    bool is_divisor_ = false;                 ///< The product so far has been divided.
+    std::size_t power_end_ = no_token;        ///< The last raised number that is a power.
+    std::size_t application_end_ = no_token;  ///< The last token of an operator and its operand.
     std::map<std::size_t, DerivativeEnd> derivative_ends_;
 };
 

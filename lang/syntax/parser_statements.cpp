@@ -294,9 +294,9 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
 
 /// Reports that a word does not begin a block; returns the keyword that was probably meant, or "".
 std::string ScriptParser::report_no_block(const ast::Word& word) {
-    const std::array<std::string, 6> keywords = {"system", "cells",   "stage",
-                                                 "domain", "picture", "shape"};
-    std::string near = nearest_name(word.text, keywords);
+    const std::array<std::string, 6> of_blocks = {"system", "cells",   "stage",
+                                                  "domain", "picture", "shape"};
+    std::string near = nearest_name(word.text, of_blocks);
     cursor_.error(word.span,
                   cursor_.describe({TokenKind::name, word.span}) + " does not begin a block",
                   near.empty() ? "blocks are system, cells, stage, domain, picture and shape"

@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 /// A block or function in a text.
-struct Piece {
+struct TextPiece {
     int kind = 0;
     std::string_view name;
     Span span;
@@ -36,15 +36,16 @@ struct ParsedText {
         for (const ast::FunctionDefinition& function : tree.functions) {
             pieces.push_back({function_kind, function.name.text, function.span});
         }
-        std::sort(pieces.begin(), pieces.end(),
-                  [](const Piece& a, const Piece& b) { return a.span.begin < b.span.begin; });
+        std::sort(pieces.begin(), pieces.end(), [](const TextPiece& a, const TextPiece& b) {
+            return a.span.begin < b.span.begin;
+        });
         is_of_blocks = is_of_blocks && !errors.has_errors() && tree.uses.empty();
     }
 
     Sources sources;
     Diagnostics errors;
     ast::Script tree;
-    std::vector<Piece> pieces;
+    std::vector<TextPiece> pieces;
     bool is_of_blocks = true;  ///< And of nothing else?
 };
 
@@ -87,9 +88,9 @@ std::string with_blocks(const std::string& script, const std::string& added) {
     std::vector<Replacement> replacements;
     std::string at_end;
     std::size_t from = 0;
-    for (const Piece& piece : more.pieces) {
+    for (const TextPiece& piece : more.pieces) {
         const auto same =
-            std::find_if(old.pieces.begin(), old.pieces.end(), [&](const Piece& each) {
+            std::find_if(old.pieces.begin(), old.pieces.end(), [&](const TextPiece& each) {
                 return each.kind == piece.kind && each.name == piece.name;
             });
         if (same != old.pieces.end()) {

@@ -15,8 +15,6 @@ namespace cascade {
 
 namespace {
 
-using Kind = ast::StatementKind;
-
 ast::ExprId append(ast::Script& script, Span span, decltype(ast::Expr::node) node) {
     script.expressions.push_back({span, std::move(node)});
     return static_cast<ast::ExprId>(script.expressions.size() - 1);
@@ -41,7 +39,7 @@ ast::Expression read(ast::Script& script, const ast::Word& name, const ast::Word
 /// Is there a value for it? That of a family is one for each member.
 bool has_value(const ast::Block& block, const ast::Word& name, const ast::Word& index) {
     return std::ranges::any_of(block.statements, [&](const ast::Statement& each) {
-        return each.kind == Kind::value && each.name.text == name.text &&
+        return each.kind == ast::StatementKind::value && each.name.text == name.text &&
                (each.index.text == index.text || !is_of_some_members(each.index));
     });
 }
@@ -62,18 +60,18 @@ void complete_second_rates(ast::Script& script, ast::Block& block) {
         added.span = second.span;
         // Terms of one rate, u'' += e, are several statements.
         const auto is_added = [&](const ast::Statement& each) {
-            return each.kind == Kind::rate && each.name.text == second.second.text &&
+            return each.kind == ast::StatementKind::rate && each.name.text == second.second.text &&
                    each.index.text == second.index.text;
         };
         if (std::none_of(block.statements.begin() + static_cast<std::ptrdiff_t>(count),
                          block.statements.end(), is_added)) {
-            added.kind = Kind::rate;
+            added.kind = ast::StatementKind::rate;
             added.name = second.second;
             added.values = {read(script, second.name, second.index)};
             block.statements.push_back(added);
         }
         if (block.base.empty() && !has_value(block, second.name, second.index)) {
-            added.kind = Kind::value;
+            added.kind = ast::StatementKind::value;
             added.name = second.name;
             const ast::ExprId zero = append(script, second.name.span, ast::Number{0});
             added.values = {{zero, zero}};

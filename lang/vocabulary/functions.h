@@ -146,6 +146,7 @@ struct Derivative {
 
     constexpr bool is_mixed() const { return order == 2 && first != second; }
 };
+inline constexpr std::array first_derivatives{Function::dx, Function::dy, Function::dz};
 /// Which derivative dx, dxx or dxy is; of order 0 for any other function.
 Derivative derivative_of(Function function);
 

@@ -10,14 +10,14 @@ namespace cascade {
 
 namespace {
 
-struct Letter {
+struct GreekLetter {
     char32_t code_point;
     std::string_view letter, spelling;
 };
 
 /// Of several letters with one spelling, the first is the one that is written.
 // clang-format off
-constexpr Letter letters[] = {
+constexpr GreekLetter greek_letters[] = {
     {U'α', "α", "alpha"},  {U'β', "β", "beta"},   {U'γ', "γ", "gamma"},   {U'δ', "δ", "delta"},
     {U'ε', "ε", "epsilon"}, {U'ζ', "ζ", "zeta"},  {U'η', "η", "eta"},     {U'θ', "θ", "theta"},
     {U'ι', "ι", "iota"},   {U'κ', "κ", "kappa"},  {U'λ', "λ", "lambda"},  {U'μ', "μ", "mu"},
@@ -34,23 +34,21 @@ constexpr Letter letters[] = {
 };
 // clang-format on
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 }  // namespace
 
 std::string_view greek_spelling(char32_t code_point) {
     if (code_point < 0x80) return {};
     const auto* const found =
-        std::find_if(std::begin(letters), std::end(letters),
-                     [&](const Letter& row) { return row.code_point == code_point; });
-    return found == std::end(letters) ? std::string_view() : found->spelling;
+        std::find_if(std::begin(greek_letters), std::end(greek_letters),
+                     [&](const GreekLetter& row) { return row.code_point == code_point; });
+    return found == std::end(greek_letters) ? std::string_view() : found->spelling;
 }
 
 std::string_view greek_letter(std::string_view spelling) {
     const auto* const found =
-        std::find_if(std::begin(letters), std::end(letters),
-                     [&](const Letter& row) { return row.spelling == spelling; });
-    return found == std::end(letters) ? std::string_view() : found->letter;
+        std::find_if(std::begin(greek_letters), std::end(greek_letters),
+                     [&](const GreekLetter& row) { return row.spelling == spelling; });
+    return found == std::end(greek_letters) ? std::string_view() : found->letter;
 }
 
 std::string with_greek_letters(std::string_view name) {

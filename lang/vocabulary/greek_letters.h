@@ -28,6 +28,9 @@ std::string with_greek_letters(std::string_view name);
 /// they are.
 std::string with_ascii_names(std::string_view text);
 
+/// Is it one of the digits 0 … 9?
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// The letter or digit of a name that ends a text: its bytes, 0 if there is none.
 std::size_t last_letter_of_name(std::string_view text);
 

@@ -23,7 +23,7 @@ namespace {
 using namespace analysis;
 
 /// Pairs of values along each side of a map.
-constexpr std::size_t map_side = 400;
+constexpr std::size_t values_along_map = 400;
 
 /// "feed", or with the name of the stage or system before it.
 Result<ParameterSpan> find_parameter(const Program& program, std::uint32_t stage,
@@ -92,7 +92,8 @@ private:
             if (spans[0].item == spans[1].item) {
                 return failure(fmt::format("'{}' is varied twice", request_.varied[0].name));
             }
-            auto map = map_parameters(program_, stage_, spans[0], spans[1], map_side, state);
+            auto map =
+                map_parameters(program_, stage_, spans[0], spans[1], values_along_map, state);
             if (!map) return tl::unexpected(cannot_vary(map.error()));
             map_ = std::move(*map);
         } else if (spans.empty()) {

@@ -6,6 +6,7 @@
 #include "ir/solver.h"
 #include "lang/program/stage_kinds.h"
 #include "run/stage/stage_time.h"
+#include "run/stage/time_account.h"
 #include "tissue/tissue.h"
 
 #include <fmt/format.h>
@@ -21,10 +22,6 @@ namespace cascade {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

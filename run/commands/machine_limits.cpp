@@ -177,7 +177,7 @@ private:
 };
 
 template <typename Number>
-Result<MachineLimits> measure(Backend& backend, int threads, const std::atomic<bool>& cancel) {
+Result<MachineLimits> limits_with(Backend& backend, int threads, const std::atomic<bool>& cancel) {
     constexpr Precision precision = precision_of<Number>;
     const auto compile = [&](const CellKernel& kernel) {
         return backend.compile(kernel, Stencil::plane);
@@ -239,7 +239,7 @@ const MachineLimits::Memory& MachineLimits::home_of(double bytes) const {
 Result<MachineLimits> measure_limits(Backend& backend, Precision precision, int threads,
                                      const std::atomic<bool>& cancel) {
     return with_number(precision, [&](auto zero) {
-        return measure<decltype(zero)>(backend, threads, cancel);
+        return limits_with<decltype(zero)>(backend, threads, cancel);
     });
 }
 

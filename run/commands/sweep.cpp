@@ -11,6 +11,7 @@
 #include "run/pictures/picture_remarks.h"
 #include "run/script/embedded_script.h"
 #include "run/stage/memory.h"
+#include "run/stage/time_account.h"
 #include "tissue/tissue.h"
 
 #include <fmt/format.h>
@@ -326,7 +327,7 @@ void Sweeper::report() {
         for (const auto& result : results_) progress.runs_done += result ? 1 : 0;
         progress.share = waiting_runs_ > 0 ? shares_done_ / waiting_runs_ : 1;
     }
-    const double elapsed = std::chrono::duration<double>(Clock::now() - begun_).count();
+    const double elapsed = seconds_since(begun_);
     if (progress.share > 0.001) {
         progress.seconds_left = elapsed * (1 - progress.share) / progress.share;
     }
@@ -357,7 +358,7 @@ void Sweeper::run_all(const std::vector<std::size_t>& waiting) {
     }
     watch(controls);
     for (std::thread& thread : threads) thread.join();
-    report_.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+    report_.seconds = seconds_since(begun_);
 }
 
 tl::expected<SweepReport, SweepError> Sweeper::run() {

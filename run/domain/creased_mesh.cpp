@@ -8,14 +8,6 @@
 
 namespace cascade {
 
-namespace {
-
-Vector3 single(const Vector3d& a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-
-}  // namespace
-
 TriangleMesh creased_mesh(const SurfaceMesh& surface, const Vector3d& middle, double scale) {
     CornerNormals corners = corner_normals(surface);
     TriangleMesh mesh;

@@ -75,7 +75,7 @@ struct MeanAndDeviation {
     double deviation = 0;  ///< In percent of the mean.
 };
 
-MeanAndDeviation spread_of(const std::vector<double>& values) {
+MeanAndDeviation mean_and_deviation(const std::vector<double>& values) {
     double sum = 0, squares = 0;
     for (const double value : values) {
         sum += value;
@@ -107,7 +107,7 @@ Result<std::vector<std::string>> describe_cells(const SurfaceMesh& mesh, const C
     if (!cells) return tl::unexpected(cells.error());
     std::vector<std::string> lines;
     if (cancel) return lines;
-    const MeanAndDeviation areas = spread_of(cells->areas);
+    const MeanAndDeviation areas = mean_and_deviation(cells->areas);
     lines.push_back(fmt::format(
         "{} of mean area {:.4g}, deviation {:.1f} %, {:.2f} neighbours each",
         counted(cells->areas.size(), "cell"), areas.mean, areas.deviation,
@@ -122,7 +122,7 @@ Result<std::vector<std::string>> describe_cells(const SurfaceMesh& mesh, const C
             })->distance);
     }
     if (!nearest.empty()) {
-        const MeanAndDeviation distances = spread_of(nearest);
+        const MeanAndDeviation distances = mean_and_deviation(nearest);
         lines.push_back(fmt::format("the nearest neighbour {:.4g} away, deviation {:.1f} %",
                                     distances.mean, distances.deviation));
     }

@@ -16,9 +16,9 @@ namespace cascade {
 
 namespace {
 
-constexpr double difference = 1e-4;          // Of longest sides, for slopes of formulas.
+constexpr double slope_width = 1e-4;         // Of longest sides, for slopes of formulas.
 constexpr double shortest_direction = 0.01;  // 8-bit pixels have no ½.
-constexpr double rounding = 1e-9;            // Of one component relative to the other.
+constexpr double rounded_component = 1e-9;   // Of one component relative to the other.
 
 /// A place along one side of a file as a position among `count` elements: the one before it, the
 /// one after, and the weight of the second.
@@ -154,7 +154,7 @@ double angle_of(double to_right, double upwards, std::array<double, 2> sides,
     const double x = sign * (a * down[1] - b * down[0]);
     double y = sign * (b * right[0] - a * right[1]);
     // To the left is π, whatever the rounding errors: −π is the same direction, but another number.
-    if (std::abs(y) <= rounding * std::abs(x)) y = 0;
+    if (std::abs(y) <= rounded_component * std::abs(x)) y = 0;
     return std::isfinite(x) && std::isfinite(y) ? std::atan2(y, x) : 0;
 }
 
@@ -181,7 +181,7 @@ FilePlaces FilePlaces::by_formulas(std::vector<Formula> place, const Grid& grid,
         std::size_t k = 0;
         const auto look = [&](const BuiltinValues& cell) {
             const auto slope = [&](Vector3d way) {
-                const Vector3d step = way * difference;
+                const Vector3d step = way * slope_width;
                 return minus(place_by(place, moved(cell, step, extent)),
                              place_by(place, moved(cell, step * -1, extent)));
             };

@@ -3,6 +3,7 @@
 #include "run/domain/model_cells.h"
 
 #include "core/check.h"
+#include "core/run_control.h"
 #include "lang/program/models.h"
 #include "mesh/animals.h"
 #include "mesh/knot.h"
@@ -95,10 +96,9 @@ const SpreadCells& ModelCells::spread() const {
 
 const Links& ModelCells::links_with_gradients() const {
     std::call_once(has_gradients_, [&] {
-        const std::atomic<bool> never = false;
         Team team(hardware_threads());
         const SurfaceCells& cells = spread().cells;
-        std::vector<Vector3d> gradients = cell_gradient_weights(mesh, cells, team, never);
+        std::vector<Vector3d> gradients = cell_gradient_weights(mesh, cells, team, never_cancelled);
         for (Vector3d& gradient : gradients) gradient = gradient * spread().unit;
         links_with_gradients_ = spread().links.with_gradients(gradients, cells.ends,
                                                               PlaneLayout(grid()), spread().order);

@@ -10,8 +10,6 @@ namespace cascade {
 
 namespace {
 
-constexpr DirectionKind lines = DirectionKind::lines;
-
 std::vector<Vector3d> gradient_lines(const Formula& height, const SurfaceMesh& mesh,
                                      const TangentPlanes& planes) {
     const ModelBox box(mesh);
@@ -25,7 +23,7 @@ std::vector<Vector3d> gradient_lines(const Formula& height, const SurfaceMesh& m
         place[static_cast<std::size_t>(Builtin::z)] = at.z;
         heights.push_back(evaluate(height, place));
     }
-    return directions(planes, gradients_of_points(mesh, planes, heights), lines);
+    return directions(planes, gradients_of_points(mesh, planes, heights), DirectionKind::lines);
 }
 
 std::vector<Vector3d> lines_of_keys(std::span<const double> numbers, const SurfaceMesh& mesh,
@@ -36,14 +34,15 @@ std::vector<Vector3d> lines_of_keys(std::span<const double> numbers, const Surfa
         keys.push_back({box.in_model({numbers[k], numbers[k + 1], numbers[k + 2]}),
                         {numbers[k + 3], numbers[k + 4], numbers[k + 5]}});
     }
-    return key_directions(mesh, planes, keys, lines, cancel);
+    return key_directions(mesh, planes, keys, DirectionKind::lines, cancel);
 }
 
 std::vector<Vector3d> lines_of(const DirectionSettings& settings, const SurfaceMesh& mesh,
                                const TangentPlanes& planes, const std::atomic<bool>& cancel) {
     const auto of_curvature = [&](Principal which) {
         const PrincipalCurvatures curvature = principal_curvatures(mesh);
-        return directions(planes, curvature_lines(mesh, planes, curvature, which), lines);
+        return directions(planes, curvature_lines(mesh, planes, curvature, which),
+                          DirectionKind::lines);
     };
     switch (settings.kind) {
         case DirectionSettings::Kind::axis: break;
@@ -55,7 +54,7 @@ std::vector<Vector3d> lines_of(const DirectionSettings& settings, const SurfaceM
             return lines_of_keys(settings.numbers, mesh, planes, cancel);
     }
     const Vector3d axis{settings.numbers[0], settings.numbers[1], settings.numbers[2]};
-    return axis_directions(planes, axis, lines);
+    return axis_directions(planes, axis, DirectionKind::lines);
 }
 
 }  // namespace
@@ -66,7 +65,7 @@ std::vector<Vector3d> direction_lines(const DirectionSettings& settings, const S
     std::vector<Vector3d> found = lines_of(settings, mesh, planes, cancel);
     if (!(settings.smoothing > 0) || cancel) return found;
     const double length = settings.smoothing * ModelBox(mesh).longest;
-    return smoothed_directions(planes, found, lines, length, team, cancel);
+    return smoothed_directions(planes, found, DirectionKind::lines, length, team, cancel);
 }
 
 Anisotropy anisotropy_of(const DirectionSettings& settings, double stretch, const SurfaceMesh& mesh,

@@ -2,6 +2,7 @@
 #include "run/domain/surface_values.h"
 
 #include "core/near_name.h"
+#include "core/run_control.h"
 #include "lang/program/models.h"
 #include "run/domain/cell_planes.h"
 #include "run/domain/model_directions.h"
@@ -25,7 +26,6 @@ namespace cascade {
 
 namespace {
 
-const std::atomic<bool> never = false;
 /// Of values that the script reads.
 constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
 
@@ -160,7 +160,7 @@ void SurfaceValues::prepare(std::span<const Formula* const> formulas) {
         for (const Node& node : formula->nodes) {
             const auto* id = node.as<SurfaceValueId>();
             if (id != nullptr) {
-                (void)made(*id, reach_needed(*formula, *id), never);
+                (void)made(*id, reach_needed(*formula, *id), never_cancelled);
                 (void)value(*id);
             }
         }
@@ -169,7 +169,7 @@ void SurfaceValues::prepare(std::span<const Formula* const> formulas) {
 
 const Field& SurfaceValues::value(SurfaceValueId id) {
     if (!values_.contains(id)) {
-        (void)made(id, std::numeric_limits<double>::infinity(), never);
+        (void)made(id, std::numeric_limits<double>::infinity(), never_cancelled);
     }
     Kept& kept = values_[id];
     kept.last_read = std::max(kept.last_read, evaluation_);
@@ -220,7 +220,7 @@ void SurfaceValues::make_directions() {
     put(ModelPlane::down_z, [&](std::size_t k) { return frames.down[k].z; });
     const std::vector<double> evenness =
         evenness_of_cells(model_.mesh, cells, frames, conduction_of(cells, are_spread, spread.unit),
-                          team_, never);
+                          team_, never_cancelled);
     put(ModelPlane::evenness, [&](std::size_t k) { return evenness[k]; });
     const SurfaceMesh::Box box = model_.mesh.box();
     const Vector3d middle = (box.low + box.high) * 0.5;

@@ -2,11 +2,11 @@
 #include "run/pictures/body_file.h"
 
 #include "core/enough_memory.h"
+#include "core/run_control.h"
 #include "export/levels.h"
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <utility>
 
 namespace cascade {
@@ -20,8 +20,7 @@ Result<WrittenFiles> write_levels_of(const std::filesystem::path& path, const Su
                       {results.channels.begin(), results.channels.end()}};
     const double longest = grid.spacing * static_cast<double>(grid.longest_side());
     for (Vector3d& point : finest.mesh.points) point = point * longest;
-    const std::atomic<bool> never = false;
-    const auto all = levels_of(std::move(finest), levels, 2 * grid.spacing, never);
+    const auto all = levels_of(std::move(finest), levels, 2 * grid.spacing, never_cancelled);
     if (!all) return tl::unexpected(all.error());
     auto paths = write_levels(path, *all);
     if (!paths) return tl::unexpected(paths.error());

@@ -1,6 +1,7 @@
 // A body is drawn as that on which cells crawl, without any cells.
 #include "run/pictures/body_picture.h"
 
+#include "core/run_control.h"
 #include "lang/check/check.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/tissue_picture.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -52,10 +52,9 @@ std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask
     for_each_cell(inside, [&](float& value) {
         value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
     });
-    const std::atomic<bool> never = false;
     constexpr double coarsest = 64;  // Cells of an edge, with which every grid is small.
     for (double edge = 1; edge < coarsest; edge *= 2) {
-        auto body = grown_body(inside, boundary, never, edge);
+        auto body = grown_body(inside, boundary, never_cancelled, edge);
         if (body) return std::make_shared<const SurfaceMesh>(*std::move(body));
     }
     return std::make_shared<const SurfaceMesh>();

@@ -1,6 +1,7 @@
 // Scripts know models upright and of length 1; files have the coordinates of the model's file.
 #include "run/pictures/cell_files.h"
 
+#include "core/run_control.h"
 #include "export/bake.h"
 #include "export/instanced_model.h"
 #include "export/placed_cells.h"
@@ -9,7 +10,6 @@
 #include "run/pictures/model_picture.h"
 #include "tissue/tissue.h"
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -111,9 +111,8 @@ Result<WrittenFiles> write_maps(const std::filesystem::path& path, const GrownCe
     const CellsFromOutside outside(skin.mesh, things_in_file(cells));
     BakeOptions options;
     options.width = options.height = files.bake;
-    const std::atomic<bool> never = false;
     const auto painter = [&] { return std::make_unique<OutsideSamples>(outside, skin.colours); };
-    const auto baked = bake(skin.mesh, painter, options, skin.team(), never);
+    const auto baked = bake(skin.mesh, painter, options, skin.team(), never_cancelled);
     if (!baked) return tl::unexpected(baked.error());
     if (auto done = cascade::write_maps(path, skin.mesh, *baked, texts, files.map_format); !done) {
         return tl::unexpected(done.error());

@@ -14,10 +14,6 @@ namespace {
 /// Rays begin so far outside of the surface that they do not hit where they begin.
 constexpr float clearance = 1e-5F;
 
-Vector3 in_single(const Vector3d& a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-
 Vector3d in_double(const Vector3& a) {
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
@@ -35,7 +31,7 @@ float farthest_of(const Instances& copies) {
     }
     float farthest = 0;
     for (const Placement& each : copies.placements) {
-        const Vector3 corner = corners[each.mesh], scale = in_single(each.scale);
+        const Vector3 corner = corners[each.mesh], scale = single(each.scale);
         farthest =
             std::max(farthest,
                      length(Vector3{corner.x * scale.x, corner.y * scale.y, corner.z * scale.z}));
@@ -59,8 +55,8 @@ CellsFromOutside::CellsFromOutside(const SurfaceMesh& mesh, Instances copies)
 
 std::optional<CellsFromOutside::Thing> CellsFromOutside::above(const SurfacePlace& place) const {
     if (!of_copies_) return std::nullopt;
-    const Vector3 foot = in_single((position_of(mesh_, place) - drawn_.middle) * drawn_.scale);
-    const Vector3 outwards = in_single(normals_.at(mesh_, place));
+    const Vector3 foot = single((position_of(mesh_, place) - drawn_.middle) * drawn_.scale);
+    const Vector3 outwards = single(normals_.at(mesh_, place));
     float reach = farthest_;
     if (const auto other = of_surface_->nearest({foot + outwards * clearance, outwards})) {
         reach = std::min(reach, (other->distance + clearance) / 2);

@@ -4,6 +4,7 @@
 
 #include "core/enough_memory.h"
 #include "core/file_ending.h"
+#include "core/run_control.h"
 #include "export/cell_writer.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
@@ -165,10 +166,9 @@ Result<void> ModelFileWriter::make_levels() {
 Result<std::vector<ModelLevel>> ModelFileWriter::simplified_levels() {
     const PaintedCells painted = look_.painted_alone();
     const std::vector<SurfacePlace>& places = refined().places;
-    const std::atomic<bool> never = false;
     return levels_of({refined().mesh, colours_at(places, filter(), painted, team_),
                       values_at(places, filter(), channels_, team_)},
-                     options_.levels, 2 * cell_spacing(model_.spread().cells), never);
+                     options_.levels, 2 * cell_spacing(model_.spread().cells), never_cancelled);
 }
 
 }  // namespace cascade

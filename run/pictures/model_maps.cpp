@@ -1,6 +1,7 @@
 // Bakes the model, then each simplified one from what lies nearest on it.
 #include "run/pictures/model_maps.h"
 
+#include "core/run_control.h"
 #include "export/bake.h"
 #include "export/level_samples.h"
 #include "export/levels.h"
@@ -57,7 +58,8 @@ public:
         const FineSurface fine(surface_.mesh, surface_.filter, painted_, surface_.displaced);
         for (int k = 1; k < options_.levels; ++k) {
             const SurfaceMesh& finer = levels.back().mesh;
-            auto simple = simplify(finer, finer.triangles.size() / triangles_to_level, {}, never_);
+            auto simple =
+                simplify(finer, finer.triangles.size() / triangles_to_level, {}, never_cancelled);
             if (!simple) return tl::unexpected(simple.error());
             if (2 * simple->mesh.triangles.size() > finer.triangles.size()) break;
             auto level = bake_level(std::move(simple->mesh), fine,
@@ -78,19 +80,19 @@ private:
     Result<BakedLevel> bake_model() {
         PaintedCells painted = painted_;
         if (surface_.displaced) painted.heights = {};
-        auto maps =
-            bake(surface_.mesh, surface_.filter, painted, size_of(options_.bake), team_, never_);
+        auto maps = bake(surface_.mesh, surface_.filter, painted, size_of(options_.bake), team_,
+                         never_cancelled);
         if (!maps) return tl::unexpected(maps.error());
         return BakedLevel{surface_.displaced ? surface_.displaced->mesh : surface_.mesh,
                           *std::move(maps)};
     }
 
     Result<BakedLevel> bake_level(SurfaceMesh mesh, const FineSurface& fine, std::int64_t side) {
-        auto texture = unwrap(mesh, side, team_, never_);
+        auto texture = unwrap(mesh, side, team_, never_cancelled);
         if (!texture) return tl::unexpected(texture.error());
         mesh.texture = *std::move(texture);
         const auto painter = [&] { return std::make_unique<LevelSamples>(mesh, fine); };
-        auto maps = bake(mesh, painter, size_of(side), team_, never_);
+        auto maps = bake(mesh, painter, size_of(side), team_, never_cancelled);
         if (!maps) return tl::unexpected(maps.error());
         maps->is_cut = is_cut(painted_.material[MaterialPart::opacity]);
         return BakedLevel{std::move(mesh), *std::move(maps)};
@@ -100,7 +102,6 @@ private:
     const PaintedCells& painted_;
     const ModelFileOptions& options_;
     Team& team_;
-    const std::atomic<bool> never_ = false;
 };
 
 }  // namespace

@@ -20,10 +20,6 @@ namespace {
 constexpr std::uint32_t rays = 64;
 constexpr float occlusion_clearance = 1e-4F;  ///< Of the model's longest side.
 
-Vector3 single_of(const Vector3d& a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-
 }  // namespace
 
 std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& cells,
@@ -42,9 +38,9 @@ std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& 
         const Vector3d outwards = normals.at(mesh, place);
         const Vector3d top =
             position_of(mesh, place) + outwards * static_cast<double>(finite[cell]);
-        const Vector3 normal = single_of(outwards);
+        const Vector3 normal = single(outwards);
         // The raised triangles lie a little above or below the cell's own height.
-        Vector3 begin = single_of((top - drawn.middle) * drawn.scale) + normal * nearby;
+        Vector3 begin = single((top - drawn.middle) * drawn.scale) + normal * nearby;
         const auto hit = caster.nearest({begin, -normal});
         begin = begin - normal * (hit && hit->distance < 2 * nearby ? hit->distance : nearby);
         begin = begin + normal * occlusion_clearance;

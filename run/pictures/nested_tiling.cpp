@@ -1,6 +1,7 @@
 // Values of cells are blurred on all cells, and then taken at those that are left.
 #include "run/pictures/nested_tiling.h"
 
+#include "core/run_control.h"
 #include "export/refine.h"
 #include "mesh/normals.h"
 #include "picture/srgb.h"
@@ -76,8 +77,7 @@ private:
     Result<ModelLevel> level_of(const std::vector<std::uint32_t>& kept, double sigma) const {
         std::vector<SurfacePlace> places;
         for (const std::uint32_t cell : kept) places.push_back(cells_.places[cell]);
-        const std::atomic<bool> never = false;
-        auto made = retile(mesh_, places, never);
+        auto made = retile(mesh_, places, never_cancelled);
         if (!made) return tl::unexpected(made.error());
         const auto at_points = [&](const std::string& name, const std::vector<float>& numbers) {
             const std::vector<float> of_all = blurred(numbers, sigma);

@@ -72,7 +72,7 @@ PictureSize picture_size(const Script& script, const PictureRequest& picture) {
 
 Result<void> check_picture_size(const Script& script, const PictureRequest& picture, double memory,
                                 std::uint64_t memory_limit) {
-    constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+    constexpr std::int64_t most_picture_pixels = std::int64_t{1} << 28;
     const bool has_pixels = draws_scene(script, picture) || picture.size;
     const PictureSize size = unscaled_size(script, picture);
     const std::int64_t count = size.width * size.height;
@@ -80,12 +80,12 @@ Result<void> check_picture_size(const Script& script, const PictureRequest& pict
     const char* const hint = !has_pixels          ? "use a smaller grid or --scale"
                              : picture.scale == 1 ? "use a smaller --size"
                                                   : "use a smaller --size or --scale";
-    if (count > most_pixels / pixels_per_cell) {
+    if (count > most_picture_pixels / pixels_per_cell) {
         const std::string scale =
             has_pixels && picture.scale == 1 ? "" : fmt::format(" at scale {}", picture.scale);
         return failure(fmt::format("a picture of {} × {} {}{} has more than {} pixels", size.width,
                                    size.height, has_pixels ? "pixels" : "cells", scale,
-                                   most_pixels),
+                                   most_picture_pixels),
                        hint);
     }
     // An enlarged picture is painted at one pixel per cell first.

@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 /// Facets are at most this many pixels from their shapes, as in pictures that say nothing.
-constexpr double detail = 0.5;
+constexpr double shown_detail = 0.5;
 
 /// The pixels of a length of 1 that meshes are made for.
 double pixels_for(std::size_t copies) {
@@ -32,7 +32,7 @@ ShownCells shown_cells(const DrawnCells& cells, const SurfaceSource* surface) {
     shown.extent = cells.extent;
     shown.is_on_model = surface != nullptr && surface->model;
     shown.is_on_body = surface != nullptr && surface->body;
-    Instances copies = instances_of(cells, pixels_for(cells.placements.size()), detail);
+    Instances copies = instances_of(cells, pixels_for(cells.placements.size()), shown_detail);
     if (!shown.is_on_model) lay_flat(copies);
     std::vector<std::uint32_t> order(copies.placements.size());
     std::iota(order.begin(), order.end(), std::uint32_t{0});

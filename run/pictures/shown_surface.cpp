@@ -4,6 +4,7 @@
 #include "export/refine.h"
 #include "mesh/coarse_copy.h"
 #include "mesh/normals.h"
+#include "mesh/triangle_mesh.h"
 #include "run/domain/metric_planes.h"
 #include "run/pictures/surface_lattice.h"
 #include "run/pictures/tissue_picture.h"
@@ -25,10 +26,6 @@ constexpr double longest_edge = 0.75;
 
 /// The least number of quadrilaterals along a side of a function's surface, for a smooth outline.
 constexpr double least_facets = 160;
-
-Vector3 single(const Vector3d& a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
 
 /// The mesh with a point for each normal, so that creases become boundaries.
 SurfaceMesh cut_at_creases(const SurfaceMesh& mesh, const CornerNormals& corners) {
@@ -94,7 +91,7 @@ ShownSurface shown_model(const ModelCells& model, Team& team) {
 
 /// Two quadrilaterals for each cell along both sides, so that a vertex lies in the middle of each
 /// cell and between any two.
-Lattice lattice_of(const Grid& grid) {
+SurfaceLattice lattice_of(const Grid& grid) {
     const auto along = [](std::int64_t cells) {
         const auto side = static_cast<double>(cells);
         return side * std::max(2.0, 2 * std::ceil(least_facets / side / 2));
@@ -110,7 +107,7 @@ Lattice lattice_of(const Grid& grid) {
 }
 
 ShownSurface shown_function(const SurfaceSettings& settings, const Grid& grid) {
-    const Lattice lattice = lattice_of(grid);
+    const SurfaceLattice lattice = lattice_of(grid);
     TriangleMesh mesh = surface_lattice(function_of(settings), lattice);
     ShownSurface shown;
     shown.up = Axis::z;

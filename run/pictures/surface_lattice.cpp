@@ -9,7 +9,7 @@ namespace cascade {
 namespace {
 
 /// Where joined sides coincide in space their normals are averaged.
-void join_normals(TriangleMesh& mesh, const Lattice& lattice) {
+void join_normals(TriangleMesh& mesh, const SurfaceLattice& lattice) {
     const Box box = bounds(mesh);
     const float near = 1e-4F * length(box.high - box.low);
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
@@ -28,7 +28,7 @@ void join_normals(TriangleMesh& mesh, const Lattice& lattice) {
 
 }  // namespace
 
-TriangleMesh surface_lattice(const SurfaceFunction& surface, const Lattice& lattice) {
+TriangleMesh surface_lattice(const SurfaceFunction& surface, const SurfaceLattice& lattice) {
     const auto [columns, rows, is_periodic_x, is_periodic_y] = lattice;
     TriangleMesh mesh;
     mesh.positions.reserve(std::size_t{columns + 1} * (rows + 1));

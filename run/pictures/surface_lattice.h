@@ -9,7 +9,7 @@
 namespace cascade {
 
 /// Quadrilaterals along the two parameters, and whether the first and last of them are neighbours.
-struct Lattice {
+struct SurfaceLattice {
     std::uint32_t columns = 1, rows = 1;
     bool is_periodic_x = false, is_periodic_y = false;
 };
@@ -18,7 +18,7 @@ struct Lattice {
 /// more along each side, row after row. Triangles 2k and 2k + 1 form quadrilateral k; their first
 /// corner is its upper left, their second corner is its upper right and its lower right,
 /// respectively. Normals are smooth across joined sides that coincide in space.
-TriangleMesh surface_lattice(const SurfaceFunction& surface, const Lattice& lattice);
+TriangleMesh surface_lattice(const SurfaceFunction& surface, const SurfaceLattice& lattice);
 
 /// Two neighbours along an axis, and the relative position of a place between them.
 struct BetweenCells {

@@ -4,6 +4,7 @@
 #include "core/failure_line.h"
 #include "run/session/session_picture.h"
 #include "run/stage/stage_time.h"
+#include "run/stage/time_account.h"
 #include "tissue/tissue.h"
 
 #include <algorithm>
@@ -34,10 +35,6 @@ constexpr double most_steps_of_turn = 1e9;
 constexpr double snapshot_seconds = 1.0 / 60;
 constexpr double part_of_snapshots = 0.02;
 constexpr std::size_t most_remarks = 20;
-
-double seconds_since(std::chrono::steady_clock::time_point moment) {
-    return Seconds(std::chrono::steady_clock::now() - moment).count();
-}
 
 }  // namespace
 

@@ -26,13 +26,13 @@ namespace cascade {
 namespace {
 
 /// The last byte of the magic changes with the way in which factors are found.
-constexpr KeptFiles::Kind kind{".size", "CascSiz1", std::uint64_t{1} << 20};
+constexpr KeptFiles::Kind size_files{".size", "CascSiz1", std::uint64_t{1} << 20};
 
 /// Factors by their keys: those that the simulation was given and has found, and those on disk.
 class KeptFactors {
 public:
     KeptFactors(const std::filesystem::path& folder, std::map<std::string, double>& known)
-        : files_(folder, kind), known_(known) {}
+        : files_(folder, size_files), known_(known) {}
 
     std::optional<double> find(const std::string& key) {
         if (const auto known = known_.find(key); known != known_.end()) return known->second;
@@ -76,7 +76,7 @@ double cell_width(const Environment& here) {
 }
 
 /// The longest wave, in cells: a side of the grid, or of a square with as many cells as the model.
-double most_cells(const Environment& here) {
+double longest_wave(const Environment& here) {
     if (!here.model) return static_cast<double>(here.grid.longest_side());
     return std::sqrt(static_cast<double>(here.model->count()));
 }
@@ -113,7 +113,7 @@ Result<void> find_sizes(Environment& here, Script& script, const SimulationOptio
         };
         const auto times = static_cast<double>(stage.coarse);
         const double cell = cell_width(here) * times, cells = stage.size->wanted / cell;
-        if (const auto unfit = unfit_size(*stage.size, cell, most_cells(here) / times))
+        if (const auto unfit = unfit_size(*stage.size, cell, longest_wave(here) / times))
             return refuse(unfit->message, unfit->hint);
         const auto trial = trial_program(*here.program, k);
         CHECK(trial, "the checker refuses sizes without a trial");

@@ -13,14 +13,14 @@ namespace cascade {
 
 namespace {
 
-constexpr KeptFiles::Kind kind{".tiling", "CascTil1", std::uint64_t{1} << 20};
+constexpr KeptFiles::Kind tiling_files{".tiling", "CascTil1", std::uint64_t{1} << 20};
 
 }  // namespace
 
 KeptTilings::KeptTilings(const std::filesystem::path& folder, std::string code)
     : machine_(fmt::format("{}|{}|{}|{}|", version(), CacheSizes::here().second,
                            CacheSizes::here().third, code)),
-      files_(code.empty() ? std::filesystem::path() : folder, kind) {}
+      files_(code.empty() ? std::filesystem::path() : folder, tiling_files) {}
 
 std::optional<FoundTiling> KeptTilings::look_up(const std::string& key) {
     if (const auto known = known_.find(key); known != known_.end()) return known->second;

@@ -15,7 +15,7 @@ namespace {
 /// When there are this many moments, every other one is dropped.
 constexpr std::size_t most_moments = 40;
 /// With more cells than this, rows are left out.
-constexpr std::int64_t most_cells = 1 << 14;
+constexpr std::int64_t most_cells_seen = 1 << 14;
 
 /// A pattern is growing if deviation and range of every species rose in each of the last three
 /// tenths of its age, in the last one at least by this part: as much time again would make it at
@@ -31,7 +31,7 @@ constexpr double part_of_before = 0.1;
 /// … and has fallen by this part over the last tenth of its age.
 constexpr double least_fall = 0.05;
 
-Spread spread_of(const Field& field, const Mask* inside, std::int64_t every_row) {
+Spread spread_of_rows(const Field& field, const Mask* inside, std::int64_t every_row) {
     return field.visit([&](const auto& plane) {
         Spread spread;
         const PlaneLayout& layout = plane.layout();
@@ -51,7 +51,7 @@ bool is_even(const Field& field, const Mask* inside, std::int64_t every_row) {
         if (all.deviation < std::max(even_deviation * all.root_mean_square, least_deviation))
             return true;
     }
-    return spread_of(field, inside, every_row).is_even();
+    return spread_of_rows(field, inside, every_row).is_even();
 }
 
 bool are_even(std::span<const Spread> spreads) {
@@ -82,10 +82,10 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
     }
     const PlaneLayout& layout = species[0].layout();
     const std::int64_t every_row =
-        std::max<std::int64_t>(1, layout.width * layout.row_count() / most_cells);
+        std::max<std::int64_t>(1, layout.width * layout.row_count() / most_cells_seen);
     Moment moment{step, age, {}, false};
     for (const Field& field : species)
-        moment.species.push_back(spread_of(field, inside, every_row));
+        moment.species.push_back(spread_of_rows(field, inside, every_row));
     moment.is_even = are_even(moment.species);
     // A small feature may lie between the rows.
     for (std::int64_t rows = every_row; moment.is_even && rows > 1;) {

@@ -19,7 +19,7 @@ namespace {
 constexpr double usual_duration = 10000;
 constexpr double most_of_duration = 0.05, most_of_duration_without_bound = 0.001;
 /// The first step is this part of Euler's longest, because no error estimate precedes it.
-constexpr double first_part = 0.25;
+constexpr double part_of_first_step = 0.25;
 /// Steps shorter than these parts of Euler's longest and of the duration gain nothing.
 constexpr double least_part = 0.01, least_of_duration = 1e-6;
 /// Explicit steps are cheap compared with the estimate of their error, which is made after at most
@@ -109,7 +109,7 @@ void StageTimer::set_first_step() {
     look_at_bounds(state_.steps, time);
     time.control.step = longest_step(time.bounded_at >= 0);
     if (time.bounds.whole > 0) {
-        time.control.step = std::min(time.control.step, first_part * 2 / time.bounds.whole);
+        time.control.step = std::min(time.control.step, part_of_first_step * 2 / time.bounds.whole);
     }
 }
 

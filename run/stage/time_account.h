@@ -17,6 +17,10 @@
 
 namespace cascade {
 
+inline double seconds_since(std::chrono::steady_clock::time_point moment) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
+}
+
 /// The categories of time.
 enum class Spent : std::uint8_t {
     reading,    ///< Scripts with the files they use, and the check.
