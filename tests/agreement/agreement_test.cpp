@@ -29,9 +29,9 @@
 namespace cascade {
 namespace {
 
-using testing::OperationCounts;
-using testing::random_script;
-using testing::same_bits;
+using test::OperationCounts;
+using test::random_script;
+using test::same_bits;
 
 /// What a run leaves: the fields of all stages, and the words of a failure.
 struct Outcome {
@@ -114,7 +114,7 @@ TEST(Agreement, NewRandomScripts) {
                                                Tiling{12, 1, 2, 3}};
     Overrides overrides;
     for (std::uint64_t k = 0; k < scripts; ++k) {
-        const std::uint64_t seed = testing::new_seed() + k;
+        const std::uint64_t seed = test::new_seed() + k;
         SCOPED_TRACE(fmt::format("CASCADE_TEST_SEED={}", seed));
         const std::string text = random_script(seed);
         overrides.precision = k % 4 == 1 ? Precision::binary64 : Precision::single;

@@ -27,14 +27,14 @@ TEST(Formatting, KeepsTheMeaningOfExamplesAndSystems) {
         const auto paths = scripts_below(folder);
         EXPECT_GE(paths.size(), 3u);
         for (const auto& path : paths) {
-            EXPECT_EQ(fault_of_formatting(read_file(path, 1u << 20).value()), "") << path;
+            EXPECT_EQ(test::fault_of_formatting(read_file(path, 1u << 20).value()), "") << path;
         }
     }
 }
 
 /// The script with other blanks, line ends and comments wherever some were.
 std::string disarranged(const std::string& script, std::uint64_t seed) {
-    testing::RandomStream random(seed);
+    test::RandomStream random(seed);
     std::string text;
     for (std::size_t k = 0; k < script.size(); ++k) {
         const char c = script[k];
@@ -56,16 +56,16 @@ std::string disarranged(const std::string& script, std::uint64_t seed) {
 
 TEST(Formatting, KeepsTheMeaningOfRandomScripts) {
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-        const std::string script = testing::random_script(seed);
-        ASSERT_EQ(fault_of_formatting(script), "") << script;
+        const std::string script = test::random_script(seed);
+        ASSERT_EQ(test::fault_of_formatting(script), "") << script;
         const std::string other = disarranged(script, seed);
-        ASSERT_EQ(fault_of_formatting(other), "") << other;
-        EXPECT_EQ(tree_of(script), tree_of(other)) << "a fault of this test";
+        ASSERT_EQ(test::fault_of_formatting(other), "") << other;
+        EXPECT_EQ(test::tree_of(script), test::tree_of(other)) << "a fault of this test";
     }
 }
 
 /// The script with a few characters taken out, doubled, exchanged or put in.
-std::string damaged(std::string script, testing::RandomStream& random) {
+std::string damaged(std::string script, test::RandomStream& random) {
     static constexpr std::string_view put_in = "()[]{};:,.#'\n\r\t +-*/^=<>1a\"";
     static constexpr std::string_view signs[] = {"∇",   "∇²", "∇·", "√", "²", "⁻¹", "β", "∂",
                                                  "/∂t", "′",  "·",  "−", "Δ", "≤",  "₁", "\u0307"};
@@ -82,18 +82,18 @@ std::string damaged(std::string script, testing::RandomStream& random) {
 }
 
 TEST(Formatting, KeepsTheMeaningOfWhatCanStillBeReadOfDamagedScripts) {
-    testing::RandomStream random(1);
+    test::RandomStream random(1);
     std::vector<std::string> scripts;
     for (const char* folder : {"examples", "lang/systems"}) {
         for (const auto& path : scripts_below(folder)) {
             scripts.push_back(read_file(path, 1u << 20).value());
-            scripts.push_back(formatted_in(ScriptNotation::papers, scripts.back()).value());
+            scripts.push_back(test::formatted_in(ScriptNotation::papers, scripts.back()).value());
         }
     }
     int readable = 0;
     for (int k = 0; k < 4000; ++k) {
         const std::string script = damaged(scripts[random.below(scripts.size())], random);
-        const std::string fault = fault_of_formatting(script);
+        const std::string fault = test::fault_of_formatting(script);
         if (fault.starts_with("it cannot be read")) continue;
         ASSERT_EQ(fault, "") << script;
         ++readable;

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 namespace {
 
@@ -395,4 +395,4 @@ private:
 
 std::string random_script(std::uint64_t seed) { return Writer(seed).write(); }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

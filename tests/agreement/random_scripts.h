@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// A script of one to three stages over random systems, valid by construction; a pure function of
 /// the seed. Every function and operator of lang/vocabulary/functions.def that a system or a value
@@ -12,4 +12,4 @@ namespace cascade::testing {
 /// invariants, definitions, rates of rates and uniform, varying and per-cell time steps.
 std::string random_script(std::uint64_t seed);
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

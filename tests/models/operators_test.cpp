@@ -13,7 +13,7 @@
 namespace cascade::models {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// J. Swift, P. C. Hohenberg 1977: rolls of wavelength 2 π / kc grow at r.
 TEST(Operators, SwiftHohenberg) {

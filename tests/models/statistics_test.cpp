@@ -22,7 +22,7 @@ namespace cascade {
 namespace {
 
 constexpr const char* table_path = "tests/models/statistics.txt";
-constexpr int side = 96;
+constexpr int statistics_side = 96;
 
 using Statistics = std::array<double, 3>;  ///< Mean, deviation, wavelength.
 
@@ -31,7 +31,7 @@ Statistics statistics_of(const LibraryText& text, std::uint32_t seed) {
     Overrides overrides;
     const Script whole = load_script(name, script, ".");
     const bool is_line = whole.program && whole.program->domain.grid.height == 1;
-    if (!is_line) overrides.grid = {side, side};
+    if (!is_line) overrides.grid = {statistics_side, statistics_side};
     overrides.seed = seed;
     TestRun run(name, script, overrides, fastest_backend());
     run.finish_all();

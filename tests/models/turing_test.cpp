@@ -15,7 +15,7 @@
 namespace cascade::models {
 namespace {
 
-constexpr std::size_t side = 192;
+constexpr std::size_t turing_side = 192;
 
 /// A system of the library with its values, written once more as mathematics.
 struct Case {
@@ -160,7 +160,7 @@ TEST_P(TuringTest, WavelengthIsThatOfTheDispersionRelation) {
         stage += fmt::format("{}: {} + random(0, {})\n", each.species[i], flat[i],
                              1e-3 * (0.1 + std::abs(flat[i])));
     }
-    Model model(each.system, fmt::format("grid: {0}, {0}", side), stage);
+    Model model(each.system, fmt::format("grid: {0}, {0}", turing_side), stage);
     const double start = model.deviation(each.species[0]);
     double grown = 0;
     for (int round = 0; round < 400 && grown < 20 * start; ++round) {
@@ -170,7 +170,7 @@ TEST_P(TuringTest, WavelengthIsThatOfTheDispersionRelation) {
     EXPECT_GT(grown, 20 * start) << "nothing has grown";
 
     measure::Samples samples;
-    samples.cells = {side, side, 1};
+    samples.cells = {turing_side, turing_side, 1};
     samples.values = model.values(each.species[0]);
     const double measured = measure::peak_wavelength(measure::radial_spectrum(samples));
     EXPECT_NEAR(measured / predicted, 1, each.tolerance) << "predicted " << predicted;

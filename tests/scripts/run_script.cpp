@@ -14,7 +14,7 @@
 #include <memory>
 #include <utility>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 namespace {
 
@@ -312,4 +312,4 @@ std::vector<std::string> check_script(const ScriptFile& file, const ScriptCase& 
     return errors;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// What takes the steps. `precision` is that of a script that does not say its own otherwise.
 struct Configuration {
@@ -27,4 +27,4 @@ std::vector<std::string> check_script(const ScriptFile& file, const ScriptCase& 
                                       const std::filesystem::path& folder,
                                       const Configuration& configuration);
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 namespace {
 
@@ -233,4 +233,4 @@ bool matches(const std::string& text, const std::string& pattern) {
     return text.size() >= at + parts.back().size() && text.ends_with(parts.back());
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

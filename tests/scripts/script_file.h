@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// A message about the text of a script. Of an expected one `text` is a pattern.
 struct Message {
@@ -60,4 +60,4 @@ ScriptFile read_script_file(const std::string& text);
 /// Does a text match a pattern, in which '…' matches anything?
 bool matches(const std::string& text, const std::string& pattern);
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -11,7 +11,7 @@
 #include <map>
 #include <memory>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ TEST(Scripts, PatternsMatchWholeTexts) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

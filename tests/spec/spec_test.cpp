@@ -49,7 +49,7 @@ protected:
     void check_script(const CodeBlock& block) {
         const Script script = load_script("script.cascade", block.body, ".");
         EXPECT_EQ(script.messages(false), "");
-        EXPECT_EQ(fault_of_formatting(block.body), "");
+        EXPECT_EQ(test::fault_of_formatting(block.body), "");
         if (script.program) expect_sound_kernels(*script.program);
     }
 

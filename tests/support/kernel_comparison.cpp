@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// What results hold before a kernel writes them: a NaN with bits that no arithmetic makes.
@@ -236,4 +236,4 @@ Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_he
     return grid;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

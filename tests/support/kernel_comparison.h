@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// Arguments for a kernel on a grid, made from a seed: ordinary numbers, and among them NaN,
 /// infinities, zeros of both signs, denormals and huge numbers. Halos of fields are filled; memory
@@ -66,4 +66,4 @@ Grid random_linked_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t
 Grid random_grid(std::uint64_t seed, std::int64_t max_width, std::int64_t max_height,
                  std::int64_t max_depth = 1);
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// The number of the environment variable CASCADE_TEST_SEED, else a new one; printed, so that a
 /// failure can be repeated. Below 2³², that other numbers may be added.
@@ -23,4 +23,4 @@ inline std::uint64_t new_seed() {
     return seed;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

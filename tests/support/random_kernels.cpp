@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 constexpr std::uint32_t special_words[] = {
@@ -309,4 +309,4 @@ std::string OperationCounts::report() const {
     return text;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

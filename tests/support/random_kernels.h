@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 struct RandomKernelOptions {
     int operations = 40;  ///< About how many instructions are asked for.
@@ -37,4 +37,4 @@ struct OperationCounts {
     std::string report() const;
 };
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

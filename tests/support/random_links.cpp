@@ -4,7 +4,7 @@
 
 #include <bit>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 LinkList random_links(std::size_t cells, std::uint64_t seed, int trouble_percent) {
     RandomStream random(seed);
@@ -36,4 +36,4 @@ LinkList random_links(std::size_t cells, std::uint64_t seed, int trouble_percent
     return list;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

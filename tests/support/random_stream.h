@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
 class RandomStream {
@@ -39,4 +39,4 @@ std::uint32_t hostile_word(RandomStream& stream);
 /// The same of 64 bits.
 std::uint64_t hostile_long_word(RandomStream& stream);
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace cascade {
+namespace cascade::test {
 
 /// The syntax tree of a script as text, without the lines where its blocks began.
 inline std::string tree_of(const std::string& text) {
@@ -64,4 +64,4 @@ inline std::string fault_of_formatting(const std::string& text) {
     return "";
 }
 
-}  // namespace cascade
+}  // namespace cascade::test

@@ -27,7 +27,7 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// A step of species that diffuse, each of which feeds on the next one.
@@ -236,7 +236,7 @@ bool make_cases(bool is_exact, const std::string& path) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test
 
 int main(int count, char** arguments) {
     const std::string_view mode = count == 3 ? arguments[1] : "";
@@ -244,5 +244,5 @@ int main(int count, char** arguments) {
         std::fprintf(stderr, "usage: wasm_cases kept|exact FILE\n");
         return 64;
     }
-    return cascade::testing::make_cases(mode == "exact", arguments[2]) ? 0 : 1;
+    return cascade::test::make_cases(mode == "exact", arguments[2]) ? 0 : 1;
 }

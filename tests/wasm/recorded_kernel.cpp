@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// Memory of a module while it is filled. Addresses are aligned to 64 bytes; 0 is none.
@@ -232,4 +232,4 @@ KernelPointer recorded_kernel(const CellKernel& kernel, Stencil stencil, const R
     return std::make_shared<RecordedKernel>(kernel, stencil, recording, file);
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// Cases in a file. A case is numbers of 32 bits, little endian, and lists after their length:
 ///
@@ -46,4 +46,4 @@ struct Recording {
 KernelPointer recorded_kernel(const CellKernel& kernel, Stencil stencil, const Recording& recording,
                               CaseFile& file);
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

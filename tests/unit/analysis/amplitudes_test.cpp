@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using analysis::AmplitudeEquations;
@@ -107,4 +107,4 @@ TEST(Amplitudes, KnowWhereTheyDoNotApply) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// Held together, since an analysis refers to its program.
 struct Analysed {
@@ -52,4 +52,4 @@ inline std::vector<analysis::CriticalValue> critical(const Analysed& analysed,
     return scan ? scan->changes : std::vector<analysis::CriticalValue>();
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using analysis::Complex;
@@ -191,4 +191,4 @@ TEST(OperatorsOfWaves, WordsNameStateAndWaves) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -3,7 +3,7 @@
 #include "lang/library/library.h"
 #include "tests/unit/analysis/closed_forms.h"
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 std::string outlook_of(const std::string& text) {
@@ -65,4 +65,4 @@ TEST(Outlook, NoScriptOfTheLibraryIsCalledIdle) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

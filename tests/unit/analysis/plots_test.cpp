@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using analysis::Stability;
@@ -58,4 +58,4 @@ TEST(Plots, OfMapsGrowUpwards) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

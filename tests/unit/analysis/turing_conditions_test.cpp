@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using analysis::Stability;
@@ -166,4 +166,4 @@ TEST(TuringConditions, MapAgreesWithTheBrusselatorsThresholds) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -4,6 +4,7 @@
 #include "atlas/texture_facts.h"
 #include "atlas/texture_layout.h"
 #include "atlas/unwrap.h"
+#include "tests/support/never.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,6 @@ namespace cascade::test {
 inline Result<MeshTexture> unwrapped(const SurfaceMesh& mesh, std::int64_t texels = 1024,
                                      int threads = 2) {
     Team team(threads);
-    const std::atomic<bool> never = false;
     return unwrap(mesh, texels, team, never);
 }
 

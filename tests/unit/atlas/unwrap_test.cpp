@@ -4,6 +4,7 @@
 #include "mesh/knot.h"
 #include "mesh/make_mesh.h"
 #include "mesh/shapes.h"
+#include "tests/support/never.h"
 #include "unit/atlas/atlas_checks.h"
 #include "unit/atlas/tubes.h"
 
@@ -39,12 +40,8 @@ INSTANTIATE_TEST_SUITE_P(
                             },
                             6, 1.06},
                       Shape{"knot", [] { return knot_mesh(0.4, 0.1); }, 24, 1.10},
-                      Shape{"creature",
-                            [] {
-                                const std::atomic<bool> never = false;
-                                return creature().body.mesh(0.03, never);
-                            },
-                            30, 1.10}),
+                      Shape{"creature", [] { return creature().body.mesh(0.03, test::never); }, 30,
+                            1.10}),
     [](const auto& shape) { return std::string(shape.param.name); });
 
 TEST_P(Shapes, LieFlatWithoutOverlaps) {

@@ -8,7 +8,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// A folder as Linux describes the caches of a processor.
@@ -69,4 +69,4 @@ TEST(CacheLevels, AreThoseOfDataNearestFirst) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -1,8 +1,9 @@
+// Numbers of things in words.
 #include "core/counted.h"
 
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 TEST(Counted, OneIsNotMany) {
@@ -15,4 +16,4 @@ TEST(Counted, OneIsNotMany) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -43,4 +43,4 @@ TEST(Ids, ArePlacesOfLists) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

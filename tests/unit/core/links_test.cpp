@@ -38,7 +38,7 @@ TEST(Links, WithoutWeightsAreThoseWithThem) {
         for (const std::int64_t width : {1, 24, 40, 512}) {
             SCOPED_TRACE(::testing::Message() << cells << " cells in rows of " << width);
             const PlaneLayout layout(rows_of(cells, width));
-            const LinkList list = testing::random_links(cells, cells);
+            const LinkList list = test::random_links(cells, cells);
             placed.assign({list.ends, list.neighbours}, layout, Precision::single);
             expect_same(placed, Links(list, layout, Precision::single), layout);
             EXPECT_EQ(placed.table<float>().weights, nullptr);
@@ -49,7 +49,7 @@ TEST(Links, WithoutWeightsAreThoseWithThem) {
 
 TEST(Links, AreMadeAnewInTheirMemoryUnlessItIsShared) {
     const PlaneLayout layout(rows_of(700, 40));
-    const LinkList first = testing::random_links(700, 1), second = testing::random_links(600, 2);
+    const LinkList first = test::random_links(700, 1), second = test::random_links(600, 2);
     Links links;
     links.assign({first.ends, first.neighbours}, layout, Precision::single);
     const std::int16_t* const memory = links.table<float>().offsets;
@@ -67,7 +67,7 @@ TEST(Links, AreMadeAnewInTheirMemoryUnlessItIsShared) {
 
 TEST(Links, AreTheSameWhereMostSlicesAreCopied) {
     const PlaneLayout layout(rows_of(700, 40));
-    LinkList list = testing::random_links(700, 4);
+    LinkList list = test::random_links(700, 4);
     Links links;
     links.assign({list.ends, list.neighbours}, layout, Precision::single);
     // Cells lose their last link, and others come after them and go again.

@@ -21,12 +21,12 @@ Memory plane_of(std::size_t bytes) {
 }
 
 /// Sizes on both sides of where planes are shifted and of where they come from the system.
-constexpr std::size_t sizes[] = {0,       1,       63,      65535,    65536,
-                                 4194303, 4194304, 6291455, 16777216, 33554433};
+constexpr std::size_t memory_sizes[] = {0,       1,       63,      65535,    65536,
+                                        4194303, 4194304, 6291455, 16777216, 33554433};
 
 TEST(PlaneMemory, IsZeroAndAlignedEvenWhereItWasInUseBefore) {
     for (int turn = 0; turn < 3; ++turn) {
-        for (const std::size_t bytes : sizes) {
+        for (const std::size_t bytes : memory_sizes) {
             const Memory memory = plane_of(bytes);
             EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory.get()) % 64, 0u) << bytes;
             EXPECT_TRUE(std::all_of(memory.get(), memory.get() + bytes, [](std::uint8_t byte) {
@@ -39,14 +39,14 @@ TEST(PlaneMemory, IsZeroAndAlignedEvenWhereItWasInUseBefore) {
 
 TEST(PlaneMemory, PlanesDoNotOverlap) {
     std::vector<Memory> planes;
-    for (const std::size_t bytes : sizes) {
+    for (const std::size_t bytes : memory_sizes) {
         planes.push_back(plane_of(bytes));
         std::fill_n(planes.back().get(), bytes, static_cast<std::uint8_t>(planes.size()));
     }
     for (std::size_t k = 0; k < planes.size(); ++k) {
-        EXPECT_TRUE(std::all_of(planes[k].get(), planes[k].get() + sizes[k],
+        EXPECT_TRUE(std::all_of(planes[k].get(), planes[k].get() + memory_sizes[k],
                                 [&](std::uint8_t byte) { return byte == k + 1; }))
-            << sizes[k];
+            << memory_sizes[k];
         planes[k].reset();
     }
 }

@@ -1,8 +1,9 @@
+// Numbers with prefixes and units.
 #include "core/quantities.h"
 
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 TEST(Quantities, AreReadable) {
@@ -18,4 +19,4 @@ TEST(Quantities, AreReadable) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -8,6 +8,7 @@
 #include "mesh/model_file.h"
 #include "picture/srgb.h"
 #include "unit/export/example_surfaces.h"
+#include "unit/export/grey_look.h"
 #include "unit/picture/exr_reader.h"
 #include "unit/surface/even_cells.h"
 
@@ -23,6 +24,7 @@ namespace cascade {
 namespace {
 
 using test::flat_square;
+using test::grey;
 using test::never;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -37,11 +39,6 @@ std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
         values.push_back(static_cast<float>(function(position_of(mesh, place))));
     }
     return values;
-}
-
-/// Grey as bright as the first channel.
-Colour grey(std::span<const float> values, const SurfacePlace&) {
-    return {values[0], values[0], values[0]};
 }
 
 PaintedCells painted(std::span<const float> values) { return {1, values, grey, {}}; }

@@ -1,6 +1,7 @@
 // Maps of a plane: what is in which texel, and that they repeat without a seam.
 #include "export/plane_maps.h"
 #include "picture/srgb.h"
+#include "unit/export/grey_look.h"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +14,7 @@
 namespace cascade {
 namespace {
 
-/// Grey as bright as the first channel.
-Colour grey(std::span<const float> values, const SurfacePlace&) {
-    return {values[0], values[0], values[0]};
-}
+using test::grey;
 
 MaterialMaps baked(const FlatCells& cells, const PaintedCells& painted, std::int64_t texels,
                    int threads = 2) {

@@ -9,7 +9,7 @@
 namespace cascade {
 namespace {
 
-struct Shown {
+struct ShownGif {
     std::vector<std::string> frames;  ///< Pixels in RGBA; transparent ones are white.
     std::vector<int> times;           ///< In hundredths of a second.
     std::vector<FramePart> parts;
@@ -23,8 +23,8 @@ std::string colour_of(const GifColorType& colour) {
             static_cast<char>(colour.Blue), '\xff'};
 }
 
-Shown shown(const std::filesystem::path& path) {
-    Shown film;
+ShownGif shown_gif(const std::filesystem::path& path) {
+    ShownGif film;
     const auto close = [](GifFileType* gif) { DGifCloseFile(gif, nullptr); };
     int error = 0;
     const std::unique_ptr<GifFileType, decltype(close)> gif(DGifOpenFileName(path.c_str(), &error),
@@ -69,7 +69,7 @@ TEST_F(Gif, HoldsEveryPixelOfFewColours) {
     FilmSettings settings;
     settings.frames_per_second = 40;
     write("disc.gif", frames, settings);
-    const Shown film = shown(path("disc.gif"));
+    const ShownGif film = shown_gif(path("disc.gif"));
     ASSERT_EQ(film.frames.size(), frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k) {
         EXPECT_EQ(film.frames[k], frames[k].pixels) << k;
@@ -88,7 +88,7 @@ TEST_F(Gif, GivesAFrameItsOwnFewColours) {
     ASSERT_TRUE(film);
     for (const FilmFrame& frame : frames) ASSERT_TRUE((*film)->add(frame));
     ASSERT_TRUE((*film)->finish());
-    const Shown read = shown(path("own.gif"));
+    const ShownGif read = shown_gif(path("own.gif"));
     ASSERT_EQ(read.frames.size(), 2U);
     EXPECT_EQ(read.frames[1], frames[1].pixels);
 }
@@ -96,7 +96,7 @@ TEST_F(Gif, GivesAFrameItsOwnFewColours) {
 TEST_F(Gif, KeepsColoursStillWhereNothingChanges) {
     const std::vector<FilmFrame> frames = {many_colours(0), many_colours(0.5F), many_colours(1)};
     write("many.gif", frames);
-    const Shown film = shown(path("many.gif"));
+    const ShownGif film = shown_gif(path("many.gif"));
     ASSERT_EQ(film.frames.size(), 3U);
     const std::size_t still = std::size_t{4} * 96 * 48;
     int furthest = 0;
@@ -116,7 +116,7 @@ TEST_F(Gif, HoldsHolesThatComeAndGo) {
     const FilmFrame disc = disc_frame(20, 12, 9, 5);
     const std::vector<FilmFrame> frames = {with_hole(disc, 2), with_hole(disc, 8), disc};
     write("holes.gif", frames);
-    const Shown film = shown(path("holes.gif"));
+    const ShownGif film = shown_gif(path("holes.gif"));
     ASSERT_EQ(film.frames.size(), frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k) {
         EXPECT_EQ(film.frames[k], frames[k].pixels) << k;
@@ -130,7 +130,7 @@ TEST_F(Gif, GivesAFrameWithHolesItsOwnFewColours) {
     ASSERT_TRUE(film);
     for (const FilmFrame& frame : frames) ASSERT_TRUE((*film)->add(frame));
     ASSERT_TRUE((*film)->finish());
-    const Shown read = shown(path("own.gif"));
+    const ShownGif read = shown_gif(path("own.gif"));
     ASSERT_EQ(read.frames.size(), 2U);
     EXPECT_EQ(read.frames[1], frames[1].pixels);
 }
@@ -138,7 +138,7 @@ TEST_F(Gif, GivesAFrameWithHolesItsOwnFewColours) {
 TEST_F(Gif, MayBeNothingButAHole) {
     const std::vector<FilmFrame> frames = {film_frame(Image(3, 2, transparent))};
     write("hole.gif", frames);
-    const Shown film = shown(path("hole.gif"));
+    const ShownGif film = shown_gif(path("hole.gif"));
     ASSERT_EQ(film.frames.size(), 1U);
     EXPECT_EQ(film.frames[0], frames[0].pixels);
 }

@@ -9,14 +9,14 @@
 namespace cascade {
 namespace {
 
-struct Shown {
+struct ShownWebp {
     std::vector<std::string> frames;  ///< Pixels in RGBA.
     std::vector<int> ends;            ///< When the frames end, in ms.
     std::uint32_t repeats = 99;       ///< 0 is for ever.
 };
 
-Shown shown(const std::string& file) {
-    Shown film;
+ShownWebp shown_webp(const std::string& file) {
+    ShownWebp film;
     WebPAnimDecoderOptions options;
     if (WebPAnimDecoderOptionsInit(&options) == 0) return film;
     const WebPData data{reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};
@@ -52,7 +52,7 @@ TEST_F(Webp, HoldsEveryPixelOfEveryFrame) {
     FilmSettings settings;
     settings.frames_per_second = 12;
     write("disc.webp", frames, settings);
-    const Shown film = shown(bytes("disc.webp"));
+    const ShownWebp film = shown_webp(bytes("disc.webp"));
     ASSERT_EQ(film.frames.size(), frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k) {
         EXPECT_EQ(film.frames[k], frames[k].pixels) << k;
@@ -66,7 +66,7 @@ TEST_F(Webp, HoldsHolesThatComeAndGo) {
     const FilmFrame disc = disc_frame(21, 13, 9, 5);
     const std::vector<FilmFrame> frames = {disc, with_hole(disc, 8), with_hole(disc, 3), disc};
     write("holes.webp", frames);
-    const Shown film = shown(bytes("holes.webp"));
+    const ShownWebp film = shown_webp(bytes("holes.webp"));
     ASSERT_EQ(film.frames.size(), frames.size());
     for (std::size_t k = 0; k < frames.size(); ++k) {
         EXPECT_EQ(seen(film.frames[k]), seen(frames[k].pixels)) << k;
@@ -76,7 +76,7 @@ TEST_F(Webp, HoldsHolesThatComeAndGo) {
 TEST_F(Webp, HoldsManyColours) {
     const std::vector<FilmFrame> frames = {many_colours(0), many_colours(0.7F)};
     write("many.webp", frames);
-    const Shown film = shown(bytes("many.webp"));
+    const ShownWebp film = shown_webp(bytes("many.webp"));
     ASSERT_EQ(film.frames.size(), 2U);
     EXPECT_EQ(film.frames[1], frames[1].pixels);
 }

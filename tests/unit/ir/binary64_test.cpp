@@ -7,12 +7,13 @@
 #include <bit>
 #include <functional>
 
-namespace cascade {
+namespace cascade::binary64 {
 namespace {
 
-using testing::apply_to_all;
-using testing::error_in_ulp;
-using testing::Form;
+using test::apply_to_all;
+using test::error_in_ulp;
+using test::flushed;
+using test::Form;
 
 static_assert(std::numeric_limits<long double>::digits >= 64, "exact values have digits to spare");
 
@@ -63,9 +64,6 @@ std::vector<double> values_of(const Function& function, const std::vector<double
 
 double value_of(const Function& function, double x) { return values_of(function, {x})[0]; }
 
-/// Denormal arguments count as zeros.
-double flushed(double x) { return std::fabs(x) < 0x1p-1022 ? std::copysign(0.0, x) : x; }
-
 double worst_error(const Function& function, const std::vector<double>& x, Form form) {
     const std::vector<double> values = values_of(function, x, form);
     double worst = 0;
@@ -82,7 +80,7 @@ double worst_error(const Function& function, const std::vector<double>& x, Form 
 }
 
 void expect_accurate(const Function& function, const std::vector<double>& x) {
-    for (const Form form : testing::forms()) worst_error(function, x, form);
+    for (const Form form : test::forms()) worst_error(function, x, form);
 }
 
 // Words at equal distances: all exponents, both signs, NaN and infinities.
@@ -95,19 +93,19 @@ TEST(Binary64, FunctionsAreAccurateForAllMagnitudes) {
     for (const Function& function : functions) expect_accurate(function, x);
 }
 
-double fine_number(testing::RandomStream& stream) {
+double fine_number(test::RandomStream& stream) {
     return static_cast<double>(stream.next() >> 11) * 0x1p-52 - 1;
 }
 
 TEST(Binary64, FunctionsAreAccurateWhereTheyAreUsed) {
-    testing::RandomStream stream(5);
+    test::RandomStream stream(5);
     std::vector<double> x;
     for (int k = 0; k < 200000; ++k) x.push_back(fine_number(stream));
     for (int k = 0; k < 200000; ++k) x.push_back(fine_number(stream) * 20);
     for (int k = 0; k < 200000; ++k) x.push_back(1 + fine_number(stream) * 0.01);
     for (int k = 0; k < 100000; ++k) x.push_back(fine_number(stream) * 700);
     for (const Function& function : functions) {
-        for (const Form form : testing::forms()) {
+        for (const Form form : test::forms()) {
             const double worst = worst_error(function, x, form);
             EXPECT_GE(worst, 0.49) << function.name << ": arguments that test nothing";
             std::printf("%s: %.3f ulp, %s\n", function.name, worst, name_of(form));
@@ -117,7 +115,7 @@ TEST(Binary64, FunctionsAreAccurateWhereTheyAreUsed) {
 
 // The numbers closest to multiples of π/2 need the most digits of π.
 TEST(Binary64, AnglesBesideMultiplesOfAQuarterTurn) {
-    testing::RandomStream stream(6);
+    test::RandomStream stream(6);
     std::vector<double> x;
     const long double quarter_turn = 1.570796326794896619231321691639751442L;
     for (int k = 0; k < 40000; ++k) {
@@ -135,7 +133,7 @@ TEST(Binary64, AnglesBesideMultiplesOfAQuarterTurn) {
 }
 
 TEST(Binary64, LargeAnglesHaveASmallAbsoluteError) {
-    testing::RandomStream stream(7);
+    test::RandomStream stream(7);
     std::vector<double> x;
     for (int k = 0; k < 100000; ++k) x.push_back(fine_number(stream) * 0x1p53);
     const std::vector<double> sines = values_of(sin_function, x);
@@ -185,9 +183,9 @@ struct Pairs {
     std::vector<double> x, y;
 };
 
-Pairs pairs(std::uint64_t seed, const std::function<double(testing::RandomStream&)>& first,
-            const std::function<double(testing::RandomStream&)>& second) {
-    testing::RandomStream stream(seed);
+Pairs pairs(std::uint64_t seed, const std::function<double(test::RandomStream&)>& first,
+            const std::function<double(test::RandomStream&)>& second) {
+    test::RandomStream stream(seed);
     Pairs made;
     for (int k = 0; k < 200000; ++k) {
         made.x.push_back(first(stream));
@@ -196,8 +194,8 @@ Pairs pairs(std::uint64_t seed, const std::function<double(testing::RandomStream
     return made;
 }
 
-double hostile(testing::RandomStream& stream) {
-    return std::bit_cast<double>(testing::hostile_long_word(stream));
+double hostile(test::RandomStream& stream) {
+    return std::bit_cast<double>(test::hostile_long_word(stream));
 }
 
 void expect_accurate(const char* name, ValueId (KernelBuilder::*expand)(ValueId, ValueId),
@@ -221,7 +219,7 @@ void expect_accurate(const char* name, ValueId (KernelBuilder::*expand)(ValueId,
 void expect_accurate(const char* name, ValueId (KernelBuilder::*expand)(ValueId, ValueId),
                      long double (*exact)(long double, long double), double largest_error,
                      const Pairs& arguments) {
-    for (const Form form : testing::forms()) {
+    for (const Form form : test::forms()) {
         expect_accurate(name, expand, exact, largest_error, arguments, form);
     }
 }
@@ -266,7 +264,7 @@ TEST(Binary64, ModulusIsExactOrRoundedOnce) {
 }
 
 TEST(Binary64, RoundingIsThatOfC) {
-    testing::RandomStream stream(9);
+    test::RandomStream stream(9);
     std::vector<double> x = {0.5,          -0.5,       1.5,      2.5,      -0.0,
                              0x1p51 + 0.5, 0x1p52 + 1, infinity, -infinity};
     for (int k = 0; k < 100000; ++k) x.push_back(std::ldexp(fine_number(stream), k % 60));
@@ -285,4 +283,4 @@ TEST(Binary64, RoundingIsThatOfC) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::binary64

@@ -3,17 +3,16 @@
 
 #include "core/floating_point.h"
 #include "ir/interpreter.h"
+#include "tests/support/not_finite.h"
 #include "tests/unit/ir/operation_oracle.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace cascade {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::infinity;
+using test::nan;
 
 TEST(Builder, EqualInstructionsAreOneValue) {
     KernelBuilder builder;

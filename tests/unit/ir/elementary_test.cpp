@@ -1,4 +1,5 @@
 // Functions of one number against the C library in double precision, whose error is 2^−29 of ours.
+#include "tests/support/not_finite.h"
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/number_function.h"
 
@@ -9,12 +10,12 @@
 namespace cascade {
 namespace {
 
-using testing::apply_to_all;
-using testing::error_in_ulp;
-using testing::Form;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::apply_to_all;
+using test::error_in_ulp;
+using test::flushed;
+using test::Form;
+using test::infinity;
+using test::nan;
 
 struct Function {
     const char* name;
@@ -60,9 +61,6 @@ std::vector<float> values_of(const Function& function, const std::vector<float>&
 
 float value_of(const Function& function, float x) { return values_of(function, {x})[0]; }
 
-/// Denormal arguments count as zeros.
-double flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x; }
-
 void expect_accurate(const Function& function, const std::vector<float>& x, Form form) {
     const std::vector<float> values = values_of(function, x, form);
     double worst = 0;
@@ -79,7 +77,7 @@ void expect_accurate(const Function& function, const std::vector<float>& x, Form
 }
 
 void expect_accurate(const Function& function, const std::vector<float>& x) {
-    for (const Form form : testing::forms()) expect_accurate(function, x, form);
+    for (const Form form : test::forms()) expect_accurate(function, x, form);
 }
 
 // Every 4099th of all words: all exponents, both signs, NaN and infinities.
@@ -92,7 +90,7 @@ TEST(Elementary, AccurateForAllMagnitudes) {
 }
 
 TEST(Elementary, AccurateWhereTheyAreUsed) {
-    testing::RandomStream stream(5);
+    test::RandomStream stream(5);
     std::vector<float> x;
     for (int k = 0; k < 400000; ++k) x.push_back(stream.symmetric() * 10.0f);
     for (int k = 0; k < 400000; ++k) x.push_back(1.0f + stream.symmetric() * 0.01f);
@@ -117,7 +115,7 @@ TEST(Elementary, AccurateBesideMultiplesOfAQuarterTurn) {
 }
 
 TEST(Elementary, LargeAnglesHaveASmallAbsoluteError) {
-    testing::RandomStream stream(6);
+    test::RandomStream stream(6);
     std::vector<float> x;
     for (int k = 0; k < 300000; ++k) x.push_back(stream.symmetric() * 0x1p24f);
     const std::vector<float> sines = values_of(sin_function, x);
@@ -175,7 +173,7 @@ TEST(Elementary, OddFunctionsKeepTheSignOfZero) {
 }
 
 TEST(Elementary, SymmetriesAreExact) {
-    testing::RandomStream stream(7);
+    test::RandomStream stream(7);
     for (int k = 0; k < 1000; ++k) {
         const float x = stream.symmetric() * 100.0f;
         EXPECT_EQ(value_of(sin_function, -x), -value_of(sin_function, x));
@@ -232,10 +230,10 @@ TEST(Elementary, CubesHaveExactRoots) {
 }
 
 TEST(Elementary, ConstantsFoldToTheSameBits) {
-    testing::RandomStream stream(8);
+    test::RandomStream stream(8);
     for (const Function& function : functions) {
         for (int k = 0; k < 500; ++k) {
-            const float x = to_number(testing::hostile_word(stream));
+            const float x = to_number(test::hostile_word(stream));
             KernelBuilder builder;
             const ValueId folded = (builder.*function.expand)(builder.word(to_bits(x)));
             ASSERT_TRUE(builder.is_constant(folded));

@@ -17,7 +17,7 @@
 namespace cascade {
 namespace {
 
-using testing::oracle;
+using test::oracle;
 
 /// A kernel that computes a cell after the other from the tests' own table of meanings.
 class CellByCell : public Backend {
@@ -70,7 +70,7 @@ private:
                         arguments.fields[beside.slot.index()]
                                         [at + step(layout, beside.dx, beside.dy, beside.dz)]);
                 }
-                case Op::mask: return testing::truth(arguments.masks[slot][at] != 0);
+                case Op::mask: return test::truth(arguments.masks[slot][at] != 0);
                 case Op::uniform: return to_bits(arguments.uniforms[slot]);
                 case Op::cell_column: return static_cast<std::uint32_t>(i);
                 case Op::cell_row: return static_cast<std::uint32_t>(row % layout.height);
@@ -100,9 +100,8 @@ private:
             }
             const auto count = static_cast<float>(neighbours.size());
             if (count < 6) {  // One rounding: the multiple is exact in double precision.
-                return testing::write_number(testing::read_number(sum) -
-                                             double{count} *
-                                                 testing::read_number(to_bits(cell[0])));
+                return test::write_number(test::read_number(sum) -
+                                          double{count} * test::read_number(to_bits(cell[0])));
             }
             return oracle(Op::subtract, sum,
                           oracle(Op::multiply, to_bits(count), to_bits(cell[0]), 0), 0);
@@ -116,17 +115,17 @@ private:
 TEST(Interpreter, RandomKernelsAgainstCellByCell) {
     const auto interpreter = make_interpreter();
     CellByCell reference;
-    testing::OperationCounts counts;
+    test::OperationCounts counts;
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-        const CellKernel kernel = testing::random_kernel(seed);
+        const CellKernel kernel = test::random_kernel(seed);
         ASSERT_EQ(verify(kernel), "") << "seed " << seed;
         counts.add(kernel);
-        const Grid grid = testing::random_grid(seed, seed % 20 == 0 ? 600 : 67, 5, 3);
-        const auto expected = testing::run_kernel(reference, kernel, grid, seed);
-        const auto actual = testing::run_kernel(*interpreter, kernel, grid, seed);
-        ASSERT_EQ(testing::same_bits(expected, actual), "") << "seed " << seed << "\n"
-                                                            << print(kernel);
-        ASSERT_EQ(testing::stray_writes(actual, {0, PlaneLayout(grid).row_count()}), "")
+        const Grid grid = test::random_grid(seed, seed % 20 == 0 ? 600 : 67, 5, 3);
+        const auto expected = test::run_kernel(reference, kernel, grid, seed);
+        const auto actual = test::run_kernel(*interpreter, kernel, grid, seed);
+        ASSERT_EQ(test::same_bits(expected, actual), "") << "seed " << seed << "\n"
+                                                         << print(kernel);
+        ASSERT_EQ(test::stray_writes(actual, {0, PlaneLayout(grid).row_count()}), "")
             << "seed " << seed;
     }
     EXPECT_EQ(counts.missing(), "") << counts.report();
@@ -135,19 +134,19 @@ TEST(Interpreter, RandomKernelsAgainstCellByCell) {
 TEST(Interpreter, ComputesTheCellsItIsGiven) {
     const auto interpreter = make_interpreter();
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-        const CellKernel kernel = testing::random_kernel(seed);
+        const CellKernel kernel = test::random_kernel(seed);
         const Grid grid{37, 7, Boundary::periodic};
-        const testing::HostileInputs inputs(kernel, grid, seed);
+        const test::HostileInputs inputs(kernel, grid, seed);
         const KernelPointer compiled = *interpreter->compile(kernel, grid.stencil());
         const std::vector<Field> whole = inputs.run(*compiled);
         const Patch cells{{2, 5}, {16, 37}};
         const std::vector<Field> part = inputs.run(*compiled, cells);
-        ASSERT_EQ(testing::stray_writes(part, cells), "");
+        ASSERT_EQ(test::stray_writes(part, cells), "");
         for (std::size_t k = 0; k < part.size(); ++k) {
             for (std::int64_t j = cells.rows.begin; j < cells.rows.end; ++j) {
                 for (std::int64_t i = cells.columns.begin; i < cells.columns.end; ++i) {
                     ASSERT_TRUE(
-                        testing::same_word(to_bits(part[k].at(i, j)), to_bits(whole[k].at(i, j))));
+                        test::same_word(to_bits(part[k].at(i, j)), to_bits(whole[k].at(i, j))));
                 }
             }
         }
@@ -250,7 +249,7 @@ TEST(Laplacian, OfAVolumeHasTheOrderOfTheSpecification) {
     const CellKernel kernel = std::move(builder).finish();
     const Grid grid{3, 3, Boundary::periodic, 3};
     Field field{PlaneLayout(grid)};
-    testing::RandomStream stream(1);
+    test::RandomStream stream(1);
     int reversed_is_different = 0;
     for (int k = 0; k < 100; ++k) {
         const auto value = [&] {
@@ -367,11 +366,11 @@ TEST(Interpreter, AMillionOperations) {
 
 // Folded and run: the same kernel with its constants as uniforms gives the same bits.
 TEST(Interpreter, FoldingIsRunning) {
-    testing::RandomStream stream(11);
+    test::RandomStream stream(11);
     const Grid grid{1, 1, Boundary::periodic};
     Field none{PlaneLayout(grid)};
     for (int trial = 0; trial < 300; ++trial) {
-        const float a = to_number(testing::hostile_word(stream));
+        const float a = to_number(test::hostile_word(stream));
         const auto expand = [&](KernelBuilder& builder, ValueId x, ValueId y) {
             const ValueId sum = builder.add(x, builder.exponential(y));
             const ValueId ratio = builder.divide(sum, builder.maximum(x, y));
@@ -387,7 +386,7 @@ TEST(Interpreter, FoldingIsRunning) {
         running.result("r", expand(running, first, second));
         none.at(0, 0) = a;
         const std::vector<Field> results = run_on(std::move(running).finish(), none, grid);
-        ASSERT_TRUE(testing::same_word(folding[folded].slot(), to_bits(results[0].at(0, 0)))) << a;
+        ASSERT_TRUE(test::same_word(folding[folded].slot(), to_bits(results[0].at(0, 0)))) << a;
     }
 }
 

@@ -6,6 +6,7 @@
 #include "ir/kernel_cost.h"
 #include "ir/kernel_parts.h"
 #include "ir/loop_levels.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/random_links.h"
 #include "tests/support/random_stream.h"
 
@@ -21,11 +22,10 @@
 namespace cascade {
 namespace {
 
+using test::infinity;
+using test::nan;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 /// Cells in rows of 40, whose links are those of a list without weights.
 class LinkedCells {
@@ -90,7 +90,7 @@ private:
 };
 
 std::vector<float> random_values(std::size_t count) {
-    testing::RandomStream random(7);
+    test::RandomStream random(7);
     std::vector<float> values;
     for (std::size_t k = 0; k < count; ++k) values.push_back(random.symmetric() * 8);
     return values;
@@ -109,7 +109,7 @@ LinkedCells star(std::size_t neighbours) {
 class LinkReductions : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(LinkReductions, AreThoseOfTheList) {
-    const LinkedCells cells(testing::random_links(GetParam(), GetParam()));
+    const LinkedCells cells(test::random_links(GetParam(), GetParam()));
     const std::vector<float> f = random_values(GetParam());
     KernelBuilder b;
     const FieldSlot slot = b.field_slot("f");
@@ -143,7 +143,7 @@ TEST_P(LinkReductions, AreThoseOfTheList) {
 // A mean over links, then the sum of squares of what differs from it: a loop waits for another one,
 // and both ask for the same field.
 TEST_P(LinkReductions, MayNeedEachOther) {
-    const LinkedCells cells(testing::random_links(GetParam(), GetParam()));
+    const LinkedCells cells(test::random_links(GetParam(), GetParam()));
     const std::vector<float> f = random_values(GetParam());
     KernelBuilder b;
     const ValueId theirs = b.theirs(b.field_slot("f"));

@@ -34,10 +34,10 @@ TEST_P(LinkSums, AreThoseOfTheList) {
     grid.width = std::min<std::int64_t>(static_cast<std::int64_t>(cells), 40);
     grid.height = (static_cast<std::int64_t>(cells) + grid.width - 1) / grid.width;
     const PlaneLayout layout(grid);
-    const LinkList list = testing::random_links(cells, cells);
+    const LinkList list = test::random_links(cells, cells);
     const Links links(list, layout, Precision::single);
 
-    testing::RandomStream random(7);
+    test::RandomStream random(7);
     Plane<float> f(layout), s(layout);
     const auto place = [&](std::size_t cell) {
         const auto number = static_cast<std::int64_t>(cell);

@@ -10,11 +10,10 @@
 namespace cascade {
 namespace {
 
-using testing::cells_of;
-using testing::field_of;
-using testing::moments_of;
-
-constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
+using test::cells_of;
+using test::field_of;
+using test::moments_of;
+using test::some_key;
 
 Field noise(const Grid& grid, float scale, int octaves, std::uint64_t key = some_key,
             std::uint32_t draw = 0) {

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// How a function is computed: as it is expanded, or contracted.
 enum class Form { strict, contracted };
@@ -56,6 +56,10 @@ std::vector<Number> apply_to_all(const Expand& expand, const std::vector<Number>
     return apply_to_all(expand, x, y, *make_interpreter(), form);
 }
 
+/// A denormal argument counts as zero.
+inline double flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x; }
+inline double flushed(double x) { return std::fabs(x) < 0x1p-1022 ? std::copysign(0.0, x) : x; }
+
 /// How far `value` is from `exact`, in units in the last place of binary32 numbers of its size.
 /// Infinite where one of them is a NaN, an infinity or of a sign that the other is not. Where the
 /// exact value is denormal a zero of its sign is right.
@@ -85,4 +89,4 @@ inline double error_in_ulp(double value, long double exact) {
     return static_cast<double>(std::fabs(value - exact) / std::ldexp(1.0L, place));
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

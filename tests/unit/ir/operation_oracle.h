@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 inline bool is_nan_word(std::uint32_t word) { return (word & 0x7fffffffu) > 0x7f800000u; }
 
@@ -88,4 +88,4 @@ inline std::uint32_t oracle(Op op, std::uint32_t a, std::uint32_t b, std::uint32
     }
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -4,6 +4,7 @@
 #include "core/plane.h"
 #include "ir/builder.h"
 #include "ir/interpreter.h"
+#include "tests/support/not_finite.h"
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/operation_oracle.h"
 
@@ -16,8 +17,10 @@
 namespace cascade {
 namespace {
 
-using testing::oracle;
-using testing::same_word;
+using test::nan;
+
+using test::oracle;
+using test::same_word;
 
 const std::vector<Op>& operations() {
     static const std::vector<Op> all = [] {
@@ -37,13 +40,12 @@ struct Words {
 };
 
 /// The word of a whole number of −252 … 252.
-std::uint32_t whole_power(testing::RandomStream& stream) {
+std::uint32_t whole_power(test::RandomStream& stream) {
     return to_bits(static_cast<float>(stream.below(505)) - 252.0f);
 }
 
-Words hostile_words(testing::RandomStream& stream, Op op) {
-    Words words{testing::hostile_word(stream), testing::hostile_word(stream),
-                testing::hostile_word(stream)};
+Words hostile_words(test::RandomStream& stream, Op op) {
+    Words words{test::hostile_word(stream), test::hostile_word(stream), test::hostile_word(stream)};
     if (stream.chance(10)) words.b = words.a;
     if (is_shift(op)) words.b = stream.below(32);
     if (op == Op::scale_by_power) words.b = whole_power(stream);
@@ -59,7 +61,7 @@ std::string say(Op op, const Words& words) {
 }
 
 TEST(Operations, EvaluateIsWhatTheTableSays) {
-    testing::RandomStream stream(1);
+    test::RandomStream stream(1);
     for (const Op op : operations()) {
         for (int trial = 0; trial < 20000; ++trial) {
             const Words words = hostile_words(stream, op);
@@ -76,7 +78,7 @@ TEST(Operations, EvaluateIsWhatTheTableSays) {
 }
 
 TEST(Operations, FoldingIsWhatTheTableSays) {
-    testing::RandomStream stream(2);
+    test::RandomStream stream(2);
     for (const Op op : operations()) {
         for (int trial = 0; trial < 2000; ++trial) {
             const Words words = hostile_words(stream, op);
@@ -102,10 +104,10 @@ struct Row {
     std::vector<Field> fields;
     std::vector<float> uniforms;
 
-    Row(testing::RandomStream& stream, Op op, const PlaneLayout& layout) {
+    Row(test::RandomStream& stream, Op op, const PlaneLayout& layout) {
         for (int k = 0; k < 3; ++k) {
             fields.emplace_back(layout);
-            uniforms.push_back(to_number(testing::hostile_word(stream)));
+            uniforms.push_back(to_number(test::hostile_word(stream)));
         }
         if (op == Op::scale_by_power) uniforms[1] = to_number(whole_power(stream));
         for (std::int64_t i = 0; i < cells; ++i) {
@@ -143,7 +145,7 @@ TEST(Operations, LoopsAreWhatTheTableSays) {
     const Grid grid{Row::cells, 1, Boundary::periodic};
     const PlaneLayout layout(grid);
     const auto backend = make_interpreter();
-    testing::RandomStream stream(3);
+    test::RandomStream stream(3);
     for (const Op op : operations()) {
         for (unsigned scalars = 0; scalars < 1u << info(op).arity; ++scalars) {
             const std::uint32_t shift = stream.below(32);
@@ -176,7 +178,6 @@ TEST(Operations, SpecialValues) {
     const auto value = [](Op op, float a, float b = 0, float c = 0) {
         return to_number(evaluate(op, to_bits(a), to_bits(b), to_bits(c)));
     };
-    const float nan = std::nanf("");
     const float denormal = to_number(1);
     EXPECT_EQ(value(Op::logical_not, nan), 0) << "NaN is true";
     EXPECT_EQ(value(Op::logical_not, denormal), 1) << "a denormal number is zero";

@@ -1,4 +1,5 @@
 // x^y against the C library in double precision.
+#include "tests/support/not_finite.h"
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/number_function.h"
 
@@ -7,15 +8,13 @@
 namespace cascade {
 namespace {
 
-using testing::apply_to_all;
-using testing::error_in_ulp;
-using testing::Form;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::apply_to_all;
+using test::error_in_ulp;
+using test::flushed;
+using test::Form;
+using test::infinity;
+using test::nan;
 constexpr double largest_error = 1.2;  // In ulp: as stated in ir/elementary.cpp.
-
-float flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0f, x) : x; }
 
 std::vector<float> powers(const std::vector<float>& x, const std::vector<float>& y,
                           Form form = Form::strict) {
@@ -29,8 +28,7 @@ float power(float x, float y) { return powers({x}, {y})[0]; }
 void expect_accurate(const std::vector<float>& x, const std::vector<float>& y, Form form) {
     const std::vector<float> values = powers(x, y, form);
     for (std::size_t k = 0; k < x.size(); ++k) {
-        const double exact =
-            std::pow(static_cast<double>(flushed(x[k])), static_cast<double>(flushed(y[k])));
+        const double exact = std::pow(flushed(x[k]), flushed(y[k]));
         ASSERT_LE(error_in_ulp(values[k], exact), largest_error)
             << x[k] << " ^ " << y[k] << " = " << values[k] << ", not " << exact << ", "
             << name_of(form);
@@ -38,13 +36,13 @@ void expect_accurate(const std::vector<float>& x, const std::vector<float>& y, F
 }
 
 void expect_accurate(const std::vector<float>& x, const std::vector<float>& y) {
-    for (const Form form : testing::forms()) expect_accurate(x, y, form);
+    for (const Form form : test::forms()) expect_accurate(x, y, form);
 }
 
 /// Arguments that `draw(stream)` makes, as two lists.
 template <typename Draw>
 void expect_accurate_for(std::uint64_t seed, const Draw& draw) {
-    testing::RandomStream stream(seed);
+    test::RandomStream stream(seed);
     std::vector<float> x, y;
     for (int k = 0; k < 300000; ++k) {
         const auto [a, b] = draw(stream);
@@ -59,36 +57,36 @@ struct Arguments {
 };
 
 TEST(Power, AccurateForOrdinaryNumbers) {
-    expect_accurate_for(1, [](testing::RandomStream& stream) {
+    expect_accurate_for(1, [](test::RandomStream& stream) {
         return Arguments{std::exp2(stream.symmetric() * 4.0f), stream.symmetric() * 5.0f};
     });
 }
 
 TEST(Power, AccurateUpToTheLargestResults) {
-    expect_accurate_for(2, [](testing::RandomStream& stream) {
+    expect_accurate_for(2, [](test::RandomStream& stream) {
         const float x = std::exp2(stream.symmetric() * 126.0f);
         return Arguments{x, stream.symmetric() * 130.0f / std::log2(x)};
     });
 }
 
 TEST(Power, AccurateBesideOne) {
-    expect_accurate_for(3, [](testing::RandomStream& stream) {
+    expect_accurate_for(3, [](test::RandomStream& stream) {
         return Arguments{1.0f + stream.symmetric() * 0.01f, stream.symmetric() * 9000.0f};
     });
 }
 
 TEST(Power, WholeExponentsOfNegativeNumbers) {
-    expect_accurate_for(4, [](testing::RandomStream& stream) {
+    expect_accurate_for(4, [](test::RandomStream& stream) {
         return Arguments{stream.symmetric() * 100.0f, std::round(stream.symmetric() * 30.0f)};
     });
 }
 
 TEST(Power, AnyWords) {
-    expect_accurate_for(5, [](testing::RandomStream& stream) {
-        return Arguments{to_number(testing::hostile_word(stream)),
-                         to_number(testing::hostile_word(stream))};
+    expect_accurate_for(5, [](test::RandomStream& stream) {
+        return Arguments{to_number(test::hostile_word(stream)),
+                         to_number(test::hostile_word(stream))};
     });
-    expect_accurate_for(6, [](testing::RandomStream& stream) {
+    expect_accurate_for(6, [](test::RandomStream& stream) {
         return Arguments{to_number(static_cast<std::uint32_t>(stream.next())),
                          to_number(static_cast<std::uint32_t>(stream.next()))};
     });
@@ -142,7 +140,7 @@ TEST(Power, ExactPowersOfTwo) {
 
 // By multiplication: the error of a product of n factors is at most n/2 ulp of the factors' sizes.
 TEST(Power, WholeConstantExponentsMultiply) {
-    testing::RandomStream stream(9);
+    test::RandomStream stream(9);
     std::vector<float> x;
     for (int k = 0; k < 2000; ++k) x.push_back(stream.symmetric() * 2.0f);
     for (int n = -64; n <= 64; ++n) {

@@ -5,6 +5,7 @@
 #include "ir/builder.h"
 #include "ir/draw_of_step.h"
 #include "ir/interpreter.h"
+#include "tests/unit/ir/space_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
+using test::some_key;
 
 using Expand = ValueId (KernelBuilder::*)(ValueId, std::uint64_t);
 

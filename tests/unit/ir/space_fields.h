@@ -7,9 +7,13 @@
 #include "ir/space.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
+
+/// A key of random numbers.
+inline constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
 
 /// Coordinates as the language has them.
 inline Space space_of(KernelBuilder& builder, const Grid& grid) {
@@ -73,4 +77,4 @@ inline Moments moments_of(const std::vector<double>& cells) {
     return moments;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

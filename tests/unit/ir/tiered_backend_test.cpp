@@ -12,7 +12,7 @@
 #include <new>
 #include <thread>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using When = TieredBackend::When;
@@ -268,4 +268,4 @@ TEST(TieredInterpreter, NeedsNoTiers) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

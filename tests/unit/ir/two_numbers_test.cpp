@@ -1,4 +1,5 @@
 // Functions of two numbers: the angle of a point, hypotenuse, modulus, smooth step.
+#include "tests/support/not_finite.h"
 #include "tests/support/random_stream.h"
 #include "tests/unit/ir/number_function.h"
 
@@ -10,14 +11,14 @@
 namespace cascade {
 namespace {
 
-using testing::apply_to_all;
-using testing::error_in_ulp;
-using testing::Form;
+using test::apply_to_all;
+using test::error_in_ulp;
+using test::flushed;
+using test::Form;
+using test::infinity;
+using test::nan;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-struct Function {
+struct FunctionOfTwo {
     const char* name;
     ValueId (KernelBuilder::*expand)(ValueId, ValueId);
     double (*exact)(double, double);
@@ -30,26 +31,24 @@ double floored_rest(double a, double b) {
     return static_cast<double>(rest != 0 && (rest < 0) != (b < 0) ? rest + b : rest);
 }
 
-constexpr Function angle = {"atan2", &KernelBuilder::arc_tangent,
-                            [](double y, double x) { return std::atan2(y, x); }, 2.1};
-constexpr Function hypotenuse = {"hypot", &KernelBuilder::hypotenuse,
-                                 [](double x, double y) { return std::hypot(x, y); }, 1.2};
-constexpr Function modulus = {"mod", &KernelBuilder::modulus, floored_rest, 0.5001};
+constexpr FunctionOfTwo angle = {"atan2", &KernelBuilder::arc_tangent,
+                                 [](double y, double x) { return std::atan2(y, x); }, 2.1};
+constexpr FunctionOfTwo hypotenuse = {"hypot", &KernelBuilder::hypotenuse,
+                                      [](double x, double y) { return std::hypot(x, y); }, 1.2};
+constexpr FunctionOfTwo modulus = {"mod", &KernelBuilder::modulus, floored_rest, 0.5001};
 
-std::vector<float> values_of(const Function& function, const std::vector<float>& a,
+std::vector<float> values_of(const FunctionOfTwo& function, const std::vector<float>& a,
                              const std::vector<float>& b, Form form = Form::strict) {
     return apply_to_all([&](KernelBuilder& builder, ValueId x,
                             ValueId y) { return (builder.*function.expand)(x, y); },
                         a, b, form);
 }
 
-float value_of(const Function& function, float a, float b) {
+float value_of(const FunctionOfTwo& function, float a, float b) {
     return values_of(function, {a}, {b})[0];
 }
 
-double flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0, x) : x; }
-
-void expect_accurate(const Function& function, const std::vector<float>& a,
+void expect_accurate(const FunctionOfTwo& function, const std::vector<float>& a,
                      const std::vector<float>& b, Form form) {
     const std::vector<float> values = values_of(function, a, b, form);
     double worst = 0;
@@ -63,27 +62,27 @@ void expect_accurate(const Function& function, const std::vector<float>& a,
                                              << ") = " << values[at] << ", " << name_of(form);
 }
 
-void expect_accurate(const Function& function, const std::vector<float>& a,
+void expect_accurate(const FunctionOfTwo& function, const std::vector<float>& a,
                      const std::vector<float>& b) {
-    for (const Form form : testing::forms()) expect_accurate(function, a, b, form);
+    for (const Form form : test::forms()) expect_accurate(function, a, b, form);
 }
 
 std::vector<float> symmetric_numbers(std::uint64_t seed, float scale) {
-    testing::RandomStream stream(seed);
+    test::RandomStream stream(seed);
     std::vector<float> x;
     for (int k = 0; k < 400000; ++k) x.push_back(stream.symmetric() * scale);
     return x;
 }
 
 std::vector<float> hostile_numbers(std::uint64_t seed) {
-    testing::RandomStream stream(seed);
+    test::RandomStream stream(seed);
     std::vector<float> x;
-    for (int k = 0; k < 1000000; ++k) x.push_back(to_number(testing::hostile_word(stream)));
+    for (int k = 0; k < 1000000; ++k) x.push_back(to_number(test::hostile_word(stream)));
     return x;
 }
 
 TEST(TwoNumbers, AnglesAndHypotenusesOfAllMagnitudes) {
-    for (const Function& function : {angle, hypotenuse}) {
+    for (const FunctionOfTwo& function : {angle, hypotenuse}) {
         expect_accurate(function, symmetric_numbers(1, 1), symmetric_numbers(2, 1));
         expect_accurate(function, symmetric_numbers(3, 1), symmetric_numbers(4, 100));
         expect_accurate(function, hostile_numbers(5), hostile_numbers(6));
@@ -114,7 +113,7 @@ TEST(TwoNumbers, AnInfiniteSideHasAnInfiniteHypotenuse) {
 
 TEST(TwoNumbers, ModulusIsExactOrRoundedOnce) {
     std::vector<float> a, b;
-    testing::RandomStream stream(7);
+    test::RandomStream stream(7);
     while (a.size() < 800000) {
         const float divisor = stream.symmetric() * (stream.chance(50) ? 10.0f : 1e-3f);
         const float number = stream.symmetric() * (stream.chance(50) ? 20.0f : 3000.0f);
@@ -124,7 +123,7 @@ TEST(TwoNumbers, ModulusIsExactOrRoundedOnce) {
         a.push_back(divisor * static_cast<float>(stream.below(1000)));  // About a whole quotient.
         b.push_back(divisor);
     }
-    for (const Form form : testing::forms()) {
+    for (const Form form : test::forms()) {
         const std::vector<float> values = values_of(modulus, a, b, form);
         for (std::size_t k = 0; k < a.size(); ++k) {
             const double exact = floored_rest(a[k], b[k]);
@@ -177,7 +176,7 @@ TEST(WholeNumbers, AreThoseOfC) {
     for (std::uint64_t word = 0; word < 0x100000000ULL; word += 4099) {
         x.push_back(to_number(static_cast<std::uint32_t>(word)));
     }
-    testing::RandomStream stream(9);
+    test::RandomStream stream(9);
     for (int k = 0; k < 200000; ++k) x.push_back(stream.symmetric() * 20.0f);
     for (int k = -40; k <= 40; ++k) x.push_back(static_cast<float>(k) * 0.5f);
     struct Case {

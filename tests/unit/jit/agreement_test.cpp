@@ -17,7 +17,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 std::unique_ptr<Backend> jit_of(int lanes, int optimise) {
@@ -510,4 +510,4 @@ TEST(JitAgreement, AnotherKernelDiffers) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,7 +10,7 @@
 
 #include <thread>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -133,4 +133,4 @@ TEST(JitDump, ShowsIntermediateCodeAndAssembly) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -17,7 +17,7 @@
 #include <sstream>
 #include <thread>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,7 +58,7 @@ protected:
     fs::path outside_, folder_;
 };
 
-const Grid grid{37, 5, Boundary::periodic};
+const Grid small_grid{37, 5, Boundary::periodic};
 
 CellKernel some_kernel(std::uint64_t seed) {
     RandomKernelOptions options;
@@ -78,10 +78,12 @@ TEST_F(CacheTest, ResultsAreTheSameWithoutWithAndFromTheCache) {
     const auto without = jit_with("");
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         const CellKernel kernel = some_kernel(seed);
-        const auto expected = run_kernel(*without, kernel, grid, seed);
-        EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(folder_), kernel, grid, seed)), "");
+        const auto expected = run_kernel(*without, kernel, small_grid, seed);
+        EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(folder_), kernel, small_grid, seed)),
+                  "");
         EXPECT_EQ(files().size(), seed);
-        EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(folder_), kernel, grid, seed)), "");
+        EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(folder_), kernel, small_grid, seed)),
+                  "");
         EXPECT_EQ(files().size(), seed);
     }
 }
@@ -89,7 +91,7 @@ TEST_F(CacheTest, ResultsAreTheSameWithoutWithAndFromTheCache) {
 TEST_F(CacheTest, WhatWasKeptIsWhatRuns) {
     // An image of another kernel under this one's key: its results show where the code came from.
     const CellKernel kernel = some_kernel(1);
-    run_kernel(*jit_with(folder_), kernel, grid, 1);
+    run_kernel(*jit_with(folder_), kernel, small_grid, 1);
     const std::string key = environment_key(2) + kernel_key(kernel, {Stencil::plane, 0});
     EXPECT_FALSE(CodeCache(folder_).find(key)) << "lanes are part of the key";
     std::optional<CodeImage> found;
@@ -201,7 +203,7 @@ TEST_F(CacheTest, EveryDamagedByteAndEveryLengthIsNoticed) {
 
 TEST_F(CacheTest, DamagedKernelsAreCompiledAgain) {
     const CellKernel kernel = some_kernel(3);
-    const auto expected = run_kernel(*jit_with(folder_), kernel, grid, 3);
+    const auto expected = run_kernel(*jit_with(folder_), kernel, small_grid, 3);
     const fs::path file = only_file();
     const std::string whole = read(file);
     for (std::uint32_t k = 0; k < 40; ++k) {
@@ -213,19 +215,22 @@ TEST_F(CacheTest, DamagedKernelsAreCompiledAgain) {
             damaged[random[0] % damaged.size()] ^= static_cast<char>(1 + random[1] % 255);
         }
         write(file, damaged);
-        EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(folder_), kernel, grid, 3)), "");
+        EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(folder_), kernel, small_grid, 3)), "");
         EXPECT_EQ(read(file), whole) << "written again";
     }
 }
 
 TEST_F(CacheTest, FoldersThatCannotBeMadeAreNoCache) {
     const CellKernel kernel = some_kernel(4);
-    const auto expected = run_kernel(*jit_with(""), kernel, grid, 4);
+    const auto expected = run_kernel(*jit_with(""), kernel, small_grid, 4);
     write(outside_ / "file", "no folder");
-    EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(outside_ / "file"), kernel, grid, 4)), "");
-    EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(outside_ / "file/x/y"), kernel, grid, 4)),
+    EXPECT_EQ(same_bits(expected, run_kernel(*jit_with(outside_ / "file"), kernel, small_grid, 4)),
               "");
-    EXPECT_EQ(same_bits(expected, run_kernel(*jit_with("/proc/no/such"), kernel, grid, 4)), "");
+    EXPECT_EQ(same_bits(expected,
+                        run_kernel(*jit_with(outside_ / "file/x/y"), kernel, small_grid, 4)),
+              "");
+    EXPECT_EQ(same_bits(expected, run_kernel(*jit_with("/proc/no/such"), kernel, small_grid, 4)),
+              "");
 }
 
 TEST_F(CacheTest, TheOldestGoWhereThereIsNoRoom) {
@@ -321,4 +326,4 @@ TEST_F(CacheTest, ThreadsMayShareABackend) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

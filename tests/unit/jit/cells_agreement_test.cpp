@@ -16,7 +16,7 @@
 #include <array>
 #include <span>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// Makes formulas of numbers and of vectors that are read by a cell or, inside of a sum, by a link.
@@ -132,4 +132,4 @@ TEST(CellsAgreement, RandomFormulas) { compare_random_formulas(1, 60); }
 TEST(CellsAgreement, NewRandomFormulas) { compare_random_formulas(new_seed() + 2, 20); }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,10 +10,10 @@
 
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
-constexpr std::uint32_t words[] = {
+constexpr std::uint32_t telling_words[] = {
     0x00000000, 0x80000000, 0x3f800000, 0xbf800000, 0x40000000,  // 0, −0, 1, −1, 2
     0x00000001, 0x80000001, 0x00400000, 0x00800000,              // denormals, the smallest normal
     0x7f800000, 0xff800000, 0x7fc00000, 0x7f7fffff, 0x41200000,  // infinities, NaN, largest, 10
@@ -64,7 +64,8 @@ private:
     }
 
     ValueId operand() {
-        if (stream_.chance(35)) return emit(Op::constant, {}, stream_.pick<std::uint32_t>(words));
+        if (stream_.chance(35))
+            return emit(Op::constant, {}, stream_.pick<std::uint32_t>(telling_words));
         return values_[stream_.below(values_.size())];
     }
 
@@ -102,4 +103,4 @@ TEST(JitChoices, AgreeWithTheInterpreter) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

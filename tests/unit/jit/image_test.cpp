@@ -15,7 +15,7 @@
 
 #include <cstring>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -188,4 +188,4 @@ TEST(Processor, CoresOfArmAreToldApartByTheirKinds) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 enum class Coupling { none, ring, all };
@@ -121,4 +121,4 @@ TEST(KernelParts, GiveTheBitsOfTheWhole) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

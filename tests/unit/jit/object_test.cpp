@@ -16,7 +16,7 @@
 #if defined(__x86_64__) && defined(__linux__)
 #include <elf.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Contains;
@@ -219,5 +219,5 @@ TEST(JitObject, KernelsForLinkedCellsAreRefused) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test
 #endif

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 constexpr double largest_exponent(float) { return 252; }
@@ -131,4 +131,4 @@ TEST(WholeNumbers, ScalingByConstants) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
-constexpr std::size_t count = 50;
+constexpr std::size_t cell_count = 50;
 
 /// φ(a, b) of the paper: is b above a, softly.
 double phi(double a, double b) { return (std::tanh(b - a) + 1) / 2; }
@@ -31,12 +31,12 @@ protected:
     static HandMadeTissue cells_of(const std::string& block) {
         HandMadeTissue tissue("domain { surface: sphere; precision: double }\nstage s: " + block +
                                   " { founders: 2; duration: 1 }\n",
-                              random_places(count, 21));
+                              random_places(cell_count, 21));
         tissue.values("p.x")[1] = 3;  // Touches no other.
         turn_at_random(tissue, 22);
         RandomStream random(23);
         const auto number = [&] { return static_cast<double>(random.symmetric()); };
-        for (std::size_t cell = 0; cell < count; ++cell) {
+        for (std::size_t cell = 0; cell < cell_count; ++cell) {
             tissue.values("r")[cell] = 0.12 + 0.04 * number();
             const Vector3d any{number(), number(), number()};
             const Vector3d normal = (1 / length(any)) * any;
@@ -52,7 +52,7 @@ protected:
     static HandMadeTissue cells_of(const std::string& block,
                                    const std::map<std::string, double>& parameters) {
         HandMadeTissue tissue = cells_of(block);
-        for (const auto& [name, value] : parameters) tissue.values(name).assign(count, value);
+        for (const auto& [name, value] : parameters) tissue.values(name).assign(cell_count, value);
         return tissue;
     }
     static Vector3d normal(HandMadeTissue& tissue, std::size_t cell) {
@@ -84,7 +84,7 @@ protected:
     static void expect_turning(HandMadeTissue& tissue, const std::vector<Vector3d>& turns) {
         Values scalars;
         std::vector<Vector3d> vectors;
-        for (std::size_t cell = 0; cell < count; ++cell) {
+        for (std::size_t cell = 0; cell < cell_count; ++cell) {
             const double w = tissue.values("frame.w")[cell];
             const Vector3d v = tissue.vector("frame", cell);
             const double rest = 1 - (w * w + dot(v, v));
@@ -100,7 +100,7 @@ protected:
 TEST_F(CellPrograms, GoToASurface) {
     HandMadeTissue tissue = cells_of("on_surface", {{"hold", 4}});
     std::vector<Vector3d> expected;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         expected.push_back((-4 * tissue.sensed(ModelPlane::off)[cell]) * normal(tissue, cell));
     }
     expect_rates(tissue, "p", expected);
@@ -111,7 +111,7 @@ TEST_F(CellPrograms, DieFarFromASurface) {
     const Formula& die = tissue.program().system_of(tissue.stage()).cells->die;
     const Values dies = tissue.run(plan_view(tissue.program(), die, tissue.stage()))[0];
     int deaths = 0;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         const bool is_far =
             std::abs(tissue.sensed(ModelPlane::off)[cell]) > tissue.values("r")[cell] / 2;
         EXPECT_EQ(dies[cell] != 0, is_far) << cell;
@@ -124,7 +124,7 @@ TEST_F(CellPrograms, DieFarFromASurface) {
 TEST_F(CellPrograms, AlignAnAxisWithAField) {
     HandMadeTissue tissue = cells_of("upright");
     std::vector<Vector3d> turns;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         turns.push_back(4.0 * rotation(axis_of(tissue, cell, {0, 1, 0}), normal(tissue, cell)));
     }
     expect_turning(tissue, turns);
@@ -140,7 +140,7 @@ TEST_F(CellPrograms, AlignAnAxisWithNeighbours) {
     const Values z = touching(tissue, [&](auto i, auto j) { return turn(i, j).z; });
     const Values around = touching(tissue, [](auto, auto) { return 1; });
     std::vector<Vector3d> turns;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         turns.push_back((1 / std::max(around[cell], 1.0)) * Vector3d{x[cell], y[cell], z[cell]});
     }
     expect_turning(tissue, turns);
@@ -149,9 +149,9 @@ TEST_F(CellPrograms, AlignAnAxisWithNeighbours) {
 /// Collision of section 4.2, k xₒⁿ with n = 1, and adhesion, of row 7.
 TEST_F(CellPrograms, CollideAndAdhere) {
     HandMadeTissue tissue = cells_of("solid", {{"stiffness", 10}, {"grip", 0.2}});
-    std::vector<Vector3d> expected(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t j = 0; j < count; ++j) {
+    std::vector<Vector3d> expected(cell_count);
+    for (std::size_t i = 0; i < cell_count; ++i) {
+        for (std::size_t j = 0; j < cell_count; ++j) {
             if (i == j) continue;
             const Vector3d way = tissue.vector("p", j) - tissue.vector("p", i);
             const double radii = tissue.values("r")[i] + tissue.values("r")[j];
@@ -174,13 +174,13 @@ TEST_F(CellPrograms, DivideUntilTheSurfaceIsCovered) {
         return contact_of(tissue, i, j) + 2 * overlap / tissue.values("r")[j];
     });
     Values expected;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         expected.push_back(2 * (1 - phi(4, crowd[cell])) - tissue.values("ripe")[cell]);
     }
     expect_near(tissue.rate("ripe"), expected);
     const Formula& divide = tissue.program().system_of(tissue.stage()).cells->divide;
     const Values divides = tissue.run(plan_view(tissue.program(), divide, tissue.stage()))[0];
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         EXPECT_EQ(divides[cell] != 0, tissue.values("ripe")[cell] > 1) << cell;
     }
 }
@@ -188,7 +188,7 @@ TEST_F(CellPrograms, DivideUntilTheSurfaceIsCovered) {
 TEST_F(CellPrograms, TakeTheSizeOfFeatures) {
     HandMadeTissue tissue = cells_of("sized", {{"scale", 1}, {"least", 0.005}, {"most", 0.05}});
     Values expected;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         const double feature = tissue.sensed(ModelPlane::feature)[cell];
         expected.push_back(std::min(0.05, std::max(0.005, feature)) - tissue.values("r")[cell]);
     }
@@ -212,7 +212,7 @@ TEST_F(CellPrograms, BecomeOneOfTwoKinds) {
         return contact_of(tissue, i, j) * value("a2", i) * value("a2", j);
     });
     Values c0, a0, a1, a2;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cell_count; ++cell) {
         const double heard = of_a0[cell] / std::max(of_a2[cell], 0.01), c = value("c0", cell);
         c0.push_back(-20 * heard + 10 * c * c / (1 + c * c) - 0.5 * c + 13);
         a1.push_back(0.95 * heard + phi(3, c) * c - value("a1", cell));
@@ -226,4 +226,4 @@ TEST_F(CellPrograms, BecomeOneOfTwoKinds) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Contains;
@@ -37,11 +37,6 @@ constexpr const char* scale =
     "domain { surface: sphere }\n"
     "stage cover: scale { founders: 6; duration: 40 }\n"
     "stage on: scale { ripe: ripe; remove: ripe > 0.5; until: steady(0.01) }\n";
-
-const System& system_named(const Program& program, std::string_view name) {
-    return *std::ranges::find_if(program.systems,
-                                 [&](const System& each) { return each.name == name; });
-}
 
 TEST(CellsInTheTree, KeepBasesAndRestarts) {
     const auto script = check_text(
@@ -208,4 +203,4 @@ TEST(CellsInCompletions, AreKnown) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

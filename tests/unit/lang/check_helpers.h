@@ -5,12 +5,14 @@
 #include "lang/syntax/parse.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// A text and what the front end made of it. Held by pointer: views point into its sources.
 struct Checked {
@@ -46,10 +48,22 @@ inline std::unique_ptr<Checked> check_text(const std::string& text,
     return result;
 }
 
+/// Statements of a stage, for tests of other parts of a script.
+inline constexpr const char* any_stage = "\nsystem_name: turing_spots\n";
+
+/// The system of a name that the script has.
+inline const System& system_named(const Program& program, std::string_view name) {
+    for (const System& system : program.systems) {
+        if (system.name == name && !system.built_in) return system;
+    }
+    ADD_FAILURE() << "there is no system " << name;
+    return program.systems.front();
+}
+
 /// The number that a formula is, or a number that no test expects.
 inline double only_number(const Formula& formula) {
     const auto* number = formula.nodes.front().as<double>();
     return formula.nodes.size() == 1 && number != nullptr ? *number : -1e300;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// The first fault of the rate of a number in a block of cells, without its place; "" if none.
@@ -87,4 +87,4 @@ TEST(CheckLinks, FieldsHaveNoNeighboursAndCellsNoGrid) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

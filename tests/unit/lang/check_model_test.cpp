@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -50,4 +50,4 @@ TEST(CheckModel, HowAModelStands) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

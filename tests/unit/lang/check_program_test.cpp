@@ -6,20 +6,13 @@
 
 #include <algorithm>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const System& system_named(const Program& program, const std::string& name) {
-    const auto found = std::find_if(program.systems.begin(), program.systems.end(),
-                                    [&](const System& system) { return system.name == name; });
-    EXPECT_NE(found, program.systems.end());
-    return *found;
-}
 
 ItemId item_named(const System& system, const std::string& name) {
     for (const ItemId item : system.items()) {
@@ -250,4 +243,4 @@ TEST(CheckProgram, CheckingAgainAddsNoSources) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -8,16 +8,14 @@
 #include <cmath>
 #include <numbers>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
-
-constexpr const char* stage = "\nsystem_name: turing_spots\n";
 
 TEST(CheckSurface, APositionIsThreeFormulas) {
     const auto checked = check_text(
         std::string("domain {\n  grid: 32, 16\n  surface: cos(2*pi*sx), sin(2*pi*sx), 3 * sy\n"
                     "  metric: 0\n  unit: 1/20\n}") +
-        stage);
+        any_stage);
     ASSERT_TRUE(checked->program) << ::testing::PrintToString(checked->faults());
     const auto& surface = checked->program->domain.surface;
     ASSERT_TRUE(surface);
@@ -32,11 +30,11 @@ TEST(CheckSurface, APositionIsThreeFormulas) {
 }
 
 TEST(CheckSurface, ByDefaultItHasItsMetricAndNoUnit) {
-    const auto checked = check_text(std::string("domain { surface: sx, sy, 0 }") + stage);
+    const auto checked = check_text(std::string("domain { surface: sx, sy, 0 }") + any_stage);
     ASSERT_TRUE(checked->program);
     EXPECT_TRUE(checked->program->domain.surface->has_metric);
     EXPECT_FALSE(checked->program->domain.surface->unit);
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::IsEmpty;
@@ -13,12 +13,12 @@ using ::testing::IsEmpty;
 constexpr const char* decay = "system decay { u: 1; k: 2; u' = lap(u) - k * u }\n";
 
 /// A stage of a small system; its statements are on line 2, from column 18.
-std::unique_ptr<Checked> stage(const std::string& statements) {
+std::unique_ptr<Checked> checked_stage(const std::string& statements) {
     return check_text(std::string(decay) + "stage s: decay { " + statements + " }\n");
 }
 
 StageTime time_of(const std::string& statements) {
-    const auto checked = stage(statements);
+    const auto checked = checked_stage(statements);
     EXPECT_THAT(checked->faults(), IsEmpty()) << statements;
     return checked->program ? checked->program->stages[0].time : StageTime{};
 }
@@ -69,7 +69,7 @@ TEST(CheckTime, ConditionsReplaceOnlyEndsOfOtherLevels) {
 
 TEST(CheckTime, HowAStageEnds) {
     const auto end_of = [](const std::string& statements) {
-        const auto checked = stage(statements);
+        const auto checked = checked_stage(statements);
         const Stage& made = checked->program->stages[0];
         return std::pair{made.iterations, made.interval};
     };
@@ -129,4 +129,4 @@ TEST(CheckTime, CoarseStarts) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -7,18 +7,10 @@
 
 #include <algorithm>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::IsEmpty;
-
-const System& system_named(const Checked& checked, std::string_view name) {
-    for (const System& system : checked.program->systems) {
-        if (system.name == name && !system.built_in) return system;
-    }
-    ADD_FAILURE() << "there is no system " << name;
-    return checked.program->systems.front();
-}
 
 /// The program as text, with all systems in use.
 std::string program_of(const std::string& text) {
@@ -69,7 +61,7 @@ TEST(Functions, AnArgumentIsComputedOnce) {
         "u' = v + w; v' = 1 }\n" +
         run_s);
     ASSERT_THAT(checked->faults(), IsEmpty());
-    const System& system = system_named(*checked, "s");
+    const System& system = system_named(*checked->program, "s");
     const auto draws = [&](std::size_t item) {
         const auto& nodes = system.quantities[ItemId(item)].start.nodes;
         return std::count_if(nodes.begin(), nodes.end(),
@@ -211,7 +203,7 @@ TEST(Parameters, RangesAndDocs) {
         "system s: base { p: 0.75; q: 2 in 1 .. 3 ## new\nabout: \"Waves.\" }\n"
         "stage a: base { p: 0.9 }\n");
     ASSERT_THAT(right->faults(), IsEmpty());
-    const System& base = system_named(*right, "base");
+    const System& base = system_named(*right->program, "base");
     EXPECT_EQ(base.doc, "Two words.");
     EXPECT_EQ(base.title, "The Base");
     EXPECT_EQ(base.cite, "A. Author (1999)");
@@ -220,7 +212,7 @@ TEST(Parameters, RangesAndDocs) {
     ASSERT_TRUE(base.quantities[ItemId(0)].range);
     EXPECT_EQ(base.quantities[ItemId(0)].range->high, 1);
     EXPECT_EQ(base.quantities[ItemId(0)].range->step, 0.1);
-    const System& derived = system_named(*right, "s");
+    const System& derived = system_named(*right->program, "s");
     EXPECT_EQ(derived.cite, base.cite);
     EXPECT_EQ(derived.about, "Waves.");
     EXPECT_EQ(derived.quantities[ItemId(0)].doc, "rate");
@@ -230,4 +222,4 @@ TEST(Parameters, RangesAndDocs) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

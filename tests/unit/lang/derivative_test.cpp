@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// A stage on a small grid; u goes from 0.2 to 1.4 over its columns, v from 2 to 0.5.
@@ -229,4 +229,4 @@ TEST(JacobianBound, OfLongFormulasIsFound) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

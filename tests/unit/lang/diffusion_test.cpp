@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// The factors of u that are not 0, as "place: largest value".
@@ -82,4 +82,4 @@ TEST(Diffusion, OfWhatDecays) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -96,4 +96,4 @@ TEST(DomainLengths, ExtentsFitTheGrid) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -8,7 +8,7 @@
 #include <array>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 std::string spelling(Function function) { return std::string(info(function).spelling); }
@@ -68,4 +68,4 @@ TEST(Functions, HaveAMeaningOnTheDomainsOfTheirRow) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using namespace cascade::lowering;
@@ -208,4 +208,4 @@ TEST(GraphPasses, TheVerifierFindsWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

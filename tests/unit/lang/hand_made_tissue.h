@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// The cells of the last stage of a script in double precision. Their links lead to all others.
 class HandMadeTissue {
@@ -182,4 +182,4 @@ private:
     std::vector<double> aggregates_;
 };
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 struct HintCase {
     std::string_view frame;   ///< Where the text stands: see hints_test.cpp.
@@ -259,4 +259,4 @@ inline constexpr HintCase hint_cases[] = {
      "color: palette(u, 0, 1, \"grey\")"},
 };
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -20,7 +20,7 @@
 #include <sstream>
 #include <set>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// A script in whose place `@` a case stands.
@@ -236,4 +236,4 @@ TEST(Hints, AreAllTried) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

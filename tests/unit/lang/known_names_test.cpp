@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Contains;
@@ -94,4 +94,4 @@ TEST_F(KnownNames, NamesMeanWhatTheyDoInTheirStage) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

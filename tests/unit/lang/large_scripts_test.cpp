@@ -7,7 +7,7 @@
 
 #include <chrono>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -81,4 +81,4 @@ TEST(LargeScripts, HaveShortDumps) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -1,3 +1,4 @@
+// Notes of the library: what is said of a file, and what is searched in it.
 #include "lang/print/library_note.h"
 
 #include "tests/unit/lang/check_helpers.h"
@@ -7,19 +8,20 @@
 namespace cascade {
 namespace {
 
-constexpr LibraryText text = {"example.cascade",
-                              "# Example: it grows\n# and grows. Fast.\n# A. Author, 1999.\n\n"
-                              "system example {\n  u: 1  ## the Activator\n  u' = u\n}\n"};
+constexpr LibraryText example_text = {
+    "example.cascade",
+    "# Example: it grows\n# and grows. Fast.\n# A. Author, 1999.\n\n"
+    "system example {\n  u: 1  ## the Activator\n  u' = u\n}\n"};
 
 TEST(LibraryNote, ReadsTheHead) {
-    const LibraryNote note = note_of(text);
+    const LibraryNote note = note_of(example_text);
     EXPECT_EQ(note.about, "Example: it grows and grows. Fast.");
     EXPECT_EQ(note.lines, (std::vector<std::string>{"Example: it grows", "and grows. Fast.",
                                                     "A. Author, 1999."}));
 }
 
 TEST(LibraryNote, FindsWords) {
-    const LibraryNote note = note_of(text);
+    const LibraryNote note = note_of(example_text);
     for (const char* word : {"exam", "GROWS", "author, 19", "activator"}) {
         EXPECT_TRUE(note.mentions(word)) << word;
     }
@@ -27,10 +29,11 @@ TEST(LibraryNote, FindsWords) {
 }
 
 TEST(LibraryNote, AddsAStageOnlyWhereThereIsNone) {
-    EXPECT_EQ(starting_script(text), std::string(text.text) + "\nstage first: example { }\n");
+    EXPECT_EQ(starting_script(example_text),
+              std::string(example_text.text) + "\nstage first: example { }\n");
     for (const LibraryText& each : library_texts()) {
         EXPECT_FALSE(note_of(each).about.empty()) << each.file_name;
-        const auto checked = testing::check_text(starting_script(each));
+        const auto checked = test::check_text(starting_script(each));
         EXPECT_EQ(checked->faults(), std::vector<std::string>{}) << each.file_name;
         ASSERT_TRUE(checked->program) << each.file_name;
         EXPECT_FALSE(checked->program->stages.empty()) << each.file_name;

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Contains;
@@ -92,4 +92,4 @@ TEST(Library, IsSearchedForNearNames) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -14,11 +14,12 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// The only pass of a plan that has no more (and no aggregates).
 inline BoundKernel only_pass(StepPlan plan) {
@@ -159,4 +160,40 @@ private:
     std::vector<State> stages_;
 };
 
-}  // namespace cascade::testing
+inline const std::string small_grid = "domain { grid: 8, 4 }\n";
+
+/// A system with a species `u` (of no meaning) and a parameter `p` that is read.
+inline std::string system_with(const std::string& p) {
+    return "system s { u: 0; p: " + p + "; u' = p }\nstage one: s {}\n";
+}
+
+/// The values of a formula over the cells of a domain.
+class FormulaValues {
+public:
+    FormulaValues(const std::string& domain, const std::string& formula)
+        : checked_(check_text(domain + system_with(formula))) {
+        EXPECT_TRUE(checked_->program) << ::testing::PrintToString(checked_->faults());
+        if (!checked_->program) return;
+        run_ = std::make_unique<ScriptRun>(*checked_->program);
+        run_->start(0);
+        uniform_ = checked_->program->stages[0].uniform[ItemId(1)];
+    }
+    float at(std::int64_t i, std::int64_t j, std::int64_t k = 0) {
+        return uniform_ ? run_->number(0, "p") : run_->field(0, "p").at(i, j, k);
+    }
+    float number() { return at(0, 0); }
+    std::size_t count_ones(std::int64_t width, std::int64_t height) {
+        std::size_t count = 0;
+        for (std::int64_t j = 0; j < height; ++j) {
+            for (std::int64_t i = 0; i < width; ++i) count += at(i, j) == 1.0f;
+        }
+        return count;
+    }
+
+private:
+    std::unique_ptr<Checked> checked_;
+    std::unique_ptr<ScriptRun> run_;
+    bool uniform_ = false;
+};
+
+}  // namespace cascade::test

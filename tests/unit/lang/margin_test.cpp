@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// A condition in u, which goes from 0 to 1 over 101 columns, and its margin.
@@ -55,4 +55,4 @@ TEST(Margin, TakesConditionsOfAnyDepth) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

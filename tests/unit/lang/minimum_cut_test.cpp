@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using lowering::MinimumCut;
@@ -77,4 +77,4 @@ TEST(MinimumCut, IsTheCheapestOfAllChoices) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

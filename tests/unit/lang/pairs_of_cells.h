@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 using Values = HandMadeTissue::Values;
 
@@ -80,4 +80,4 @@ inline void expect_near(const Values& values, const Values& expected, double err
     }
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -1,6 +1,6 @@
 // The parser: functions, families, ranges, systems from systems, doc comments and `use`.
 #include "lang/syntax/parse.h"
-#include "script_faults.h"
+#include "parsed_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,33 +11,11 @@
 namespace cascade {
 namespace {
 
+using test::expression_of;
+using test::parse_text;
+using test::Parsed;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-struct Parsed {
-    std::string tree;
-    std::vector<std::string> faults;
-    ast::Script script;
-};
-
-Parsed parse_text(const std::string& text) {
-    static Sources sources;  // The script's words are views into it.
-    Diagnostics diagnostics;
-    const SourceId source = sources.add("test", text);
-    Parsed parsed;
-    parsed.script = parse(source, sources, diagnostics);
-    parsed.tree = print_ast(parsed.script, sources);
-    parsed.faults = list_faults(diagnostics, sources);
-    return parsed;
-}
-
-/// An expression in prefix form.
-std::string expression_of(const std::string& text) {
-    const Parsed parsed = parse_text("system_name: s\nq: " + text);
-    EXPECT_THAT(parsed.faults, IsEmpty()) << text;
-    const std::string head = "system_name: s  # line 1\n    q: ";
-    return parsed.tree.substr(head.size(), parsed.tree.size() - head.size() - 1);
-}
 
 TEST(Expressions, MembersAndAggregates) {
     const std::vector<std::pair<std::string, std::string>> cases = {

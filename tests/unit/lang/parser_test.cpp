@@ -1,5 +1,6 @@
 // The parser: what binds to what, where statements and blocks end.
 #include "lang/syntax/parse.h"
+#include "parsed_text.h"
 #include "script_faults.h"
 
 #include <gmock/gmock.h>
@@ -15,36 +16,11 @@
 namespace cascade {
 namespace {
 
+using test::expression_of;
+using test::parse_text;
+using test::tree_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-struct Parsed {
-    std::string tree;
-    std::vector<std::string> faults;
-};
-
-Parsed parse_text(const std::string& text) {
-    Sources sources;
-    Diagnostics diagnostics;
-    const SourceId source = sources.add("test", text);
-    const ast::Script script = parse(source, sources, diagnostics);
-    return {print_ast(script, sources), list_faults(diagnostics, sources)};
-}
-
-/// The tree of a text without faults.
-std::string tree_of(const std::string& text) {
-    const Parsed parsed = parse_text(text);
-    EXPECT_THAT(parsed.faults, IsEmpty()) << text;
-    return parsed.tree;
-}
-
-/// An expression in prefix form.
-std::string expression_of(const std::string& text) {
-    const std::string tree = tree_of("system_name: s\nq: " + text);
-    const std::string head = "system_name: s  # line 1\n    q: ";
-    EXPECT_EQ(tree.substr(0, head.size()), head);
-    return tree.substr(head.size(), tree.size() - head.size() - 1);
-}
 
 TEST(Expressions, BindAsTheSpecificationSays) {
     const std::vector<std::pair<std::string, std::string>> cases = {

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Contains;
@@ -254,4 +254,4 @@ TEST(PlanFaults, AreExplained) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Contains;
@@ -129,4 +129,4 @@ TEST(Settings, TakeTheirWords) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -1,3 +1,4 @@
+// Listings of systems: defaults, ranges and what is said of them.
 #include "lang/print/system_listing.h"
 
 #include "lang/syntax/parse.h"
@@ -7,7 +8,7 @@
 namespace cascade {
 namespace {
 
-constexpr const char* text = R"(
+constexpr const char* listed_systems = R"(
 ## Grows by itself.
 system grow {
   title: "Growth"
@@ -26,7 +27,7 @@ system more: grow { feed: 2 }
 struct Listing : ::testing::Test {
     Sources sources;
     Diagnostics diagnostics;
-    ast::Script script = parse(sources.add("test.cascade", text), sources, diagnostics);
+    ast::Script script = parse(sources.add("test.cascade", listed_systems), sources, diagnostics);
 };
 
 TEST_F(Listing, ShowsDefaultsRangesAndDocs) {

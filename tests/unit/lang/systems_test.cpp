@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -229,4 +229,4 @@ ka: 0.2 * 1/16
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

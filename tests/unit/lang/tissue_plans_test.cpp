@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 constexpr double rounding = 1e-14;
@@ -329,4 +329,4 @@ TEST(TissueKernels, FindADistanceOnce) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -1,3 +1,4 @@
+// Features of patterns against patterns that are known.
 #include "measure/features.h"
 #include "measure/regions.h"
 #include "measure/spectrum.h"
@@ -13,7 +14,7 @@
 namespace cascade::measure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Values of f at the cell's centre, in cells.
 Samples sampled(std::size_t width, std::size_t height, std::size_t depth,

@@ -14,7 +14,7 @@ inline TriangleMesh mesh_of_surface(const SweptSurface& surface, const SweptDeta
 
 /// Of radius 1, half of it below y = 0.
 inline TriangleMesh ball(const SweptDetail& detail) {
-    constexpr double pi = std::numbers::pi;
+    using std::numbers::pi;
     return mesh_of_surface(surface_of({[](double t, double) { return std::sin(pi * t); },
                                        [](double t) {
                                            return Vector3d{0, -std::cos(pi * t), 0};

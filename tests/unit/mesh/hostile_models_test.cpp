@@ -16,12 +16,12 @@ namespace cascade {
 namespace {
 
 using test::bytes_of;
+using test::RandomStream;
 using test::SmallModel;
 using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::RandomStream;
 
 /// "" for a model that became a surface, else the message; the test fails where something does not
 /// fit together.

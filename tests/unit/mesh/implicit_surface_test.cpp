@@ -1,6 +1,7 @@
 // Surfaces of functions whose areas, volumes and topology are known.
 #include "mesh/implicit_surface.h"
 
+#include "tests/support/never.h"
 #include "unit/mesh/measures.h"
 
 #include <gmock/gmock.h>
@@ -22,11 +23,11 @@ ImplicitFunction each(F f) {
     };
 }
 
-const std::atomic<bool> go_on{false};
+using test::never;
 
 template <typename F>
 SurfaceMesh surface(F f, const ImplicitRequest& request) {
-    Result<SurfaceMesh> made = implicit_surface(each(f), request, go_on);
+    Result<SurfaceMesh> made = implicit_surface(each(f), request, never);
     EXPECT_TRUE(made) << made.error().message;
     if (!made) return {};
     test::expect_closed(*made);
@@ -39,7 +40,7 @@ SurfaceMesh surface(F f, const ImplicitRequest& request) {
 
 template <typename F>
 std::string fault(F f, const ImplicitRequest& request = {}) {
-    const auto made = implicit_surface(each(f), request, go_on);
+    const auto made = implicit_surface(each(f), request, never);
     return made ? std::string("made") : made.error().message;
 }
 
@@ -126,7 +127,7 @@ TEST(ImplicitSurface, EdgesOfAFunctionAreBluntedAndClosed) {
     EXPECT_NEAR(test::volume_of(mesh), 1, 0.02);
     // One that only says inside or outside.
     const auto sign = [](Vector3d p) { return length(p) < 0.7 ? 1.0 : -1.0; };
-    const auto made = implicit_surface(each(sign), {{-1, -1, -1}, {1, 1, 1}, 0.1}, go_on);
+    const auto made = implicit_surface(each(sign), {{-1, -1, -1}, {1, 1, 1}, 0.1}, never);
     ASSERT_TRUE(made);
     test::expect_closed(*made);
     for (const Vector3d& p : made->points) EXPECT_NEAR(length(p), 0.7, 1e-9);
@@ -141,7 +142,7 @@ TEST(ImplicitSurface, RandomWavesAlwaysClose) {
         const double wall = 0.9 - std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         return std::min(f, wall);
     };
-    const auto made = implicit_surface(each(waves), {{-1, -1, -1}, {1, 1, 1}, 0.09}, go_on);
+    const auto made = implicit_surface(each(waves), {{-1, -1, -1}, {1, 1, 1}, 0.09}, never);
     ASSERT_TRUE(made);
     test::expect_closed(*made);
     EXPECT_GT(facts_of(*made).triangles, 1000u);
@@ -198,7 +199,7 @@ TEST(ImplicitSurface, IsGivenUpAndTellsHowFarItIs) {
     const std::atomic<bool> stop{true};
     EXPECT_FALSE(implicit_surface(each(ball), {}, stop));
     std::vector<double> told;
-    ASSERT_TRUE(implicit_surface(each(ball), {{-1, -1, -1}, {1, 1, 1}, 0.2}, go_on,
+    ASSERT_TRUE(implicit_surface(each(ball), {{-1, -1, -1}, {1, 1, 1}, 0.2}, never,
                                  [&](double part) { told.push_back(part); }));
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_EQ(told.back(), 1);

@@ -3,6 +3,7 @@
 
 #include "mesh/flat.h"
 #include "mesh/shapes.h"
+#include "tests/support/never.h"
 #include "unit/mesh/measures.h"
 #include "unit/mesh/meshes.h"
 
@@ -13,11 +14,11 @@
 namespace cascade {
 namespace {
 
-const std::atomic<bool> go_on{false};
+using test::never;
 
 Simplified simplified(const SurfaceMesh& mesh, std::size_t triangles,
                       const KeptPattern& pattern = {}) {
-    auto made = simplify(mesh, triangles, pattern, go_on);
+    auto made = simplify(mesh, triangles, pattern, never);
     EXPECT_TRUE(made) << made.error().message;
     return *std::move(made);
 }

@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 SweptSurface sphere() {
     return [](double t, double s) {

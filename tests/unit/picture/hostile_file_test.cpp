@@ -114,11 +114,11 @@ TEST(HostilePixels, ComeBackOrAreRefused) {
     }
     EXPECT_FALSE(parse_pixel_file(file + "0"));
     EXPECT_FALSE(parse_pixel_file(file + "0000"));
-    const std::string red = print_pixel_file({1, 1, {0.5F}}, PictureChannel::red);
-    EXPECT_FALSE(parse_pixel_file(red));
-    ASSERT_TRUE(parse_pixel_file(file + red, PictureChannel::red));
-    EXPECT_EQ(parse_pixel_file(file + red, PictureChannel::red)->values.size(), 1u);
-    EXPECT_EQ(parse_pixel_file(file + red)->values.size(), 6u);
+    const std::string red_file = print_pixel_file({1, 1, {0.5F}}, PictureChannel::red);
+    EXPECT_FALSE(parse_pixel_file(red_file));
+    ASSERT_TRUE(parse_pixel_file(file + red_file, PictureChannel::red));
+    EXPECT_EQ(parse_pixel_file(file + red_file, PictureChannel::red)->values.size(), 1u);
+    EXPECT_EQ(parse_pixel_file(file + red_file)->values.size(), 6u);
     flip_every_bit(file, expect_sound_pixels);
     std::mt19937 random(6);
     for (int round = 0; round < 20'000; ++round) expect_sound_pixels(shaken(file, random));

@@ -1,12 +1,18 @@
 // Maps: which tile lands where, and what an empty place looks like.
 #include "picture/map.h"
 
+#include "plain_colours.h"
+
 #include <gtest/gtest.h>
 
 #include <vector>
 
 namespace cascade {
 namespace {
+
+using test::blue;
+using test::green;
+using test::red;
 
 /// Position of the first pixel of a colour, row by row; −1 where there is none.
 struct Place {
@@ -31,8 +37,6 @@ std::int64_t ink_right_of(const Image& image, std::int64_t x) {
     }
     return count;
 }
-
-constexpr Colour red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
 
 TEST(Map, TheFirstRowIsTheLowest) {
     const std::vector<MapTile> tiles = {{Image(64, 64, red), ""},

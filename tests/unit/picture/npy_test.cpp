@@ -39,13 +39,13 @@ std::string bytes_of(std::initializer_list<T> values) {
     return bytes;
 }
 
-std::vector<double> values_of(const std::string& file) {
+std::vector<double> array_values(const std::string& file) {
     const Result<NpyArray> array = parse_npy(file);
     EXPECT_TRUE(array) << (array ? "" : array.error().message);
     return array ? array->values : std::vector<double>{};
 }
 
-std::string fault_of(const std::string& file) {
+std::string array_fault(const std::string& file) {
     const Result<NpyArray> array = parse_npy(file);
     return array ? "no fault" : array.error().message;
 }
@@ -76,7 +76,7 @@ TEST(ParseNpy, OneDimensionIsOneRow) {
 
 TEST(ParseNpy, NumbersOfAllTypes) {
     const auto read = [](const std::string& type, const std::string& elements) {
-        return values_of(npy(dictionary(type, "(1, 2)"), elements));
+        return array_values(npy(dictionary(type, "(1, 2)"), elements));
     };
     EXPECT_THAT(read("<f4", bytes_of<float>({-0.5F, 3})), ElementsAre(-0.5F, 3));
     EXPECT_THAT(read("<f8", bytes_of<double>({0.1, -2})), ElementsAre(0.1F, -2));
@@ -95,11 +95,11 @@ TEST(ParseNpy, NumbersOfAllTypes) {
 }
 
 TEST(ParseNpy, BigEndianNumbers) {
-    EXPECT_THAT(values_of(npy(dictionary(">f4", "(1, 1)"), std::string("\x3f\x80\0\0", 4))),
+    EXPECT_THAT(array_values(npy(dictionary(">f4", "(1, 1)"), std::string("\x3f\x80\0\0", 4))),
                 ElementsAre(1));
-    EXPECT_THAT(values_of(npy(dictionary(">i2", "(2,)"), std::string("\x01\x00\xff\xfe", 4))),
+    EXPECT_THAT(array_values(npy(dictionary(">i2", "(2,)"), std::string("\x01\x00\xff\xfe", 4))),
                 ElementsAre(256, -2));
-    EXPECT_THAT(values_of(npy(dictionary(">f8", "(1,)"), std::string("\xc0\0\0\0\0\0\0\0", 8))),
+    EXPECT_THAT(array_values(npy(dictionary(">f8", "(1,)"), std::string("\xc0\0\0\0\0\0\0\0", 8))),
                 ElementsAre(-2));
 }
 
@@ -109,7 +109,7 @@ TEST(ParseNpy, HeadersInAnyFormThatPythonReads) {
           "  { 'fortran_order' : False , 'shape' : ( 1 , 2 , ) , 'descr' : '<f4' , }   \n",
           "{'descr': '<f4', 'fortran_order': False, 'shape': (1L, 2L), }",
           "{'descr': '<f4',\n 'fortran_order': False,\n\t'shape': (1, 2)}\n"}) {
-        EXPECT_THAT(values_of(npy(text, two_floats)), ElementsAre(1, 2)) << text;
+        EXPECT_THAT(array_values(npy(text, two_floats)), ElementsAre(1, 2)) << text;
     }
 }
 
@@ -119,20 +119,20 @@ TEST(ParseNpy, VersionsTwoAndThree) {
         std::string file = std::string("\x93NUMPY") + version + '\0';
         file += static_cast<char>(text.size());
         file += std::string(3, '\0') + text + two_floats;
-        EXPECT_THAT(values_of(file), ElementsAre(1, 2));
+        EXPECT_THAT(array_values(file), ElementsAre(1, 2));
     }
 }
 
 TEST(ParseNpy, OtherFilesAndVersions) {
-    EXPECT_EQ(fault_of(""), "it is not a .npy file");
-    EXPECT_EQ(fault_of("\x93NUMP"), "it is not a .npy file");
-    EXPECT_EQ(fault_of("PK\x03\x04 an archive"), "it is not a .npy file");
+    EXPECT_EQ(array_fault(""), "it is not a .npy file");
+    EXPECT_EQ(array_fault("\x93NUMP"), "it is not a .npy file");
+    EXPECT_EQ(array_fault("PK\x03\x04 an archive"), "it is not a .npy file");
     std::string file = npy(dictionary("<f4", "(1, 2)"), two_floats);
     file[6] = 4;
-    EXPECT_EQ(fault_of(file), "its format version 4.0 is not known");
+    EXPECT_EQ(array_fault(file), "its format version 4.0 is not known");
     file[6] = 1;
     file[7] = 9;
-    EXPECT_EQ(fault_of(file), "its format version 1.9 is not known");
+    EXPECT_EQ(array_fault(file), "its format version 1.9 is not known");
 }
 
 TEST(ParseNpy, FortranOrder) {
@@ -144,17 +144,17 @@ TEST(ParseNpy, FortranOrder) {
 }
 
 TEST(ParseNpy, DimensionsThatNoFieldHas) {
-    EXPECT_EQ(fault_of(npy(dictionary("<f4", "(1, 1, 2, 1)"), two_floats)),
+    EXPECT_EQ(array_fault(npy(dictionary("<f4", "(1, 1, 2, 1)"), two_floats)),
               "its array has 4 dimensions");
-    EXPECT_EQ(fault_of(npy(dictionary("<f4", "()"), bytes_of<float>({1}))),
+    EXPECT_EQ(array_fault(npy(dictionary("<f4", "()"), bytes_of<float>({1}))),
               "it holds one number, not an array of rows and columns");
-    EXPECT_EQ(fault_of(npy(dictionary("<f4", "(0, 2)"), "")), "its array has no elements");
-    EXPECT_EQ(fault_of(npy(dictionary("<f4", "(0,)"), "")), "its array has no elements");
+    EXPECT_EQ(array_fault(npy(dictionary("<f4", "(0, 2)"), "")), "its array has no elements");
+    EXPECT_EQ(array_fault(npy(dictionary("<f4", "(0,)"), "")), "its array has no elements");
 }
 
 TEST(ParseNpy, TypesThatAreNoNumbers) {
     const auto fault = [](const std::string& type) {
-        return fault_of(npy(dictionary(type, "(1, 2)"), two_floats));
+        return array_fault(npy(dictionary(type, "(1, 2)"), two_floats));
     };
     EXPECT_EQ(fault("|O"), "its elements are Python objects, not numbers");
     EXPECT_EQ(fault("<c8"), "its elements are of type '<c8', which cannot be read");
@@ -163,23 +163,24 @@ TEST(ParseNpy, TypesThatAreNoNumbers) {
     EXPECT_EQ(fault("|f4"), "its elements are of type '|f4', which cannot be read");
     EXPECT_EQ(fault("f4"), "its elements are of type 'f4', which cannot be read");
     EXPECT_EQ(fault("\x1b[31m"), "its elements are of type '?[31m', which cannot be read");
-    EXPECT_EQ(fault_of(npy("{'descr': [('a', '<f4'), ('b]', '<f4', (2,))], 'fortran_order': False,"
-                           " 'shape': (1,), }",
-                           two_floats)),
+    EXPECT_EQ(array_fault(
+                  npy("{'descr': [('a', '<f4'), ('b]', '<f4', (2,))], 'fortran_order': False,"
+                      " 'shape': (1,), }",
+                      two_floats)),
               "its elements are records, not numbers");
 }
 
 TEST(ParseNpy, MissingAndSurplusElements) {
     const std::string text = dictionary("<f4", "(1, 2)");
-    EXPECT_EQ(fault_of(npy(text, two_floats.substr(0, 7))),
+    EXPECT_EQ(array_fault(npy(text, two_floats.substr(0, 7))),
               "it has 7 bytes of elements instead of 8");
     EXPECT_EQ(parse_npy(npy(text, "")).error().hint, "the file is cut off");
-    EXPECT_EQ(fault_of(npy(text, two_floats + "x")), "it has 9 bytes of elements instead of 8");
+    EXPECT_EQ(array_fault(npy(text, two_floats + "x")), "it has 9 bytes of elements instead of 8");
 }
 
 TEST(ParseNpy, SizesThatOverflow) {
     const auto fault = [](const std::string& shape) {
-        return fault_of(npy(dictionary("<f8", shape), two_floats));
+        return array_fault(npy(dictionary("<f8", shape), two_floats));
     };
     EXPECT_EQ(fault("(4294967296, 4294967296)"),
               "its array of 4294967296 × 4294967296 elements is too large");
@@ -203,17 +204,17 @@ TEST(ParseNpy, MalformedHeaders) {
           "{'descr': '<f4' 'fortran_order': False, 'shape': (1, 2)}",
           "{'descr': '<f4, 'fortran_order': False, 'shape': (1, 2)}",
           "{'descr': [('a', '<f4'), 'fortran_order': False, 'shape': (1, 2)}"}) {
-        EXPECT_EQ(fault_of(npy(text, two_floats)), "its header is malformed") << text;
+        EXPECT_EQ(array_fault(npy(text, two_floats)), "its header is malformed") << text;
     }
 }
 
 TEST(ParseNpy, HeadersThatEndTooEarlyOrNeverEnd) {
     const std::string file = npy(dictionary("<f4", "(1, 2)"), "");
     for (std::size_t size = 6; size < file.size(); ++size) {
-        EXPECT_EQ(fault_of(file.substr(0, size)), "it ends within the header") << size;
+        EXPECT_EQ(array_fault(file.substr(0, size)), "it ends within the header") << size;
     }
     const std::string huge("\x93NUMPY\x02\x00\xff\xff\xff\xff{'descr': '<f4'", 27);
-    EXPECT_EQ(fault_of(huge), "its header of 4294967295 bytes is too long");
+    EXPECT_EQ(array_fault(huge), "its header of 4294967295 bytes is too long");
 }
 
 Field three_by_two() {

@@ -1,6 +1,8 @@
 // Fields to pixels: ranges, palettes, channels, enlarging.
 #include "picture/image.h"
 
+#include "tests/support/not_finite.h"
+
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -9,8 +11,8 @@
 namespace cascade {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::infinity;
+using test::nan;
 constexpr Colour magenta{1, 0, 1};
 
 /// One row of cells; the halo around it holds values that must never be looked at.

@@ -1,6 +1,7 @@
 // Contact sheets: where pictures and labels land.
 #include "picture/font.h"
 #include "picture/image.h"
+#include "plain_colours.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +11,8 @@
 namespace cascade {
 namespace {
 
-constexpr Colour red{1, 0, 0};
-constexpr Colour blue{0, 0, 1};
+using test::blue;
+using test::red;
 
 /// The smallest box that holds all pixels of a colour.
 struct Box {

@@ -1,14 +1,18 @@
 // Stored numbers and amounts of light.
 #include "picture/srgb.h"
 
+#include "tests/support/not_finite.h"
+
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdint>
-#include <limits>
 
 namespace cascade {
 namespace {
+
+using test::infinity;
+using test::nan;
 
 TEST(Srgb, LevelsComeBack) {
     for (unsigned level = 0; level < 256; ++level) {
@@ -37,14 +41,13 @@ TEST(Srgb, PowersAreThoseOfTheLibrary) {
 }
 
 TEST(Srgb, WhatIsNoAmountIsClamped) {
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const float none : {nan, -1.0F, -std::numeric_limits<float>::infinity()}) {
+    for (const float none : {nan, -1.0F, -infinity}) {
         EXPECT_EQ(light_of(none), 0);
         EXPECT_EQ(stored_of(none), 0);
         EXPECT_EQ(level_of(none, 65535), 0u);
     }
     EXPECT_EQ(stored_of(7.0F), 1);
-    EXPECT_EQ(level_of(std::numeric_limits<float>::infinity(), 65535), 65535u);
+    EXPECT_EQ(level_of(infinity, 65535), 65535u);
 }
 
 }  // namespace

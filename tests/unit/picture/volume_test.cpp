@@ -78,9 +78,9 @@ TEST(Volume, FilesHoldTheirArraysWhereTheySay) {
         std::memcpy(values.data(), file.data() + begin + offset + 8, size);
         EXPECT_EQ(values[0], 0);
         if (offset == 0) {
-            std::uint32_t nan = 0;
-            std::memcpy(&nan, &values[1], 4);
-            EXPECT_EQ(nan, 0x7fc00000u);
+            std::uint32_t nan_word = 0;
+            std::memcpy(&nan_word, &values[1], 4);
+            EXPECT_EQ(nan_word, 0x7fc00000u);
         }
         for (std::size_t n = 2; n < 24; ++n) {
             EXPECT_EQ(values[n], static_cast<float>(n % 2 + 10 * (n / 2 % 3) + 100 * (n / 6)));

@@ -13,7 +13,7 @@
 namespace cascade {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TriangleMesh one_triangle() {
     TriangleMesh mesh;

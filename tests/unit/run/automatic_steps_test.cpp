@@ -16,20 +16,21 @@ namespace cascade {
 namespace {
 
 /// Rates with the settings of a stage to its duration.
-std::string script_of(const std::string& rates, double duration, const std::string& settings) {
+std::string script_of_duration(const std::string& rates, double duration,
+                               const std::string& settings) {
     return fmt::format(
         "system s {{ {} }}\ndomain {{ grid: 16, 8 }}\nstage a: s {{ duration: {}; {} }}", rates,
         duration, settings);
 }
 
-struct Case {
+struct StiffCase {
     const char* name;
     const char* rates;
     double duration;
     double reference_tolerance;
 };
 
-constexpr Case cases[] = {
+constexpr StiffCase stiff_cases[] = {
     {"stiff by time",
      "u: 0.3; u' = 300 * smoothstep(4, 5, t) * (0.5 + 0.3 * sx - u) + 0.001 * lap(u); u >= 0; u <= "
      "1",
@@ -69,12 +70,13 @@ double difference(const Ran& a, const Ran& b) {
 class AutomaticSteps : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(AutomaticSteps, AgreeWithATightAdaptiveSolver) {
-    for (const Case& each : cases) {
-        const Ran exact = run_text(
-            script_of(each.rates, each.duration,
-                      fmt::format("solver: rk45; tolerance: {}", each.reference_tolerance)));
-        const Ran ran = run_text(script_of(each.rates, each.duration,
-                                           fmt::format("solver: {}; speed: auto", GetParam())));
+    for (const StiffCase& each : stiff_cases) {
+        const Ran exact = run_text(script_of_duration(each.rates, each.duration,
+                                                      fmt::format("solver: rk45; tolerance: {}",
+                                                                  each.reference_tolerance)));
+        const Ran ran =
+            run_text(script_of_duration(each.rates, each.duration,
+                                        fmt::format("solver: {}; speed: auto", GetParam())));
         EXPECT_EQ(exact.failure, "") << each.name;
         EXPECT_EQ(ran.failure, "") << each.name;
         EXPECT_LT(difference(ran, exact), 0.02) << each.name;
@@ -90,9 +92,10 @@ INSTANTIATE_TEST_SUITE_P(Solvers, AutomaticSteps,
 TEST(ChosenSteps, AreNoLongerThanTheLargest) {
     for (const char* settings : {"solver: euler; speed: auto", "solver: rkl2; speed: auto",
                                  "solver: rk45", "solver: imex; speed: auto"}) {
-        const Ran free = run_text(script_of("u: sx; u' = 0.001 * lap(u)", 100, settings));
-        const Ran limited = run_text(script_of("u: sx; u' = 0.001 * lap(u)", 100,
-                                               std::string(settings) + "; largest_step: 0.5"));
+        const Ran free = run_text(script_of_duration("u: sx; u' = 0.001 * lap(u)", 100, settings));
+        const Ran limited =
+            run_text(script_of_duration("u: sx; u' = 0.001 * lap(u)", 100,
+                                        std::string(settings) + "; largest_step: 0.5"));
         EXPECT_LT(free.state().steps, 60) << settings;
         EXPECT_GE(limited.state().steps, 200) << settings;
         EXPECT_LT(limited.state().steps, 220) << settings;
@@ -101,8 +104,8 @@ TEST(ChosenSteps, AreNoLongerThanTheLargest) {
 
 /// Where nothing moves there is no error, and steps become as long as they may.
 TEST(ChosenSteps, AreAsLongAsTheyMayWhereNothingMoves) {
-    const Ran ran =
-        run_text(script_of("u: 1; u' = 0.1 * lap(u) + 0 * u", 1000, "solver: rkl1; speed: auto"));
+    const Ran ran = run_text(
+        script_of_duration("u: 1; u' = 0.1 * lap(u) + 0 * u", 1000, "solver: rkl1; speed: auto"));
     EXPECT_EQ(ran.failure, "");
     EXPECT_LT(ran.state().steps, 40);
 }
@@ -110,8 +113,9 @@ TEST(ChosenSteps, AreAsLongAsTheyMayWhereNothingMoves) {
 /// Implicit diffusion uses the coefficient of the present step, not that of the first one.
 TEST(ChosenSteps, DoNotShrinkAsDiffusionBecomesFaster) {
     for (const char* solver : {"imex", "etdrk4", "gauss"}) {
-        const Ran ran = run_text(script_of("u: random(1, 0.5); k = 0.01 + 0.1 * t; u' = k * lap(u)",
-                                           200, fmt::format("solver: {}; speed: auto", solver)));
+        const Ran ran =
+            run_text(script_of_duration("u: random(1, 0.5); k = 0.01 + 0.1 * t; u' = k * lap(u)",
+                                        200, fmt::format("solver: {}; speed: auto", solver)));
         EXPECT_EQ(ran.failure, "") << solver;
         EXPECT_LT(ran.state().steps, 200) << solver;
     }
@@ -163,8 +167,9 @@ TEST(Invariants, GiveAllSolversTheSolutionOfEuler) {
 
 TEST(Invariants, AStageOfNoLengthEndsAtOnce) {
     for (const char* solver : {"euler", "rk4", "rk23", "rkl1", "rkl2", "imex", "etdrk4", "gauss"}) {
-        const Ran ran = run_text(
-            script_of("u: sx; u' = lap(u)", 0, fmt::format("solver: {}; speed: auto", solver)));
+        const Ran ran =
+            run_text(script_of_duration("u: sx; u' = lap(u)", 0,
+                                        fmt::format("solver: {}; speed: auto", solver)));
         EXPECT_EQ(ran.failure, "") << solver;
         EXPECT_EQ(ran.state().steps, 0) << solver;
         EXPECT_TRUE(ran.state().done) << solver;
@@ -176,8 +181,8 @@ class ChosenStepsRun : public ResumedRunTest {};
 /// Also within a stretch of steps between two estimates of an error.
 TEST_F(ChosenStepsRun, ResumeWithTheSameBits) {
     for (const char* solver : {"euler", "rk4", "rkl1", "etdrk4"}) {
-        const std::string text =
-            script_of(cases[1].rates, 9, fmt::format("solver: {}; speed: auto", solver));
+        const std::string text = script_of_duration(stiff_cases[1].rates, 9,
+                                                    fmt::format("solver: {}; speed: auto", solver));
         run_whole(text);
         for (const std::int64_t step : {1, 2, 37, 100, 131}) {
             run_in_two_parts(text, "a", step);

@@ -8,6 +8,7 @@
 #include "run/pictures/frames.h"
 #include "run/pictures/painter.h"
 #include "run/session/turns.h"
+#include "tests/support/never.h"
 #include "unit/run/ran_text.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ TEST(BodyPicture, HasTheAreaAndVolumeOfABall) {
     const SurfaceMesh& body = *drawn.canvas.body;
     EXPECT_TRUE(is_closed(body));
     EXPECT_EQ(facts_of(body).euler_characteristic, 2);
-    const double pi = std::numbers::pi;
+    using std::numbers::pi;
     EXPECT_NEAR(body.total_area(), 4 * pi * 0.09, 0.02 * 4 * pi * 0.09);
     EXPECT_NEAR(volume_of(body), 4 * pi * 0.027 / 3, 0.02 * 4 * pi * 0.027 / 3);
     // Its colours are those of the places.
@@ -113,10 +114,9 @@ TEST(BodyPicture, IsTheSameInFrames) {
     frames->record(drawn.canvas, "grown", 1);
     const Image expected = drawn.image();
     const std::size_t number = 0;
-    const std::atomic<bool> never = false;
     std::size_t seen = 0;
     const auto drawn_again =
-        frames->draw(*drawn.painter, {&number, 1}, 1, never,
+        frames->draw(*drawn.painter, {&number, 1}, 1, test::never,
                      [&](std::size_t, const Image& image) -> Result<FrameRecorder::InOrder> {
                          EXPECT_EQ(image.pixels, expected.pixels);
                          ++seen;

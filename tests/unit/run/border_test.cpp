@@ -10,11 +10,11 @@
 namespace cascade {
 namespace {
 
-using testing::expect_box_is_grid;
-using testing::Operator;
-using testing::operators_of_planes;
-using testing::run_text;
-using testing::sum_of;
+using test::expect_box_is_grid;
+using test::finished_script;
+using test::Operator;
+using test::operators_of_planes;
+using test::sum_of;
 
 const char* const rules[] = {
     "u.WALL: fixed(0.3)\nv.WALL: slope(-0.2)\n",
@@ -79,10 +79,10 @@ TEST(Border, AConstraintHoldsTheSidesOfTheSmallGrid) {
                 "  phi.{3}: {4}\n  u' = phi\n}}\nstage only: s {{ iterations: 1; speed: 1 }}\n",
                 size, shift, rest, wall, rule);
         };
-        const auto masked = run_text(
+        const auto masked = finished_script(
             script("32, 32", "8", "mask: abs(domain.x - 1.6) < 0.8 and abs(domain.y - 1.6) < 0.8",
                    "border"));
-        const auto plain = run_text(script("16, 16", "0", "boundary: noflux", "sides"));
+        const auto plain = finished_script(script("16, 16", "0", "boundary: noflux", "sides"));
         ASSERT_EQ(masked->failure + plain->failure, "");
         for (int j = 0; j < 16; ++j) {
             for (int i = 0; i < 16; ++i) {
@@ -108,8 +108,8 @@ TEST(Border, AFluxAddsTheLengthOfTheStaircase) {
     for (const char* rates : {"  u' = lap(u)\n  u.border: flux(0.3)\n",
                               "  u' = div((1 + u^2) * grad(u))\n  u.border: flux(0.3)\n",
                               "  u' = 2 * lap(u)\n  u.border: slope(0.15)\n"}) {
-        const auto start = run_text(script("  u' = 0\n"));
-        const auto end = run_text(script(rates));
+        const auto start = finished_script(script("  u' = 0\n"));
+        const auto end = finished_script(script(rates));
         ASSERT_EQ(end->failure, "");
         const Field& inside = start->field("u");  // 0 outside.
         int faces = 0;
@@ -137,7 +137,7 @@ TEST(Border, AMembraneKeepsTheSum) {
             "stage only: s {{ iterations: {}; speed: 0.2 }}\n",
             steps);
     };
-    const auto before = run_text(script(0)), after = run_text(script(300));
+    const auto before = finished_script(script(0)), after = finished_script(script(300));
     const double sum = sum_of(before->field("c"));
     EXPECT_LT(sum_of(after->field("c")) / sum, 0.9);
     EXPECT_NEAR((sum_of(after->field("c")) + sum_of(after->field("w"))) / sum, 1, 2e-6);
@@ -147,7 +147,7 @@ TEST(Border, AMembraneKeepsTheSum) {
 /// of the Bessel function J0. The border is a staircase, so the error falls with the spacing.
 TEST(Border, ADiscHeldAtZeroDecaysAsTheBesselFunction) {
     const auto rate = [](int cells) {
-        const auto ran = run_text(fmt::format(
+        const auto ran = finished_script(fmt::format(
             "domain {{ grid: {0}, {0}; extent: 2.5, 2.5; precision: double\n"
             "  mask: hypot(domain.x - 1.25, domain.y - 1.25) < 1 }}\n"
             "system s {{\n  u: 1\n  early: sum([u] over domain)\n  u' = lap(u)\n"

@@ -5,6 +5,7 @@
 
 #include "run/script/script.h"
 #include "support/kernel_comparison.h"
+#include "unit/run/ran_text.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,36 +21,7 @@
 namespace cascade {
 namespace {
 
-using testing::same_bits;
-
-/// A script that has run to its end.
-struct Ran {
-    Script script;
-    std::unique_ptr<Simulation> simulation;
-    std::string failure;
-
-    const std::vector<Field>& species() const { return simulation->state(0).species; }
-};
-
-Ran run(const std::string& text,
-        const SimulationOptions& options = {BackendKind::interpreter, 0, 1}) {
-    Ran ran;
-    ran.script = load_script("test", text, ".");
-    EXPECT_TRUE(ran.script.program) << ran.script.messages(false) << text;
-    if (!ran.script.program) return ran;
-    ran.simulation = Simulation::create(ran.script, options).value();
-    for (std::uint32_t k = 0; k < ran.script.stage_count(); ++k) {
-        RunControl control;
-        if (const auto started = ran.simulation->start_stage(k); !started) {
-            ran.failure = started.error().message;
-            return ran;
-        }
-        const auto end =
-            ran.simulation->advance_stage(k, ran.script.program->stages[k].iterations, control, {});
-        if (!end) ran.failure = end.error().message;
-    }
-    return ran;
-}
+using test::same_bits;
 
 double largest_error(const Field& u, const std::function<double(double, double)>& exact) {
     double error = 0;
@@ -125,15 +97,14 @@ constexpr OperatorCase operators[] = {
 double error_of(const Solution& solution, const OperatorCase& each, int n) {
     const char* angle =
         std::string(each.name) == "diffuse" ? "c = cos(0.6 + x); s = sin(0.6 + x)\n" : "";
-    const Ran ran =
-        run(fmt::format("system made {{ {}{}u' = w_t + {} - ({})\n {} }}\n"
-                        "domain {{ grid: {}, {}; spacing: 1 / {}; boundary: noflux }}\n"
-                        "stage only: made {{ duration: 0.25; solver: rk4; speed: 0.08 / {} }}\n",
-                        solution.definitions, angle, each.applied, each.exact, solution.sides, n, n,
-                        n, n * n));
+    const Ran ran = run_text(fmt::format(
+        "system made {{ {}{}u' = w_t + {} - ({})\n {} }}\n"
+        "domain {{ grid: {}, {}; spacing: 1 / {}; boundary: noflux }}\n"
+        "stage only: made {{ duration: 0.25; solver: rk4; speed: 0.08 / {} }}\n",
+        solution.definitions, angle, each.applied, each.exact, solution.sides, n, n, n, n * n));
     if (!ran.simulation) return NAN;
     EXPECT_EQ(ran.failure, "");
-    return largest_error(ran.species()[0],
+    return largest_error(ran.species(),
                          [&](double x, double y) { return solution.value(x, y, 0.25); });
 }
 
@@ -176,14 +147,13 @@ TEST(Boundaries, EveryOperatorAtEveryKindOfSide) {
 /// u = x g(t), a line at every moment: exact in space, so that what is left is the solver's error.
 double error_in_time(const std::string& solver, double step, const std::string& right) {
     const Ran ran =
-        run(fmt::format("system line {{ u: x; u' = 0.5 * lap(u) + x * 2 * cos(2 * t)\n"
-                        "  u.left: fixed(0); u.right: {} }}\n"
-                        "domain {{ grid: 8; boundary: noflux }}\n"
-                        "stage only: line {{ duration: 4.8; solver: {}; speed: {} }}\n",
-                        right, solver, step));
+        run_text(fmt::format("system line {{ u: x; u' = 0.5 * lap(u) + x * 2 * cos(2 * t)\n"
+                             "  u.left: fixed(0); u.right: {} }}\n"
+                             "domain {{ grid: 8; boundary: noflux }}\n"
+                             "stage only: line {{ duration: 4.8; solver: {}; speed: {} }}\n",
+                             right, solver, step));
     if (!ran.simulation) return NAN;
-    return largest_error(ran.species()[0],
-                         [](double x, double) { return x * (1 + std::sin(9.6)); });
+    return largest_error(ran.species(), [](double x, double) { return x * (1 + std::sin(9.6)); });
 }
 
 TEST(Boundaries, ValuesAreThoseOfTheMomentInEverySweep) {
@@ -212,10 +182,10 @@ TEST(Boundaries, ValuesAreThoseOfTheMomentInEverySweep) {
 }
 
 TEST(Boundaries, ASideThatReadsItsSpeciesIsRobins) {
-    const Ran ran =
-        run("system rod { u: 1; k: 2; u' = lap(u); u.right: slope(-k * u) }\n"
-            "domain { grid: 32; spacing: 1/32; boundary: noflux; precision: double }\n"
-            "stage only: rod { speed: 1/4096; iterations: 2048 }\n");
+    const Ran ran = run_text(
+        "system rod { u: 1; k: 2; u' = lap(u); u.right: slope(-k * u) }\n"
+        "domain { grid: 32; spacing: 1/32; boundary: noflux; precision: double }\n"
+        "stage only: rod { speed: 1/4096; iterations: 2048 }\n");
     // The same by hand. The value at the face is (c + g) / 2, so (g - c) / h = -k (c + g) / 2.
     std::vector<double> u(34, 1), next(34);
     const double q = 2 * (1.0 / 32) / 2;
@@ -227,8 +197,7 @@ TEST(Boundaries, ASideThatReadsItsSpeciesIsRobins) {
         }
         u.swap(next);
     }
-    for (int i = 0; i < 32; ++i)
-        EXPECT_NEAR(ran.species()[0].number_at(i, 0), u[i + 1], 1e-12) << i;
+    for (int i = 0; i < 32; ++i) EXPECT_NEAR(ran.species().number_at(i, 0), u[i + 1], 1e-12) << i;
 }
 
 /// A script with a value at each of six sides, which `and_time` and `and_species` make change.
@@ -250,13 +219,13 @@ std::string volume(const std::string& and_time, const std::string& and_species,
 TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
     for (const char* of_species : {"", " + 0.1 * u * v", " + exp(-v) - 2 * u / (1 + begin)"}) {
         const std::string text = volume(" * (1 + t * z) + sin(step)", of_species, "rk4");
-        const Ran one = run(text);
+        const Ran one = run_text(text);
         ASSERT_TRUE(one.simulation);
 #if CASCADE_HAS_JIT
         for (const SimulationOptions& options : {SimulationOptions{BackendKind::jit, 4, 3},
                                                  SimulationOptions{BackendKind::jit, 16, 2}}) {
-            const Ran other = run(text, options);
-            EXPECT_EQ(same_bits(one.species(), other.species()), "");
+            const Ran other = run_text(text, options);
+            EXPECT_EQ(same_bits(one.state().species, other.state().species), "");
         }
 #endif
         Script script = load_script("test", text, ".");
@@ -272,7 +241,7 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
         second->restore(0, {std::move(copies), 11, state.t, false, false,
                             StageMoment::Memory{state.time, {}}});
         ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
-        EXPECT_EQ(same_bits(one.species(), second->state(0).species), "");
+        EXPECT_EQ(same_bits(one.state().species, second->state(0).species), "");
     }
 }
 
@@ -291,11 +260,12 @@ TEST(Boundaries, SpeciesOfOneKernelMayHaveSidesOfDifferentKinds) {
                     "domain {{ grid: {}; boundary: noflux }}\n"
                     "stage only: s {{ iterations: 9; speed: 0.1 }}\n",
                     of_u, of_v, grid);
-                const Ran expected = run(text);
+                const Ran expected = run_text(text);
                 ASSERT_TRUE(expected.simulation);
                 for (const int lanes : {4, 8, 16}) {
-                    const Ran native = run(text, {BackendKind::jit, lanes, 1});
-                    EXPECT_EQ(same_bits(expected.species(), native.species()), "") << text;
+                    const Ran native = run_text(text, {BackendKind::jit, lanes, 1});
+                    EXPECT_EQ(same_bits(expected.state().species, native.state().species), "")
+                        << text;
                 }
             }
         }
@@ -308,12 +278,12 @@ TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
     const auto after_a_step = [](const std::string& rate, const PlanOptions& planning) {
         SimulationOptions options{BackendKind::interpreter, 0, 1};
         options.planning = planning;
-        const Ran ran = run("system s { u: 1 + x; u' = " + rate +
-                                "\n u.sides: fixed(3) }\n"
-                                "domain { grid: 4; boundary: noflux }\n"
-                                "stage only: s { iterations: 1; speed: 1 }\n",
-                            options);
-        return ran.species()[0].at(0, 0);
+        const Ran ran = run_text("system s { u: 1 + x; u' = " + rate +
+                                     "\n u.sides: fixed(3) }\n"
+                                     "domain { grid: 4; boundary: noflux }\n"
+                                     "stage only: s { iterations: 1; speed: 1 }\n",
+                                 options);
+        return ran.species().at(0, 0);
     };
     const double u0 = 1.125, u1 = 1.375, ghost = 2 * 3 - u0;
     for (const Materialise materialise :

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// Systems in p, q and r, which count the cells of a box from its corner: each with another
 /// operator. Everything differs from cell to cell, so that a wrong neighbour shows.
@@ -76,8 +76,9 @@ inline void expect_box_is_grid(const std::string& rates, const std::string& stag
         fmt::format("mask: {} and {} and {}", between("x", corner.width, small.width),
                     between("y", corner.height, small.height),
                     between("z", corner.depth, small.depth));
-    const auto masked = run_text(with_walls(script(large, corner, box), "border"));
-    const auto plain = run_text(with_walls(script(small, {0, 0, 0}, "boundary: noflux"), "sides"));
+    const auto masked = finished_script(with_walls(script(large, corner, box), "border"));
+    const auto plain =
+        finished_script(with_walls(script(small, {0, 0, 0}, "boundary: noflux"), "sides"));
     ASSERT_EQ(masked->failure, "") << what;
     ASSERT_EQ(plain->failure, "") << what;
     for (const std::string name : {"u", "v"}) {
@@ -100,4 +101,4 @@ inline void expect_box_is_grid(const std::string& rates, const std::string& stag
     }
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

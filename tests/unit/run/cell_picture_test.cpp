@@ -9,10 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 DrawOptions small_picture(std::int64_t side) {
     DrawOptions options;
@@ -210,4 +208,4 @@ TEST(CellPicture, ThreadsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

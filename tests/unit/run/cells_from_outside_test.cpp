@@ -2,6 +2,7 @@
 #include "run/pictures/cells_from_outside.h"
 
 #include "export/bake.h"
+#include "tests/support/never.h"
 #include "unit/export/example_surfaces.h"
 
 #include <gtest/gtest.h>
@@ -54,9 +55,9 @@ TEST(CellsFromOutside, MapsOfABallAreThoseOfItsFormula) {
     options.width = options.height = 64;
     options.samples = 1;
     Team team(2);
-    const std::atomic<bool> never = false;
     const auto baked = bake(
-        mesh, [&] { return std::make_unique<OutsideSamples>(cells, skin); }, options, team, never);
+        mesh, [&] { return std::make_unique<OutsideSamples>(cells, skin); }, options, team,
+        test::never);
     ASSERT_TRUE(baked.has_value()) << baked.error().message;
     EXPECT_EQ(baked->heights.low, 0);
     EXPECT_NEAR(static_cast<double>(baked->heights.high), radius, 0.002);

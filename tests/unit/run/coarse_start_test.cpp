@@ -1,5 +1,6 @@
 // Stages that start on coarser grids: as good a pattern as of a fine run, and where a run may be
 // stopped. What each grid starts with is in tests/scripts/steps.
+#include "ran_text.h"
 #include "resumed_run.h"
 
 #include "measure/spectrum.h"
@@ -10,38 +11,6 @@
 
 namespace cascade {
 namespace {
-
-struct Ran {
-    Script script;
-    std::unique_ptr<Simulation> simulation;
-    std::string failure;
-    std::vector<std::string> reported;
-};
-
-Ran run_text(const std::string& text,
-             SimulationOptions options = {BackendKind::interpreter, 0, 1}) {
-    Ran ran;
-    ran.script = load_script("test", text, ".", {});
-    EXPECT_TRUE(ran.script.program) << ran.script.messages(false);
-    if (!ran.script.program) return ran;
-    auto made = Simulation::create(ran.script, options);
-    EXPECT_TRUE(made);
-    ran.simulation = std::move(*made);
-    RunControl control;
-    control.report = [&](const Progress& progress) {
-        if (progress.stage_done) {
-            ran.reported.push_back(
-                fmt::format("{}: {}", progress.stage + progress.note, progress.step));
-        }
-    };
-    for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
-        EXPECT_TRUE(ran.simulation->start_stage(k));
-        const std::int64_t most = ran.script.program->stages[k].iterations;
-        auto end = ran.simulation->advance_stage(k, most, control, {});
-        if (!end) ran.failure = end.error().message;
-    }
-    return ran;
-}
 
 double wavelength(const Field& field) {
     const PlaneLayout& layout = field.layout();
@@ -72,7 +41,7 @@ TEST(CoarseStart, GrowsAsGoodAPattern) {
     EXPECT_NEAR(wavelength(found) / wavelength(expected), 1, 0.08);
     EXPECT_NEAR(moments(found).mean / moments(expected).mean, 1, 0.03);
     EXPECT_NEAR(moments(found).deviation / moments(expected).deviation, 1, 0.08);
-    EXPECT_EQ(coarse.reported,
+    EXPECT_EQ(coarse.ended,
               (std::vector<std::string>{"s, cells 4 times as wide: 28000",
                                         "s, cells 2 times as wide: 7000", "s: 1750"}));
 }

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 constexpr const char* all_lengths =
@@ -97,4 +97,4 @@ TEST_F(CoarserGridRun, ResumesWithTheSameBits) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

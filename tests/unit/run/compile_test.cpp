@@ -285,7 +285,7 @@ stage only: smear { speed: 0.05 }
 
 TEST_F(CompileTest, TheMetricOfASurface) { expect_bits_of_run(spots_on_torus, {"a", "b"}); }
 
-constexpr const char* timed = R"(
+constexpr const char* timed_rates = R"(
 system timed {
   u: random(1, 0.2)
   v: 0.5
@@ -300,12 +300,12 @@ stage only: timed { speed: 0.3; SOLVER }
 TEST_F(CompileTest, SolversOfSeveralSweeps) {
     for (const std::string solver : {"rk2", "rk4", "symplectic", "euler"}) {
         SCOPED_TRACE(solver);
-        expect_bits_of_run(replaced(timed, "SOLVER", "solver: " + solver), {"u", "v"});
+        expect_bits_of_run(replaced(timed_rates, "SOLVER", "solver: " + solver), {"u", "v"});
     }
 }
 
 TEST_F(CompileTest, FrozenCellsKeepTheirValues) {
-    expect_bits_of_run(replaced(timed, "SOLVER", "frozen: x < 0.3; solver: rk4"), {"u", "v"});
+    expect_bits_of_run(replaced(timed_rates, "SOLVER", "frozen: x < 0.3; solver: rk4"), {"u", "v"});
 }
 
 // Diffusion alone: a run chooses the same number of stages throughout.

@@ -16,10 +16,10 @@
 namespace cascade {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The values of the first species after all stages of a script, row by row.
-std::vector<double> run(const std::string& text, int threads) {
+std::vector<double> final_values(const std::string& text, int threads) {
     Script script = load_script("test", text, ".");
     EXPECT_TRUE(script.program) << script.messages(false) << text;
     if (!script.program) return {};
@@ -42,8 +42,8 @@ std::vector<double> run(const std::string& text, int threads) {
 
 /// −∇·(k ∇φ) + φ = ρ on the unit square, with k = 1 + x / 2 and ρ so that φ = cos(πx) cos(2πy),
 /// which has no flux through the sides.
-double largest_error(int side) {
-    const std::vector<double> found = run(
+double error_with_constraint(int side) {
+    const std::vector<double> found = final_values(
         fmt::format(
             "system s {{\n"
             "  u: 0\n"
@@ -70,7 +70,8 @@ double largest_error(int side) {
 }
 
 TEST(Constraints, HaveErrorsOfSecondOrderWhereCoefficientsVary) {
-    const double coarse = largest_error(16), fine = largest_error(32), finest = largest_error(64);
+    const double coarse = error_with_constraint(16), fine = error_with_constraint(32),
+                 finest = error_with_constraint(64);
     EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
     EXPECT_NEAR(std::log2(fine / finest), 2, 0.05);
     EXPECT_LT(finest, 3e-3);
@@ -78,19 +79,19 @@ TEST(Constraints, HaveErrorsOfSecondOrderWhereCoefficientsVary) {
 
 /// What is left of the equation in a cell, where `extra` and the domain are given.
 double largest_rest(const std::string& extra, const std::string& domain) {
-    const std::vector<double> rest =
-        run("system s { u: 0; w: random(0, 1); rho = w - mean(w over domain)\n"
-            "  0 = lap(phi) + rho" +
-                extra +
-                "\n"
-                "  u' = lap(phi) + rho" +
-                extra +
-                "; w' = 0 }\n"
-                "domain { " +
-                domain +
-                "; precision: double }\n"
-                "stage only: s { iterations: 1; speed: 1 }\n",
-            2);
+    const std::vector<double> rest = final_values(
+        "system s { u: 0; w: random(0, 1); rho = w - mean(w over domain)\n"
+        "  0 = lap(phi) + rho" +
+            extra +
+            "\n"
+            "  u' = lap(phi) + rho" +
+            extra +
+            "; w' = 0 }\n"
+            "domain { " +
+            domain +
+            "; precision: double }\n"
+            "stage only: s { iterations: 1; speed: 1 }\n",
+        2);
     double largest = 0;
     for (const double value : rest) largest = std::max(largest, std::abs(value));
     return largest;
@@ -100,18 +101,18 @@ double largest_rest(const std::string& extra, const std::string& domain) {
 /// After the first iteration, all that is left is where the coefficient varies, at a right angle to
 /// the residual that the iterations began with.
 TEST(Constraints, AreSolvedWhereCoefficientsVaryFarFromTheSource) {
-    const std::vector<double> rest =
-        run("system s {\n"
-            "  u: 0\n"
-            "  k: 1 + 100 * (y > 0.99) * (random(0, 1) < 0.05)\n"
-            "  0 = div(k * grad(phi))\n"
-            "  phi.top: fixed(1)\n"
-            "  phi.bottom: fixed(0)\n"
-            "  u' = div(k * grad(phi))\n"
-            "}\n"
-            "domain { grid: 128, 128; boundary: noflux }\n"
-            "stage only: s { iterations: 1; speed: 1 }\n",
-            1);
+    const std::vector<double> rest = final_values(
+        "system s {\n"
+        "  u: 0\n"
+        "  k: 1 + 100 * (y > 0.99) * (random(0, 1) < 0.05)\n"
+        "  0 = div(k * grad(phi))\n"
+        "  phi.top: fixed(1)\n"
+        "  phi.bottom: fixed(0)\n"
+        "  u' = div(k * grad(phi))\n"
+        "}\n"
+        "domain { grid: 128, 128; boundary: noflux }\n"
+        "stage only: s { iterations: 1; speed: 1 }\n",
+        1);
     double largest = 0;
     for (const double value : rest) largest = std::max(largest, std::abs(value));
     EXPECT_LT(largest, 1e-3);
@@ -136,9 +137,9 @@ TEST(Constraints, HaveTheSameBitsWithAnyNumberOfThreads) {
         "domain { surface: sphere; cells: 500 }\n"
         "stage only: s { iterations: 3; speed: 0.1 }\n";
     for (const std::string& text : {masked, on_model}) {
-        const std::vector<double> alone = run(text, 1);
+        const std::vector<double> alone = final_values(text, 1);
         EXPECT_GT(alone.size(), 0u);
-        for (const int threads : {2, 3}) EXPECT_EQ(run(text, threads), alone);
+        for (const int threads : {2, 3}) EXPECT_EQ(final_values(text, threads), alone);
     }
 }
 

@@ -6,7 +6,7 @@
 namespace cascade {
 namespace {
 
-constexpr const char* spots =
+constexpr const char* two_sizes_of_spots =
     "domain { grid: 24, 18; seed: 5 }\n"
     "stage large: turing_spots { iterations: 300; interval: 100; ka: 1/80 }\n"
     "stage small: turing_spots { iterations: 200; frozen: b < 4; a: a; b: b; "
@@ -43,7 +43,7 @@ protected:
 };
 
 TEST_F(DetailedRunTest, PicturesShowTheFinerCells) {
-    Script script = load(spots);
+    Script script = load(two_sizes_of_spots);
     const RunReport report = run_well(script, detailed("fine.png", 3));
     EXPECT_EQ(size_of("fine.png"), std::pair(72, 54));
     EXPECT_EQ(report.status, RunStatus::finished);
@@ -51,7 +51,7 @@ TEST_F(DetailedRunTest, PicturesShowTheFinerCells) {
 }
 
 TEST_F(DetailedRunTest, PicturesRememberIt) {
-    Script script = load(spots);
+    Script script = load(two_sizes_of_spots);
     run_well(script, detailed("fine.png"));
     auto file = load_script_file(path("fine.png"));
     ASSERT_TRUE(file);
@@ -66,8 +66,8 @@ TEST_F(DetailedRunTest, PicturesRememberIt) {
 }
 
 TEST_F(DetailedRunTest, TheRunItselfIsThatOfTheScriptsCells) {
-    run_whole(spots);
-    Script script = load(spots);
+    run_whole(two_sizes_of_spots);
+    Script script = load(two_sizes_of_spots);
     RunRequest wanted = detailed("fine.png");
     wanted.save = path("saved");
     wanted.log.expressions = {"mean(b over domain)"};
@@ -84,9 +84,9 @@ TEST_F(DetailedRunTest, TheRunItselfIsThatOfTheScriptsCells) {
 }
 
 TEST_F(DetailedRunTest, ResumesToTheSamePicture) {
-    Script script = load(spots);
+    Script script = load(two_sizes_of_spots);
     run_well(script, detailed("whole.png"));
-    Script part = load(spots);
+    Script part = load(two_sizes_of_spots);
     RunRequest first = detailed("part.png");
     first.save = path("part");
     first.stop_at = StopAt{"small", 70};
@@ -101,7 +101,7 @@ TEST_F(DetailedRunTest, ResumesToTheSamePicture) {
 }
 
 TEST_F(DetailedRunTest, ArraysOfTheScriptsGridAreCarried) {
-    Script first = load(spots);
+    Script first = load(two_sizes_of_spots);
     RunRequest wanted = request();
     wanted.save = path("saved");
     run_well(first, wanted);
@@ -143,16 +143,16 @@ TEST_F(DetailedRunTest, WhatHasNoFinerCellsIsRefused) {
     expect("domain { grid: 16384, 16384 }\nstage one: turing_spots { iterations: 1 }",
            detailed("a.png", 8), "that makes 17179869184 cells");
     RunRequest film = detailed("film.gif");
-    expect(spots, film, "only the end is carried to finer cells");
+    expect(two_sizes_of_spots, film, "only the end is carried to finer cells");
     RunRequest frames = detailed("a.png");
     frames.frames = path("frames");
-    expect(spots, frames, "only the end is carried to finer cells");
+    expect(two_sizes_of_spots, frames, "only the end is carried to finer cells");
     EXPECT_FALSE(std::filesystem::exists(path("a.png")));
     EXPECT_FALSE(std::filesystem::exists(path("frames")));
 }
 
 TEST_F(DetailedRunTest, ItsMemoryIsCountedBeforeTheFirstStep) {
-    Script script = load(spots);
+    Script script = load(two_sizes_of_spots);
     RunRequest wanted = detailed("a.png", 8);
     wanted.simulation.memory_limit = 400'000;
     EXPECT_NE(run_badly(script, wanted).find("needs"), std::string::npos);
@@ -160,7 +160,7 @@ TEST_F(DetailedRunTest, ItsMemoryIsCountedBeforeTheFirstStep) {
 }
 
 TEST_F(DetailedRunTest, ACancelledSettlingIsShownSoFar) {
-    Script script = load(spots);
+    Script script = load(two_sizes_of_spots);
     RunControl control;
     control.report = [&](const Progress& progress) {
         if (progress.note.find("finer cells") != std::string::npos) control.cancel = true;

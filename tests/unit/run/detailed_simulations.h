@@ -6,6 +6,7 @@
 #include "run/domain/model_cells.h"
 #include "run/script/script.h"
 #include "run/simulation/simulation.h"
+#include "unit/run/simulation_options.h"
 
 #include <gtest/gtest.h>
 
@@ -15,14 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
-
-inline SimulationOptions interpreted(int threads = 1) {
-    return {BackendKind::interpreter, 0, threads};
-}
-inline SimulationOptions compiled() {
-    return {has_jit() ? BackendKind::jit : BackendKind::interpreter, 0, 1};
-}
+namespace cascade::test {
 
 class DetailedSimulations {
 public:
@@ -93,4 +87,4 @@ private:
     std::unique_ptr<Script> coarse_script_, finer_script_;
 };
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

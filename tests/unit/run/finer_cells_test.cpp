@@ -2,21 +2,17 @@
 #include "detailed_simulations.h"
 
 #include "core/resample.h"
+#include "tests/support/mean_of.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <numeric>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using Runs = DetailedSimulations;
-
-double mean_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 /// The part of the values above the middle of their range.
 double part_above_middle(const std::vector<double>& values) {
@@ -291,4 +287,4 @@ TEST(FinerCells, PatternsOfModelsKeepTheirStatistics) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

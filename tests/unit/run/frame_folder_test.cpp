@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* spots =
+constexpr const char* filmed_spots =
     "domain { grid: 8, 8 }\nstage s: turing_spots { iterations: 40; interval: 20 }\n";
 
 class FrameFolder : public RunTest {
@@ -35,22 +35,22 @@ protected:
 };
 
 TEST_F(FrameFolder, HasNoFramesOfTheRunBefore) {
-    Script script = load(spots);
+    Script script = load(filmed_spots);
     run_well(script, frames_in("film"));
     ASSERT_TRUE(write_file(path("film/notes.txt"), "mine"));
     ASSERT_TRUE(write_file(path("film/0001-b.png"), "mine"));
     Overrides changes;
     changes.sets = {"s.interval=30"};
-    Script changed = load(spots, changes);
+    Script changed = load(filmed_spots, changes);
     run_well(changed, frames_in("film"));
     EXPECT_THAT(names("film"),
                 ElementsAre("0000-s-0000000.png", "0001-b.png", "0001-s-0000030.png", "notes.txt"));
 }
 
 TEST_F(FrameFolder, OfAnotherScriptIsLeftAlone) {
-    Script script = load(spots);
+    Script script = load(filmed_spots);
     run_well(script, frames_in("film"));
-    Script other = load_script("other.cascade", spots, folder_);
+    Script other = load_script("other.cascade", filmed_spots, folder_);
     EXPECT_THAT(run_badly(other, frames_in("film")),
                 HasSubstr("holds frames that other.cascade did not draw, as 0000-s-0000000.png"));
     EXPECT_THAT(names("film"), testing::SizeIs(3));
@@ -101,7 +101,7 @@ TEST_F(FrameFolder, HoldsTheFramesBeforeOneThatCannotBeWritten) {
 }
 
 TEST_F(FrameFolder, KeepsWhatItHasWhereARunFails) {
-    Script script = load(spots);
+    Script script = load(filmed_spots);
     run_well(script, frames_in("film"));
     Script bad =
         load("system g { u: 1; u' = u^3 }\ndomain { grid: 4, 4 }\nstage s: g { iterations: 99 }\n");
@@ -110,7 +110,7 @@ TEST_F(FrameFolder, KeepsWhatItHasWhereARunFails) {
 }
 
 TEST_F(FrameFolder, IsNotThatOfARunThatGoesOn) {
-    Script script = load(spots);
+    Script script = load(filmed_spots);
     RunRequest wanted = frames_in("film");
     wanted.save = path("saved");
     wanted.stop_at = StopAt{"s", 20};
@@ -125,7 +125,7 @@ TEST_F(FrameFolder, IsNotThatOfARunThatGoesOn) {
 }
 
 TEST_F(FrameFolder, MayStayEmpty) {
-    Script script = load(spots);
+    Script script = load(filmed_spots);
     RunRequest wanted = request();
     wanted.save = path("saved");
     run_well(script, wanted);
@@ -142,7 +142,7 @@ TEST_F(FrameFolder, IsNotCalledLikeAMovie) {
     EXPECT_TRUE(is_called_like_a_movie("film.gif"));
     EXPECT_FALSE(is_called_like_a_movie("film.frames"));
     EXPECT_FALSE(is_called_like_a_movie("mp4"));
-    Script script = load(spots);
+    Script script = load(filmed_spots);
     run_badly(script, frames_in("film.mp4"));
     EXPECT_THAT(script.messages(false), HasSubstr("film.mp4 writes a film"));
     EXPECT_FALSE(std::filesystem::exists(path("film.mp4")));

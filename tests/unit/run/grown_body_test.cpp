@@ -10,7 +10,7 @@ namespace cascade {
 namespace {
 
 /// A ball of radius 0.3 in the middle, and one cell on it where y is largest.
-std::string ball(const std::string& picture) {
+std::string cell_on_ball(const std::string& picture) {
     return R"(
 domain { grid: 24, 24, 24; boundary: noflux }
 system ball { u: 0.3 - sqrt((x - 0.5)^2 + (y - 0.5)^2 + (z - 0.5)^2); u' = 0 }
@@ -42,8 +42,8 @@ std::string tint(const Colour& pixel) {
 }
 
 TEST(GrownBody, LiesBelowItsCellsInPictures) {
-    const Image image =
-        drawn(ball("skin: if(z > 0.5, rgb(1, 0, 0), if(x > 0.5, rgb(0, 0, 1), rgb(1, 0, 0)))"));
+    const Image image = drawn(
+        cell_on_ball("skin: if(z > 0.5, rgb(1, 0, 0), if(x > 0.5, rgb(0, 0, 1), rgb(1, 0, 0)))"));
     const std::int64_t x = image.width / 2, y = image.height / 2, away = image.height / 4;
     EXPECT_EQ(tint(image.at(x, y)), "green") << "y of scripts comes towards the viewer";
     EXPECT_EQ(tint(image.at(x + away, y + away)), "blue");
@@ -53,14 +53,14 @@ TEST(GrownBody, LiesBelowItsCellsInPictures) {
 }
 
 TEST(GrownBody, HasOneColourWithoutASkin) {
-    const Image image = drawn(ball("width: 0"));
+    const Image image = drawn(cell_on_ball("width: 0"));
     const Colour& pixel = image.at(image.width / 2, image.height / 2);
     EXPECT_EQ(tint(pixel), "");
     EXPECT_LT(pixel[0], 0.6F) << "the body is not the white background";
 }
 
 TEST(GrownBody, IsGivenUpWhenItIsCancelled) {
-    Script script = load_script("test", ball(""), ".");
+    Script script = load_script("test", cell_on_ball(""), ".");
     ASSERT_TRUE(script.program) << script.messages(false);
     auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 1});
     ASSERT_TRUE(simulation);

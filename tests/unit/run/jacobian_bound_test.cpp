@@ -124,7 +124,7 @@ double spectral_radius(const std::vector<Vector>& columns, double shift) {
     return std::exp(growth);
 }
 
-std::string script_of(const std::string& rates, const std::string& domain = "grid: 12, 6") {
+std::string script_with_rates(const std::string& rates, const std::string& domain = "grid: 12, 6") {
     return "system s {\n u: 0.9 + 0.5 * sin(2 * pi * sx) + 0.1 * cos(2 * pi * sy)\n"
            " v: 1.2 + 0.4 * cos(2 * pi * sx)\n k: 1 + 0.3 * cos(2 * pi * sx)\n" +
            rates + "\n}\nstage one: s { iterations: 10; speed: 1; solver: euler }\ndomain { " +
@@ -135,7 +135,7 @@ std::string script_of(const std::string& rates, const std::string& domain = "gri
 /// neither is far too large.
 void expect_sound(const std::string& rates, double at_most,
                   const std::string& domain = "grid: 12, 6") {
-    Rates run(script_of(rates, domain));
+    Rates run(script_with_rates(rates, domain));
     ASSERT_TRUE(run.ok()) << rates;
     const auto bound = run.bound();
     ASSERT_TRUE(bound) << rates;

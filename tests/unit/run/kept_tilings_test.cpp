@@ -27,11 +27,11 @@ protected:
     fs::path folder_;
 };
 
-const Tiling some{12, 3, 1, 4, true, Tiling::Along::columns};
+const Tiling some_tiling{12, 3, 1, 4, true, Tiling::Along::columns};
 
 TEST_F(KeptTilingsTest, AreFoundByLaterProcesses) {
-    for (int times = 0; times < 2; ++times) KeptTilings(folder_, "code").keep("key", some);
-    EXPECT_EQ(KeptTilings(folder_, "code").find("key"), some);
+    for (int times = 0; times < 2; ++times) KeptTilings(folder_, "code").keep("key", some_tiling);
+    EXPECT_EQ(KeptTilings(folder_, "code").find("key"), some_tiling);
     EXPECT_EQ(KeptTilings(folder_, "code").find("other"), std::nullopt);
 }
 
@@ -40,34 +40,34 @@ TEST_F(KeptTilingsTest, WhatWasFoundOnceIsNotTold) {
         KeptTilings(folder_, "code").keep("key", tiling);
     };
     const auto told = [&] { return KeptTilings(folder_, "code").find("key"); };
-    keep(some);
+    keep(some_tiling);
     EXPECT_EQ(told(), std::nullopt);
-    keep(some);
-    EXPECT_EQ(told(), some);
+    keep(some_tiling);
+    EXPECT_EQ(told(), some_tiling);
     keep(Tiling());
     EXPECT_EQ(told(), std::nullopt);
-    keep(some);
+    keep(some_tiling);
     EXPECT_EQ(told(), std::nullopt);
-    keep(some);
-    keep(some);
-    EXPECT_EQ(told(), some);
+    keep(some_tiling);
+    keep(some_tiling);
+    EXPECT_EQ(told(), some_tiling);
 }
 
 TEST_F(KeptTilingsTest, WithoutAFolderOrACodeAreKnownToTheProcess) {
     for (const auto& [folder, code] :
          {std::pair<fs::path, std::string>{"", "code"}, {folder_, ""}}) {
         KeptTilings tilings(folder, code);
-        tilings.keep("key", some);
+        tilings.keep("key", some_tiling);
         EXPECT_EQ(tilings.find("key"), std::nullopt);
-        tilings.keep("key", some);
-        EXPECT_EQ(tilings.find("key"), some);
+        tilings.keep("key", some_tiling);
+        EXPECT_EQ(tilings.find("key"), some_tiling);
         EXPECT_EQ(KeptTilings(folder, code).find("key"), std::nullopt);
     }
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(KeptTilingsTest, TextsGoBackAndForth) {
-    for (const Tiling& tiling : {some, Tiling(), Tiling{16, 1, 1, 1, true}}) {
+    for (const Tiling& tiling : {some_tiling, Tiling(), Tiling{16, 1, 1, 1, true}}) {
         for (const bool is_sure : {false, true}) {
             const FoundTiling found{tiling, is_sure};
             EXPECT_EQ(found_tiling_of(text_of(found)), found);
@@ -81,10 +81,11 @@ TEST_F(KeptTilingsTest, TextsGoBackAndForth) {
 
 TEST_F(KeptTilingsTest, KeysDifferInAllThatDecides) {
     KeptTilings tilings(folder_, "code"), other_machine(folder_, "other code");
-    const auto problem = [](const Grid& grid) { return testing::heat_problem(grid, 0.1f); };
+    const auto problem = [](const Grid& grid) { return test::heat_problem(grid, 0.1f); };
     const Grid grid{40, 30};
-    for (int times = 0; times < 2; ++times) StageTilings(tilings, problem(grid), 1).keep(2, some);
-    EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(2), some);
+    for (int times = 0; times < 2; ++times)
+        StageTilings(tilings, problem(grid), 1).keep(2, some_tiling);
+    EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(2), some_tiling);
     EXPECT_EQ(StageTilings(tilings, problem(grid), 1).find(1), std::nullopt);
     EXPECT_EQ(StageTilings(tilings, problem(grid), 2).find(2), std::nullopt);
     EXPECT_EQ(StageTilings(tilings, problem(Grid{30, 40}), 1).find(2), std::nullopt);

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 constexpr const char* lags =
@@ -137,4 +137,4 @@ TEST_F(KernelFiles, FaultsAreSaidAtTheText) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -3,7 +3,7 @@
 
 #include "support/kernel_comparison.h"
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 class LiveCoarserGrid : public LiveRunFixture {
@@ -46,4 +46,4 @@ TEST_F(LiveCoarserGrid, OtherCellsBeginAnew) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

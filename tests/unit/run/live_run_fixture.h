@@ -3,6 +3,7 @@
 
 #include "run/session/live_run.h"
 #include "support/random_stream.h"
+#include "unit/run/simulation_options.h"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
-
-inline const SimulationOptions interpreted = {BackendKind::interpreter, 0, 1};
+namespace cascade::test {
 
 /// The text with the first `old` in it replaced; it must be there.
 inline std::string with(std::string text, const std::string& old, const std::string& changed) {
@@ -24,12 +23,12 @@ inline std::string with(std::string text, const std::string& old, const std::str
 class LiveRunFixture : public ::testing::Test {
 protected:
     std::unique_ptr<LiveRun> begun(const std::string& text) {
-        auto run = LiveRun::begin(load_script("test", text, "."), interpreted, control_);
+        auto run = LiveRun::begin(load_script("test", text, "."), interpreted(), control_);
         EXPECT_TRUE(run) << run.error().messages(false);
         return run ? std::move(*run) : nullptr;
     }
     std::unique_ptr<LiveRun> played(const SessionLog& log) {
-        auto run = LiveRun::play(log, ".", interpreted, control_);
+        auto run = LiveRun::play(log, ".", interpreted(), control_);
         EXPECT_TRUE(run) << run.error().messages(false);
         return run ? std::move(*run) : nullptr;
     }
@@ -99,4 +98,4 @@ protected:
     RunControl control_;
 };
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* two_stages =
+constexpr const char* coupled_stages =
     "domain { grid: 20, 16; boundary: noflux }\n"
     "system s { u: 1 + x; v: y; k: 1 + y; c: 0.1\n"
     "  u' = 0.1 * lap(u) - c * exp(k) * u + v\n"
@@ -36,7 +36,7 @@ protected:
 };
 
 TEST_F(LiveRunTest, StepsGoFromStageToStage) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     std::vector<std::uint32_t> ended;
     const Watching watching{{}, 0, [&](std::uint32_t stage) { ended.push_back(stage); }};
     EXPECT_EQ(run->advance(60, control_, watching).value(), StageEnd::stopped);
@@ -50,7 +50,7 @@ TEST_F(LiveRunTest, StepsGoFromStageToStage) {
 }
 
 TEST_F(LiveRunTest, ANumberActsOnTheRunningState) {
-    const auto run = begun(two_stages), other = begun(two_stages);
+    const auto run = begun(coupled_stages), other = begun(coupled_stages);
     advance(*run, 30);
     advance(*other, 30);
     apply(*run, SetNumber{"c", "0.2"});
@@ -66,7 +66,7 @@ TEST_F(LiveRunTest, ANumberCompilesNothing) {
     SimulationOptions options;
     options.threads = 1;
     options.stepper = make_stepper(options).value();
-    const auto run = LiveRun::begin(load_script("test", two_stages, "."), options, control_);
+    const auto run = LiveRun::begin(load_script("test", coupled_stages, "."), options, control_);
     ASSERT_TRUE(run);
     advance(**run, 30);
     const auto before = options.stepper->counts().compiled;
@@ -77,7 +77,7 @@ TEST_F(LiveRunTest, ANumberCompilesNothing) {
 }
 
 TEST_F(LiveRunTest, TimeGoesOnWhereTheStepChanges) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     advance(*run, 30);
     apply(*run, SetNumber{"one.speed", "0.1"});
     EXPECT_FLOAT_EQ(static_cast<float>(run->simulation().state(0).t), 6);
@@ -86,11 +86,11 @@ TEST_F(LiveRunTest, TimeGoesOnWhereTheStepChanges) {
 }
 
 TEST_F(LiveRunTest, AnEditKeepsWhatHasTheSameName) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     advance(*run, 30);
     const Field u = run->simulation().state(0).species[0].clone();
     // Species change their order, one comes, one goes.
-    apply(*run, SetText{with(two_stages, "v: y;", "w: 7; w' = 0;  v: 3;")});
+    apply(*run, SetText{with(coupled_stages, "v: y;", "w: 7; w' = 0;  v: 3;")});
     EXPECT_EQ(run->place(), (RunPlace{0, 30}));
     const StageState& state = run->simulation().state(0);
     ASSERT_EQ(state.species.size(), 3u);
@@ -100,9 +100,9 @@ TEST_F(LiveRunTest, AnEditKeepsWhatHasTheSameName) {
 }
 
 TEST_F(LiveRunTest, AWrongEditChangesNothing) {
-    const auto run = begun(two_stages), other = begun(two_stages);
+    const auto run = begun(coupled_stages), other = begun(coupled_stages);
     advance(*run, 30);
-    EXPECT_THAT(refused(*run, SetText{with(two_stages, "exp(k)", "exp(kk)")}),
+    EXPECT_THAT(refused(*run, SetText{with(coupled_stages, "exp(k)", "exp(kk)")}),
                 HasSubstr("test:3:"));
     EXPECT_THAT(refused(*run, SetText{"domain { grid: 20, 16 }"}), HasSubstr("no stage to run"));
     EXPECT_THAT(refused(*run, SetNumber{"nobody", "3"}), HasSubstr("nobody"));
@@ -114,9 +114,9 @@ TEST_F(LiveRunTest, AWrongEditChangesNothing) {
 }
 
 TEST_F(LiveRunTest, OtherCellsBeginAnew) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     advance(*run, 70);
-    apply(*run, SetText{with(two_stages, "20, 16", "10, 12")});
+    apply(*run, SetText{with(coupled_stages, "20, 16", "10, 12")});
     EXPECT_EQ(run->place(), RunPlace());
     EXPECT_TRUE(run->log().changes.empty()) << "a log begins where the run began";
     const auto undone = run->undo(control_);
@@ -125,17 +125,17 @@ TEST_F(LiveRunTest, OtherCellsBeginAnew) {
 }
 
 TEST_F(LiveRunTest, SettingsThatLostTheirMeaningAreDropped) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     apply(*run, SetNumber{"c", "0.2"});
     apply(*run, SetNumber{"one.speed", "0.1"});
-    std::string text = with(two_stages, "c: 0.1\n", "\n");
+    std::string text = with(coupled_stages, "c: 0.1\n", "\n");
     text = with(with(text, "- c *", "-"), "+ c *", "+");
     apply(*run, SetText{text});
     EXPECT_EQ(run->script().overrides.sets, (std::vector<std::string>{"one.speed=0.1"}));
 }
 
 TEST_F(LiveRunTest, PaintingReplacesValuesOfTheCells) {
-    const auto run = begun(with(two_stages, "speed: 0.2 }", "speed: 0.2; frozen: x > 0.9 }"));
+    const auto run = begun(with(coupled_stages, "speed: 0.2 }", "speed: 0.2; frozen: x > 0.9 }"));
     advance(*run, 10);
     apply(*run, Paint{"u", "if(disc(0.3, 0.3, 0.2) > 0, 9, u)"});
     EXPECT_EQ(run->simulation().state(0).species[0].number_at(5, 5), 9);
@@ -155,7 +155,7 @@ TEST_F(LiveRunTest, PaintingReplacesValuesOfTheCells) {
 }
 
 TEST_F(LiveRunTest, WhatCannotBePaintedIsSaid) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     EXPECT_THAT(refused(*run, Paint{"w", "1"}), HasSubstr("nothing called 'w'"));
     EXPECT_THAT(refused(*run, Paint{"c", "1"}), HasSubstr("one number for all cells"));
     EXPECT_THAT(refused(*run, Paint{"u", "log(-1 - x)"}), HasSubstr("finite"));
@@ -164,7 +164,7 @@ TEST_F(LiveRunTest, WhatCannotBePaintedIsSaid) {
 }
 
 TEST_F(LiveRunTest, AStageEndsWhereTheUserSays) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     advance(*run, 25);
     apply(*run, NextStage{});
     EXPECT_EQ(run->place(), (RunPlace{1, 0}));
@@ -177,7 +177,7 @@ TEST_F(LiveRunTest, AStageEndsWhereTheUserSays) {
 }
 
 TEST_F(LiveRunTest, GoingBackKeepsNumbersAndDropsStrokes) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     advance(*run, 80);
     apply(*run, SetNumber{"c", "0.2"});
     apply(*run, Paint{"u", "5"});
@@ -196,7 +196,7 @@ TEST_F(LiveRunTest, GoingBackKeepsNumbersAndDropsStrokes) {
 
 TEST_F(LiveRunTest, UndoGivesTheValuesBackToTheBit) {
     for (const std::size_t memory : {std::size_t{1} << 20, std::size_t{0}}) {
-        const auto run = begun(two_stages), other = begun(two_stages);
+        const auto run = begun(coupled_stages), other = begun(coupled_stages);
         run->set_undo_memory(memory);
         advance(*run, 30);
         apply(*run, Paint{"u", "u + 1"});
@@ -216,11 +216,11 @@ TEST_F(LiveRunTest, UndoGivesTheValuesBackToTheBit) {
 }
 
 TEST_F(LiveRunTest, PartsOfOneStrokeAreUndoneTogether) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     apply(*run, Paint{"u", "u + 1"});
     ASSERT_TRUE(run->apply(Paint{"u", "u + 2"}, control_, true));
     ASSERT_TRUE(run->undo(control_));
-    EXPECT_EQ(difference(*run, *begun(two_stages)), "");
+    EXPECT_EQ(difference(*run, *begun(coupled_stages)), "");
 }
 
 /// What the first of two changes loses does not come back with the second one.
@@ -234,7 +234,7 @@ TEST_F(LiveRunTest, ChangesAtOneStepAreLoggedWhereTheFirstLosesValues) {
     apply(*run, SetText{with_v});
     EXPECT_EQ(difference(*run, *played(run->log())), "");
 
-    const auto painted = begun(two_stages);
+    const auto painted = begun(coupled_stages);
     advance(*painted, 30);
     apply(*painted, Paint{"k", "0.5"});
     apply(*painted, SetNumber{"one.k", "3"});
@@ -244,7 +244,7 @@ TEST_F(LiveRunTest, ChangesAtOneStepAreLoggedWhereTheFirstLosesValues) {
 }
 
 TEST_F(LiveRunTest, ANumberThatIsMovedAtOneStepIsLoggedOnce) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     advance(*run, 30);
     for (const char* value : {"0.2", "0.3", "0.4"}) apply(*run, SetNumber{"c", value});
     const SessionLog log = run->log();
@@ -255,13 +255,13 @@ TEST_F(LiveRunTest, ANumberThatIsMovedAtOneStepIsLoggedOnce) {
 /// Whatever is done, the log gives the same bits again, from its text as well.
 TEST_F(LiveRunTest, ALogThatIsPlayedAgainGivesTheSameBits) {
     const std::string scripts[] = {
-        two_stages,
-        with(two_stages, "iterations: 60; speed: 0.2 }",
+        coupled_stages,
+        with(coupled_stages, "iterations: 60; speed: 0.2 }",
              "duration: 12; speed: auto; solver: rkl2 }"),
-        with(two_stages, "iterations: 60; speed: 0.2 }", "duration: 12; solver: rk45 }"),
-        with(two_stages, "speed: 0.2 }", "speed: 0.2; until: steady(0.01) }"),
-        with(two_stages, "boundary: noflux", "boundary: noflux; mask: disc(0.5, 0.4, 0.35)"),
-        with(two_stages, "grid: 20, 16; boundary: noflux", "surface: torus; cells: 300"),
+        with(coupled_stages, "iterations: 60; speed: 0.2 }", "duration: 12; solver: rk45 }"),
+        with(coupled_stages, "speed: 0.2 }", "speed: 0.2; until: steady(0.01) }"),
+        with(coupled_stages, "boundary: noflux", "boundary: noflux; mask: disc(0.5, 0.4, 0.35)"),
+        with(coupled_stages, "grid: 20, 16; boundary: noflux", "surface: torus; cells: 300"),
     };
     for (const std::string& script : scripts) {
         const std::vector<Change> changes = {
@@ -371,17 +371,17 @@ TEST(SessionLogTest, NoTextIsTooStrange) {
 }
 
 TEST_F(LiveRunTest, ALogThatDoesNotFitItsScriptIsRefused) {
-    const auto run = begun(two_stages);
+    const auto run = begun(coupled_stages);
     advance(*run, 70);
     SessionLog log = run->log();
     log.text = with(log.text, "iterations: 60", "iterations: 20");
-    const auto played = LiveRun::play(log, ".", interpreted, control_);
+    const auto played = LiveRun::play(log, ".", interpreted(), control_);
     EXPECT_TRUE(played) << "the second stage is reached earlier, which nothing contradicts";
     log.end = {0, 70};
-    const auto refused = LiveRun::play(log, ".", interpreted, control_);
+    const auto refused = LiveRun::play(log, ".", interpreted(), control_);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().messages(false), HasSubstr("does not reach"));
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

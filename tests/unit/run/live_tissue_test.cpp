@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::Each;
@@ -211,4 +211,4 @@ TEST_F(LiveTissueTest, ALogThatIsPlayedAgainGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -23,7 +23,7 @@ std::string text_of(const std::string& system, const std::string& settings) {
         system, settings);
 }
 
-Ran run(const std::string& system, const std::string& settings) {
+Ran run_system(const std::string& system, const std::string& settings) {
     Ran ran = run_text(text_of(system, settings));
     EXPECT_EQ(ran.failure, "") << settings;
     return ran;
@@ -43,10 +43,11 @@ TEST(LocalSolver, IsOfSecondOrderWithAReactionAndDiffusion) {
         "u: 1 + 0.5 * cos(2 * pi * sx); v: 3\n"
         "u' = 1 + u^2 * v - 4 * u + 0.3 * lap(u) + 0.1 * sin(t)\n"
         "v' = 3 * u - u^2 * v + 0.15 * lap(v)";
-    const Ran exact = run(brusselator, "solver: rk4; speed: 0.001; iterations: 1000");
+    const Ran exact = run_system(brusselator, "solver: rk4; speed: 0.001; iterations: 1000");
     const auto error = [&](int steps) {
-        const Ran ran = run(brusselator,
-                            fmt::format("solver: ros2; speed: 1/{}; iterations: {}", steps, steps));
+        const Ran ran =
+            run_system(brusselator,
+                       fmt::format("solver: ros2; speed: 1/{}; iterations: {}", steps, steps));
         double most = 0;
         for (std::size_t k = 0; k < 2; ++k) {
             most =
@@ -63,7 +64,8 @@ TEST(LocalSolver, IsOfSecondOrderWithAReactionAndDiffusion) {
 /// The values of Hairer and Wanner's RADAU5 at t = 40. An explicit method would need steps of 10⁻³,
 /// as b decays at a rate of 2200: more than 40,000 of them.
 TEST(LocalSolver, SolvesRobertsonsKinetics) {
-    const Ran ran = run(robertson, "solver: ros2; speed: auto; tolerance: 0.0001; duration: 40");
+    const Ran ran =
+        run_system(robertson, "solver: ros2; speed: auto; tolerance: 0.0001; duration: 40");
     EXPECT_LT(ran.state().steps, 2500);
     const auto value = [&](std::size_t k) { return ran.species(k).number_at(3, 0); };
     EXPECT_NEAR(value(0), 0.715827, 1e-5);
@@ -75,7 +77,7 @@ TEST(LocalSolver, SolvesRobertsonsKinetics) {
 /// A. Prothero, A. Robinson 1974: u is drawn to a known solution, here v, in a fraction of a step.
 TEST(LocalSolver, TakesStepsThatNoExplicitSolverCan) {
     const std::string drawn = "u: 1.5; v: 1; w: 0; u' = -1000000 * (u - v) - w; v' = -w; w' = v";
-    const Ran ran = run(drawn, "solver: ros2; speed: 0.05; iterations: 40");
+    const Ran ran = run_system(drawn, "solver: ros2; speed: 0.05; iterations: 40");
     EXPECT_NEAR(ran.species().number_at(0, 0), std::cos(2.0), 2e-3);
     for (const char* solver : {"rk4", "rkl2"}) {
         const Ran other = run_text(
@@ -88,17 +90,17 @@ TEST(LocalSolver, TakesStepsThatNoExplicitSolverCan) {
 
 /// A decay that is far faster than a step is over after it: the method is L-stable.
 TEST(LocalSolver, EndsWhatDecaysFasterThanAStep) {
-    const Ran ran =
-        run("u: 1; u' = -10000000 * u + 0.1 * lap(u)", "solver: ros2; speed: 1; iterations: 1");
+    const Ran ran = run_system("u: 1; u' = -10000000 * u + 0.1 * lap(u)",
+                               "solver: ros2; speed: 1; iterations: 1");
     EXPECT_LT(std::abs(ran.species().number_at(0, 0)), 1e-5);
 }
 
 /// The equations of u alone are singular at this step, those of u and v together are not.
 TEST(LocalSolver, ExchangesEquationsWhereAPivotVanishes) {
     const double growth = 1 / (1 - std::numbers::sqrt2 / 2);
-    const Ran ran =
-        run(fmt::format("u: 1; v: 0.5; u' = {:.17g} * u - 20 * v; v' = 20 * u - 5 * v", growth),
-            "solver: ros2; speed: 1; iterations: 1");
+    const Ran ran = run_system(
+        fmt::format("u: 1; v: 0.5; u' = {:.17g} * u - 20 * v; v' = 20 * u - 5 * v", growth),
+        "solver: ros2; speed: 1; iterations: 1");
     // k1 and k2 by Cramer's rule.
     const double g = 1 - std::numbers::sqrt2 / 2;
     const double a = 1 - g * growth, b = 20 * g, c = -20 * g, d = 1 + 5 * g, det = a * d - b * c;
@@ -122,8 +124,9 @@ TEST(LocalSolver, GrowsTheWavesOfATightExplicitSolver) {
         "eps: 0.001; q: 0.002; f: 1.4; u: if(sx < 0.2, 0.8, 0.012); v: 0.012\n"
         "u' = (u - u^2 - f * v * (u - q) / (u + q)) / eps + lap(u)\n"
         "v' = u - v + 0.6 * lap(v)\n u >= 0";
-    const Ran exact = run(system, "solver: rk45; tolerance: 0.000001; duration: 0.5");
-    const Ran ran = run(system, "solver: ros2; speed: auto; tolerance: 0.001; duration: 0.5");
+    const Ran exact = run_system(system, "solver: rk45; tolerance: 0.000001; duration: 0.5");
+    const Ran ran =
+        run_system(system, "solver: ros2; speed: auto; tolerance: 0.001; duration: 0.5");
     EXPECT_LT(3 * ran.state().steps, exact.state().steps);
     for (std::size_t k = 0; k < 2; ++k) {
         const double difference =

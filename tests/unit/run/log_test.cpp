@@ -1,3 +1,4 @@
+// Logs of a run: rows, expressions, limits of memory, and features.
 #include "run/stage/memory.h"
 #include "run_fixture.h"
 
@@ -25,14 +26,14 @@ protected:
     }
 };
 
-constexpr const char* two = R"(
+constexpr const char* two_logged_stages = R"(
 domain { grid: 12, 8 }
 stage large: turing_spots { iterations: 20; interval: 10; speed: 0.5; ka: 1/80 }
 stage small: stripes { iterations: 6; interval: 3; speed: 0.25 }
 )";
 
 TEST_F(LogTest, ARowAtEachIntervalAndAtBothEnds) {
-    Script script = load(two);
+    Script script = load(two_logged_stages);
     RunRequest wanted = request();
     wanted.log.expressions = {"t*2", "ka", "small.speed"};
     const RunReport report = run_well(script, wanted);
@@ -46,7 +47,7 @@ TEST_F(LogTest, ARowAtEachIntervalAndAtBothEnds) {
 
 TEST_F(LogTest, StepsOfItsOwnAndWithFrames) {
     for (const bool frames : {false, true}) {
-        Script script = load(two);
+        Script script = load(two_logged_stages);
         RunRequest wanted = request();
         wanted.log.expressions = {"step"};
         wanted.log.every = 7;
@@ -116,10 +117,10 @@ TEST_F(LogTest, AggregatesOverTime) {
 }
 
 TEST_F(LogTest, ItNeverChangesAResult) {
-    Script plain = load(two);
+    Script plain = load(two_logged_stages);
     run_well(plain, request());
     const std::string picture = bytes("picture.png");
-    Script logged = load(two);
+    Script logged = load(two_logged_stages);
     RunRequest wanted = request();
     wanted.log.expressions = {"t"};
     wanted.log.every = 1;
@@ -140,7 +141,7 @@ TEST_F(LogTest, ABlowUpIsLogged) {
 
 TEST_F(LogTest, WrongExpressions) {
     const auto message_of = [&](const std::string& expression) {
-        Script script = load(two);
+        Script script = load(two_logged_stages);
         RunRequest wanted = request();
         wanted.log.expressions = {"t", expression};
         run_badly(script, wanted);

@@ -14,7 +14,7 @@ namespace cascade {
 namespace {
 
 /// A disc of 12 × 12 cells or so, in two stages.
-constexpr const char* disc = R"(
+constexpr const char* disc_in_two_stages = R"(
 domain { grid: 20, 16; mask: disc(0.5, 0.4, 0.3) }
 stage first: turing_spots { iterations: 60; interval: 20; ka: 0.2/16 }
 stage second: turing_spots {
@@ -37,7 +37,7 @@ bool is_inside(std::size_t cell) {
 int colour_type(const std::string& file) { return file.size() > 25 ? file[25] : -1; }
 
 TEST_F(RunTest, MaskedFilesHaveNanOutside) {
-    Script script = load(disc);
+    Script script = load(disc_in_two_stages);
     RunRequest wanted = request();
     wanted.save = path("saved");
     run_well(script, wanted);
@@ -51,12 +51,12 @@ TEST_F(RunTest, MaskedFilesHaveNanOutside) {
 }
 
 TEST_F(RunTest, MaskedRunsGoOnWhereTheyStopped) {
-    Script whole = load(disc);
+    Script whole = load(disc_in_two_stages);
     RunRequest wanted = request();
     wanted.save = path("whole");
     run_well(whole, wanted);
 
-    Script stopped = load(disc);
+    Script stopped = load(disc_in_two_stages);
     wanted.save = path("part");
     wanted.stop_at = StopAt{"second", 13};
     EXPECT_EQ(run_well(stopped, wanted).status, RunStatus::stopped);
@@ -71,7 +71,7 @@ TEST_F(RunTest, MaskedRunsGoOnWhereTheyStopped) {
 }
 
 TEST_F(RunTest, ValuesOfTheDomainThatAreNotFiniteAreRefused) {
-    Script script = load(disc);
+    Script script = load(disc_in_two_stages);
     RunRequest wanted = request();
     wanted.save = path("saved");
     wanted.stop_at = StopAt{"second", 13};
@@ -96,7 +96,7 @@ TEST_F(RunTest, ValuesOfTheDomainThatAreNotFiniteAreRefused) {
 
 #if CASCADE_HAS_JIT
 TEST_F(RunTest, AMaskIsNotCompiledToAnObjectFile) {
-    Script script = load(disc);
+    Script script = load(disc_in_two_stages);
     const auto compiled = compile_step(script, {});
     ASSERT_FALSE(compiled);
     EXPECT_THAT(compiled.error().message, ::testing::HasSubstr("a domain with a mask"));
@@ -104,7 +104,7 @@ TEST_F(RunTest, AMaskIsNotCompiledToAnObjectFile) {
 #endif
 
 TEST_F(RunTest, MaskedPicturesAreTransparentOutside) {
-    Script script = load(disc);
+    Script script = load(disc_in_two_stages);
     RunRequest wanted = request();
     wanted.picture.range = ValueRange{1000, 2000};  // All that is seen is black.
     wanted.frames = path("frames");
@@ -127,7 +127,7 @@ TEST_F(RunTest, MaskedPicturesAreTransparentOutside) {
 }
 
 TEST_F(RunTest, MaskedColoursAreTransparentOutside) {
-    Script script = load(std::string(disc) + "picture { color: rgb(1, 0, 0) }");
+    Script script = load(std::string(disc_in_two_stages) + "picture { color: rgb(1, 0, 0) }");
     run_well(script, request());
     EXPECT_EQ(colour_type(bytes("picture.png")), 6);
 }

@@ -12,12 +12,12 @@
 #include <memory>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 inline BackendKind stepper() { return has_jit() ? BackendKind::jit : BackendKind::interpreter; }
 
 /// A script with a simulation whose stages have run.
-struct Ran {
+struct FinishedScript {
     Script script;
     std::unique_ptr<Simulation> simulation;
     std::string failure;
@@ -41,8 +41,9 @@ struct Ran {
 };
 
 /// Runs every stage to its end. The script stays where it is: the simulation refers to it.
-inline std::unique_ptr<Ran> run_text(const std::string& text, BackendKind backend = stepper()) {
-    auto ran = std::make_unique<Ran>();
+inline std::unique_ptr<FinishedScript> finished_script(const std::string& text,
+                                                       BackendKind backend = stepper()) {
+    auto ran = std::make_unique<FinishedScript>();
     ran->script = load_script("test", text, ".");
     EXPECT_TRUE(ran->script.program) << text << ran->script.messages(false);
     if (!ran->script.program) return ran;
@@ -83,4 +84,4 @@ inline double sum_of(const Field& field) {
     return sum;
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -9,13 +9,13 @@
 namespace cascade {
 namespace {
 
-using testing::expect_box_is_grid;
-using testing::Operator;
-using testing::operators_of_planes;
-using testing::run_text;
-using testing::sum_of;
-using testing::system_of;
-using testing::word;
+using test::expect_box_is_grid;
+using test::finished_script;
+using test::Operator;
+using test::operators_of_planes;
+using test::sum_of;
+using test::system_of;
+using test::word;
 
 TEST(Mask, ABoxIsTheSmallGridToTheBit) {
     for (const Operator& each : operators_of_planes) {
@@ -66,8 +66,8 @@ TEST(Mask, AMaskOfAllCellsIsNone) {
                     "stage only: s {{ iterations: 5; speed: 0.01 }}\n",
                     boundary, mask, system);
             };
-            const auto plain = run_text(script("seed: 1"));
-            const auto masked = run_text(script("mask: 2 + x"));
+            const auto plain = finished_script(script("seed: 1"));
+            const auto masked = finished_script(script("mask: 2 + x"));
             for (const std::string name : {"u", "v"}) {
                 int wrong = 0;
                 for (std::int64_t row = 0; row < 20; ++row) {
@@ -95,8 +95,8 @@ TEST(Mask, TheOppositeSideIsBeside) {
             "stage only: s {{ iterations: 6; speed: 0.01 }}\n",
             side, across, down);
     };
-    const auto there = run_text(script(0, 0));
-    const auto here = run_text(script(13, 20));
+    const auto there = finished_script(script(0, 0));
+    const auto here = finished_script(script(13, 20));
     for (const std::string name : {"u", "v"}) {
         for (int j = 0; j < side; ++j) {
             for (int i = 0; i < side; ++i) {
@@ -118,8 +118,8 @@ TEST(Mask, MixedDerivativesFavourNoAxis) {
             "stage only: s {{ iterations: 1 }}\n",
             x, y);
     };
-    const auto one = run_text(script("x", "y"));
-    const auto other = run_text(script("y", "x"));
+    const auto one = finished_script(script("x", "y"));
+    const auto other = finished_script(script("y", "x"));
     for (int j = 0; j < 30; ++j) {
         for (int i = 0; i < 30; ++i) {
             ASSERT_EQ(word(one->field("u").at(i, j)), word(other->field("u").at(j, i)));
@@ -141,8 +141,8 @@ TEST(Mask, FluxesLoseNothing) {
                     "  u' = {}\n}}\nstage only: s {{ iterations: {}; speed: 0.002 }}\n",
                     domain, rate, steps);
             };
-            const double before = sum_of(run_text(text(0))->field("u"));
-            const auto after = run_text(text(400));
+            const double before = sum_of(finished_script(text(0))->field("u"));
+            const auto after = finished_script(text(400));
             ASSERT_EQ(after->failure, "");
             EXPECT_NEAR(sum_of(after->field("u")) / before, 1, 2e-6) << rate << " in " << domain;
         }
@@ -153,7 +153,7 @@ TEST(Mask, FluxesLoseNothing) {
 TEST(Mask, FluxesOnASurfaceLoseNothing) {
     for (const char* rate :
          {"lap(u)", "div(u * vector(sin(9 * sy), 1))", "div(tensor(1, 0.3, 5 * sx) * grad(u^2))"}) {
-        const auto ran = run_text(fmt::format(
+        const auto ran = finished_script(fmt::format(
             "domain {{\n  grid: 40, 32\n  mask: noise(0.3) > -0.2\n"
             "  surface: (3 + cos(2*pi*sy)) * cos(2*pi*sx), (3 + cos(2*pi*sy)) * sin(2*pi*sx), "
             "sin(2*pi*sy)\n}}\n"
@@ -178,8 +178,8 @@ TEST(Mask, AFlatSurfaceIsThePlane) {
             "stage only: s {{ iterations: 10; speed: 0.05 }}\n",
             surface);
     };
-    const auto plane = run_text(script(""));
-    const auto surface = run_text(script("; surface: 24 * sx, 20 * sy, 0; unit: 1"));
+    const auto plane = finished_script(script(""));
+    const auto surface = finished_script(script("; surface: 24 * sx, 20 * sy, 0; unit: 1"));
     for (const std::string name : {"u", "v"}) {
         for (int j = 0; j < 20; ++j) {
             for (int i = 0; i < 24; ++i) {

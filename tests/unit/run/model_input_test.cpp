@@ -25,30 +25,31 @@ std::string messages_of(const std::string& domain, const std::string& rate,
     return script.messages(false);
 }
 
-constexpr const char* sphere = "surface: sphere; cells: 100";
+constexpr const char* small_sphere = "surface: sphere; cells: 100";
 
 TEST(ModelInput, OperatorsOfColumnsAndRowsAreRefused) {
     for (const char* rate :
          {"dxx(u)", "dyy(u)", "dzz(u)", "dxy(u)", "dxz(u)", "dyz(u)", "advect(1, 2, u)",
           "transport(1, 2, u)", "curl(u).x", "div(symmetric(1, 2, 0.3) * grad(u))"}) {
-        EXPECT_NE(messages_of(sphere, rate).find("cannot be used on a model"), std::string::npos)
+        EXPECT_NE(messages_of(small_sphere, rate).find("cannot be used on a model"),
+                  std::string::npos)
             << rate;
     }
-    EXPECT_EQ(messages_of(sphere, "lap(u) + div(u^2 * grad(u)) + grad2(u) + dx(u)"), "");
-    EXPECT_EQ(messages_of(sphere, "div(vector(u, u)) + diffuse(u, 1, 1, 0)"), "");
+    EXPECT_EQ(messages_of(small_sphere, "lap(u) + div(u^2 * grad(u)) + grad2(u) + dx(u)"), "");
+    EXPECT_EQ(messages_of(small_sphere, "div(vector(u, u)) + diffuse(u, 1, 1, 0)"), "");
 }
 
 TEST(ModelInput, SettingsOfPlanesAreRefused) {
     for (const char* word : {"grid: 20, 20", "boundary: periodic", "spacing: 2", "mask: x > 0.5"}) {
         const std::string name = std::string(word).substr(0, std::string(word).find(':'));
-        EXPECT_NE(messages_of(fmt::format("{}; {}", sphere, word), "lap(u)")
+        EXPECT_NE(messages_of(fmt::format("{}; {}", small_sphere, word), "lap(u)")
                       .find("a model has no " + name),
                   std::string::npos)
             << word;
     }
-    EXPECT_NE(messages_of(sphere, "lap(u)", "solver: imex").find("needs the waves of a grid"),
+    EXPECT_NE(messages_of(small_sphere, "lap(u)", "solver: imex").find("needs the waves of a grid"),
               std::string::npos);
-    EXPECT_NE(messages_of(sphere, "lap(u)", "start: coarse(2)").find("coarser grid"),
+    EXPECT_NE(messages_of(small_sphere, "lap(u)", "start: coarse(2)").find("coarser grid"),
               std::string::npos);
 }
 

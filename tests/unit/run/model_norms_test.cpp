@@ -13,15 +13,15 @@ namespace cascade {
 namespace {
 
 using test::ModelRun;
-using testing::PlainState;
-using testing::SchemeRunner;
+using test::PlainState;
+using test::SchemeRunner;
 
-constexpr std::size_t cells = 520;
+constexpr std::size_t cells_in_two_rows = 520;
 
-std::string script_of(const std::string& system, const std::string& stage) {
+std::string script_on_sphere(const std::string& system, const std::string& stage) {
     return fmt::format(
         "domain {{ surface: sphere; cells: {} }}\nsystem s {{ {} }}\nstage only: s {{ {} }}\n",
-        cells, system, stage);
+        cells_in_two_rows, system, stage);
 }
 
 /// The time of an adaptive run of u' = 20 u (1 − u) after so many steps, and so many copies of the
@@ -54,8 +54,8 @@ double time_by_hand(std::vector<double> start, std::size_t copies, int steps) {
 
 TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
     constexpr int steps = 12;
-    ModelRun run(script_of("u: 0.01 + 0.1 * x * x\n u' = 20 * u * (1 - u)",
-                           "duration: 50; solver: rk45; tolerance: 1e-6; speed: 0.001"),
+    ModelRun run(script_on_sphere("u: 0.01 + 0.1 * x * x\n u' = 20 * u * (1 - u)",
+                                  "duration: 50; solver: rk45; tolerance: 1e-6; speed: 0.001"),
                  Precision::binary64);
     run.start();
     const ModelCells& model = *run.simulation().model();
@@ -63,19 +63,19 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
     // In the order of memory, in which the last cell is the one that is copied.
     const std::vector<double> values = run.values("u");
     std::vector<double> start;
-    for (std::size_t k = 0; k < cells; ++k)
+    for (std::size_t k = 0; k < cells_in_two_rows; ++k)
         start.push_back(values[model.cell_at(static_cast<std::int64_t>(k))]);
     ASSERT_TRUE(run.steps(steps));
     const double t = run.simulation().state(0).t, expected = time_by_hand(start, 0, steps);
     EXPECT_NEAR(t / expected, 1, 1e-9);
-    EXPECT_GT(std::abs(time_by_hand(start, 1024 - cells, steps) / expected - 1), 1e-3)
+    EXPECT_GT(std::abs(time_by_hand(start, 1024 - cells_in_two_rows, steps) / expected - 1), 1e-3)
         << "copies that count are seen";
 }
 
 /// The step after which a stage has settled, as fields of these planes say.
 template <typename Look>
 std::int64_t settled_by_hand(const std::string& system, double tolerance, const Look& look) {
-    ModelRun run(script_of(system, "iterations: 10000; speed: 1"), Precision::binary64);
+    ModelRun run(script_on_sphere(system, "iterations: 10000; speed: 1"), Precision::binary64);
     run.start();
     SteadyWatch watch;
     const auto fields = [&] {
@@ -93,7 +93,7 @@ std::int64_t settled_by_hand(const std::string& system, double tolerance, const 
 
 TEST(ModelNorms, AStageHasSettledWhenItsCellsHave) {
     const std::string system = "k: 0.002 + 0.04 * x\n u: 0\n u' = k * (1 - u)";
-    ModelRun run(script_of(system, "until: steady(1e-3); check: 10; speed: 1"),
+    ModelRun run(script_on_sphere(system, "until: steady(1e-3); check: 10; speed: 1"),
                  Precision::binary64);
     run.start();
     ASSERT_TRUE(run.steps(1000000));

@@ -17,12 +17,11 @@
 namespace cascade {
 namespace {
 
+using test::load;
 using test::result_of;
 using test::start;
 
 constexpr std::size_t some_cells = 1300;  // Three rows of 512, the last of them not full.
-
-Script load(const std::string& text) { return load_script("test", text, "."); }
 
 std::string on_sphere(const std::string& system) {
     return "domain { surface: sphere; cells: " + std::to_string(some_cells) + "; seed: 3 }\n" +

@@ -14,8 +14,8 @@ namespace {
 using test::ModelRun;
 
 /// One stage whose steps are of this length.
-std::string script_of(const std::string& domain, const std::string& system, double speed,
-                      int steps) {
+std::string script_of_steps(const std::string& domain, const std::string& system, double speed,
+                            int steps) {
     return fmt::format(
         "domain {{ {} }}\nsystem s {{ {} }}\n"
         "stage only: s {{ iterations: {}; speed: {} }}\n",
@@ -23,7 +23,7 @@ std::string script_of(const std::string& domain, const std::string& system, doub
 }
 
 std::string heat(const std::string& domain, const std::string& start, double speed, int steps) {
-    return script_of(domain, "u: " + start + "\n u' = lap(u)", speed, steps);
+    return script_of_steps(domain, "u: " + start + "\n u' = lap(u)", speed, steps);
 }
 
 /// The rate at which what a plane began with has become less of it in time t.
@@ -49,10 +49,10 @@ TEST(ModelTheory, HeatOnASphereDecaysByHarmonics) {
     for (const auto& [domain, tolerance] :
          {Case{"cells: 6000", 0.03}, Case{"cells: 6000; laplacian: turk", 0.12},
           Case{"cells: faces", 0.03}, Case{"cells: vertices", 0.03}}) {
-        ModelRun run(script_of(fmt::format("surface: sphere; unit: 1; {}", domain),
-                               "p1: nz\n p2: 1.5*nz*nz - 0.5\n p3: 2.5*nz*nz*nz - 1.5*nz\n"
-                               "p1' = lap(p1)\n p2' = lap(p2)\n p3' = lap(p3)",
-                               t / steps, steps));
+        ModelRun run(script_of_steps(fmt::format("surface: sphere; unit: 1; {}", domain),
+                                     "p1: nz\n p2: 1.5*nz*nz - 0.5\n p3: 2.5*nz*nz*nz - 1.5*nz\n"
+                                     "p1' = lap(p1)\n p2' = lap(p2)\n p3' = lap(p3)",
+                                     t / steps, steps));
         run.start();
         std::array<std::vector<double>, 3> before;
         for (std::size_t l = 1; l <= 3; ++l) before[l - 1] = run.values(fmt::format("p{}", l));
@@ -67,12 +67,13 @@ TEST(ModelTheory, HeatOnASphereDecaysByHarmonics) {
 
 TEST(ModelTheory, NothingIsLost) {
     for (const char* surface : {"sphere", "torus(1, 0.3)", "box(1, 1, 2)", "creature"}) {
-        ModelRun run(script_of(fmt::format("surface: {}; cells: 1300", surface),
-                               "k: random(0.5, 0.4)\n n: 1 + noise(0.2)^2\n u: n\n v: n\n w: n\n"
-                               "u' = lap(u)\n v' = div((0.5 + k) * grad(v))\n"
-                               "w' = div(w^2 * grad(w) - k * grad(w))",
-                               0.05, 200),
-                     Precision::binary64);
+        ModelRun run(
+            script_of_steps(fmt::format("surface: {}; cells: 1300", surface),
+                            "k: random(0.5, 0.4)\n n: 1 + noise(0.2)^2\n u: n\n v: n\n w: n\n"
+                            "u' = lap(u)\n v' = div((0.5 + k) * grad(v))\n"
+                            "w' = div(w^2 * grad(w) - k * grad(w))",
+                            0.05, 200),
+            Precision::binary64);
         run.start();
         const double sum = run.area_sum("n"), spread = run.spread("n");
         ASSERT_TRUE(run.steps(200));
@@ -85,7 +86,7 @@ TEST(ModelTheory, NothingIsLost) {
 
 TEST(ModelTheory, AConstantHasNoDerivatives) {
     for (const char* cells : {"1300", "faces", "vertices"}) {
-        ModelRun run(script_of(
+        ModelRun run(script_of_steps(
             fmt::format("surface: box; cells: {}", cells),
             "k: random(0.5, 0.4)\n c: 0.3 + 0*x\n p: c\n q: c\n r: c\n u: c\n v: c\n w: c\n"
             "p' = lap(p)\n q' = div(k * grad(q))\n r' = grad2(r)\n"
@@ -110,22 +111,22 @@ double mean_size(const ModelRun& run, const std::string& name) {
 TEST(ModelTheory, GradientsOfLinearFunctions) {
     // x runs from 0 to 1 along the longest side, which is 2 units on a sphere of radius 1: the
     // gradient of f in space is G = (1, -1/2, 3/2), and on the surface what is tangent of it.
-    ModelRun sphere(
-        script_of("surface: sphere; cells: 6000; unit: 1",
-                  "f: 2*x - y + 3*z\n n: nx - 0.5*ny + 1.5*nz\n"
-                  "ex: dx(f) - 1 + nx*n\n ey: dy(f) + 0.5 + ny*n\n ez: dz(f) - 1.5 + nz*n\n"
-                  "e2: grad2(f) - 3.5 + n^2\n m2: mean(grad2(f) over domain)\n u: 0\n u' = 0*u",
-                  1, 0));
+    ModelRun sphere(script_of_steps(
+        "surface: sphere; cells: 6000; unit: 1",
+        "f: 2*x - y + 3*z\n n: nx - 0.5*ny + 1.5*nz\n"
+        "ex: dx(f) - 1 + nx*n\n ey: dy(f) + 0.5 + ny*n\n ez: dz(f) - 1.5 + nz*n\n"
+        "e2: grad2(f) - 3.5 + n^2\n m2: mean(grad2(f) over domain)\n u: 0\n u' = 0*u",
+        1, 0));
     sphere.start();
     for (const char* name : {"ex", "ey", "ez"}) EXPECT_LT(mean_size(sphere, name), 0.02) << name;
     // The cells' shapes shift what flows through their walls to and fro; the mean is right.
     EXPECT_LT(mean_size(sphere, "e2"), 0.25);
     EXPECT_NEAR(sphere.number("m2"), 3.5 * 2 / 3, 0.02);
     // Flat sides; cells at edges see around them.
-    ModelRun box(script_of("surface: box(1, 1, 1); cells: 6000; unit: 1",
-                           "f: 2*x - y + 3*z\n ex: dx(f) - 2 * (abs(nx) < 0.5)\n"
-                           "ez: dz(f) - 3 * (abs(nz) < 0.5)\n u: 0\n u' = 0*u",
-                           1, 0));
+    ModelRun box(script_of_steps("surface: box(1, 1, 1); cells: 6000; unit: 1",
+                                 "f: 2*x - y + 3*z\n ex: dx(f) - 2 * (abs(nx) < 0.5)\n"
+                                 "ez: dz(f) - 3 * (abs(nz) < 0.5)\n u: 0\n u' = 0*u",
+                                 1, 0));
     box.start();
     EXPECT_LT(mean_size(box, "ex"), 0.08);
     EXPECT_LT(mean_size(box, "ez"), 0.12);
@@ -134,14 +135,14 @@ TEST(ModelTheory, GradientsOfLinearFunctions) {
 TEST(ModelTheory, BothSquaresOfGradientsConverge) {
     // A harmonic of degree 8 on a sphere, about Re (x + iy)^8: |grad f|^2 = 64 (r^14 - f^2).
     const auto errors = [](int cells) {
-        ModelRun run(script_of(fmt::format("surface: sphere; unit: 1; cells: {}", cells),
-                               "r2: nx^2 + ny^2\n"
-                               "f: nx^8 - 28*nx^6*ny^2 + 70*nx^4*ny^4 - 28*nx^2*ny^6 + ny^8\n"
-                               "m: mean(64 * (r2^7 - f^2) over domain)\n"
-                               "g: mean(grad2(f) over domain)\n"
-                               "d: mean(dx(f)^2 + dy(f)^2 + dz(f)^2 over domain)\n"
-                               "e: mean(f * lap(f) over domain)\n u: 0\n u' = 0*u",
-                               1, 0),
+        ModelRun run(script_of_steps(fmt::format("surface: sphere; unit: 1; cells: {}", cells),
+                                     "r2: nx^2 + ny^2\n"
+                                     "f: nx^8 - 28*nx^6*ny^2 + 70*nx^4*ny^4 - 28*nx^2*ny^6 + ny^8\n"
+                                     "m: mean(64 * (r2^7 - f^2) over domain)\n"
+                                     "g: mean(grad2(f) over domain)\n"
+                                     "d: mean(dx(f)^2 + dy(f)^2 + dz(f)^2 over domain)\n"
+                                     "e: mean(f * lap(f) over domain)\n u: 0\n u' = 0*u",
+                                     1, 0),
                      Precision::binary64);
         run.start();
         EXPECT_NEAR(run.number("g") + run.number("e"), 0, 1e-10);  // Nothing is lost by parts.
@@ -196,9 +197,9 @@ TEST(ModelTheory, ManyPartsOfAStepAreStagesOfLegendre) {
     // In stages of Runge-Kutta-Legendre, as in parts, a step of length h takes a mode of rate r to
     // 1 - r h + O(h^2) of it, and the shortest waves to less than before.
     constexpr double speed = 0.02;
-    ModelRun run(script_of("surface: sphere; cells: 6000; unit: 1",
-                           "p: nz\n rough: noise(0.05)\n p' = lap(p)\n rough' = lap(rough)", speed,
-                           20));
+    ModelRun run(script_of_steps("surface: sphere; cells: 6000; unit: 1",
+                                 "p: nz\n rough: noise(0.05)\n p' = lap(p)\n rough' = lap(rough)",
+                                 speed, 20));
     run.start();
     const std::vector<double> before = run.values("p");
     const double roughness = run.spread("rough");

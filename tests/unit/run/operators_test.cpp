@@ -18,7 +18,7 @@
 namespace cascade {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A script that has been started, and perhaps has run.
 class Started {
@@ -100,16 +100,16 @@ double along_y(const Function2& f, double x, double y) {
     return (f(x, y + 1e-5) - f(x, y - 1e-5)) / 2e-5;
 }
 
-struct Case {
+struct OperatorOrder {
     std::string operation;
     int derivatives;
     double order;
     Function2 exact;
 };
 
-void expect_orders(const std::vector<Case>& cases, const std::string& extra,
+void expect_orders(const std::vector<OperatorOrder>& cases, const std::string& extra,
                    const std::string& boundary) {
-    for (const Case& each : cases) {
+    for (const OperatorOrder& each : cases) {
         const double coarse =
             largest_error(each.operation, extra, 24, each.derivatives, each.exact, boundary);
         const double fine =
@@ -210,7 +210,7 @@ TEST(Operators, OfTheStencilFourthConvergeAtThatOrder) {
         const auto both = [](const Function2& a, const Function2& b, double p, double q) {
             return Function2([=](double x, double y) { return p * a(x, y) + q * b(x, y); });
         };
-        return std::vector<Case>{
+        return std::vector<OperatorOrder>{
             {"lap(f)", 2, 4, both(fxx, fyy, 1, 1)},
             {"lap(2 * f + 1)", 2, 4, both(fxx, fyy, 2, 2)},
             {"lap(lap(f))", 4, 4,

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* stage = "stage one: turing_spots { iterations: 50 }\n";
+constexpr const char* lone_stage = "stage one: turing_spots { iterations: 50 }\n";
 
 Script load(const std::string& text, const Overrides& overrides) {
     return load_script("test", text, ".", overrides);
@@ -26,23 +26,23 @@ std::string messages(const std::string& text, const Overrides& overrides) {
 TEST(OptionStatements, AreShownAsTheyWereTyped) {
     Overrides overrides;
     overrides.grid = GridSize{64, 0};
-    EXPECT_THAT(messages(stage, overrides),
+    EXPECT_THAT(messages(lone_stage, overrides),
                 HasSubstr(
                     "<--grid>:1:4: error: a side of the grid must be a whole number of at least 1\n"
                     "    1 | 64x0\n"));
     overrides = {};
     overrides.model = "sphere";
     overrides.cells = "many";
-    EXPECT_THAT(messages(stage, overrides),
+    EXPECT_THAT(messages(lone_stage, overrides),
                 HasSubstr(
                     "<--cells>:1:1: error: cells are a number, faces or vertices\n    1 | many\n"));
     overrides = {};
     overrides.solver = "rk5";
-    EXPECT_THAT(messages(stage, overrides),
+    EXPECT_THAT(messages(lone_stage, overrides),
                 HasSubstr("<--solver>:1:1: error: there is no solver 'rk5'"));
     overrides = {};
     overrides.cells = "100";
-    EXPECT_THAT(messages(stage, overrides),
+    EXPECT_THAT(messages(lone_stage, overrides),
                 HasSubstr("<--cells>:1:1: error: only a domain with a model has this setting"));
 }
 
@@ -55,7 +55,7 @@ TEST(OptionStatements, HaveTheLastWord) {
     overrides.steps = 20;
     const Script script =
         load(std::string("domain { grid: 8, 8; boundary: noflux; seed: 3; precision: single }\n") +
-                 stage,
+                 lone_stage,
              overrides);
     ASSERT_TRUE(script.program) << script.messages(false);
     const DomainSettings& domain = script.program->domain;
@@ -74,7 +74,7 @@ TEST(OptionStatements, MendWhatTheScriptCannotHaveItself) {
     overrides.solver = "euler";
     EXPECT_THAT(messages(varying, overrides), IsEmpty());
 
-    const std::string lone = std::string("domain { cells: 300 }\n") + stage;
+    const std::string lone = std::string("domain { cells: 300 }\n") + lone_stage;
     EXPECT_FALSE(load(lone, {}).program);
     overrides = {};
     overrides.model = "sphere";
@@ -110,7 +110,8 @@ TEST(OptionStatements, OfAModelGiveWayWithIt) {
     Overrides overrides;
     overrides.grid = GridSize{9, 9};
     const std::string ball =
-        std::string("domain { surface: sphere; cells: 50; up: z; unit: 0.1; seed: 4 }\n") + stage;
+        std::string("domain { surface: sphere; cells: 50; up: z; unit: 0.1; seed: 4 }\n") +
+        lone_stage;
     const Script script = load(ball, overrides);
     ASSERT_TRUE(script.program) << script.messages(false);
     EXPECT_EQ(script.program->domain.grid, (Grid{9, 9}));

@@ -13,13 +13,13 @@
 namespace cascade {
 namespace {
 
-constexpr const char* spots =
+constexpr const char* spots_in_two_stages =
     "domain { grid: 20, 12 }\n"
     "stage one: turing_spots { iterations: 30 }\n"
     "stage two: turing_spots { iterations: 20; a: a; b: b; beta: beta }\n";
 
 TEST(Pattern, StepsThroughTheStages) {
-    Pattern pattern(spots);
+    Pattern pattern(spots_in_two_stages);
     ASSERT_TRUE(pattern.ok()) << pattern.messages() << pattern.error();
     EXPECT_EQ(pattern.width(), 20);
     EXPECT_EQ(pattern.height(), 12);
@@ -37,16 +37,16 @@ TEST(Pattern, StepsThroughTheStages) {
 }
 
 TEST(Pattern, StepsDoNotDependOnHowTheyAreCounted) {
-    Pattern at_once(spots);
+    Pattern at_once(spots_in_two_stages);
     at_once.step(50);
-    Pattern one_by_one(spots);
+    Pattern one_by_one(spots_in_two_stages);
     while (one_by_one.step(1) == 1) {
     }
     EXPECT_EQ(at_once.values("b"), one_by_one.values("b"));
 }
 
 TEST(Pattern, IsChangedWhileItRuns) {
-    Pattern pattern(spots);
+    Pattern pattern(spots_in_two_stages);
     pattern.step(10);
     EXPECT_TRUE(pattern.set("one.ka", "1/40")) << pattern.error();
     EXPECT_TRUE(pattern.paint("b", "if(disc(0.3, 0.3, 0.2) > 0, 8, b)")) << pattern.error();
@@ -66,7 +66,7 @@ TEST(Pattern, IsChangedWhileItRuns) {
 }
 
 TEST(Pattern, AChangeThatIsRefusedSaysWhy) {
-    Pattern pattern(spots);
+    Pattern pattern(spots_in_two_stages);
     pattern.step(10);
     const std::vector<float> before = pattern.values("b");
     EXPECT_FALSE(pattern.set("one.kaa", "1"));
@@ -145,7 +145,7 @@ TEST(Pattern, NoResultDependsOnHowManyStepsAreTakenAtOnce) {
 }
 
 TEST(Pattern, GoesOnAfterACancellation) {
-    Pattern whole(spots), cancelled(spots);
+    Pattern whole(spots_in_two_stages), cancelled(spots_in_two_stages);
     whole.step(50);
     EXPECT_EQ(cancelled.step(7), 7);
     cancelled.cancel();
@@ -155,7 +155,7 @@ TEST(Pattern, GoesOnAfterACancellation) {
 }
 
 TEST(Pattern, ReadsExpressions) {
-    Pattern pattern(spots);
+    Pattern pattern(spots_in_two_stages);
     pattern.step(40);
     const auto b = pattern.values("b");
     const auto twice = pattern.values("2 * b - one.b");
@@ -220,7 +220,7 @@ TEST(Pattern, ValuesAreOnlyReadWhereAllAreFinite) {
 }
 
 TEST(Pattern, APictureCarriesTheSession) {
-    Pattern pattern(spots);
+    Pattern pattern(spots_in_two_stages);
     pattern.step(10);
     pattern.paint("b", "b + disc(0.3, 0.3, 0.2)");
     pattern.step(5);
@@ -240,8 +240,8 @@ TEST(Pattern, APictureCarriesTheSession) {
 TEST(Pattern, IsTheSameInterpretedAndCompiled) {
     PatternOptions interpreted;
     interpreted.native_code = false;
-    Pattern first(spots, interpreted);
-    Pattern second(spots);
+    Pattern first(spots_in_two_stages, interpreted);
+    Pattern second(spots_in_two_stages);
     first.step(50);
     second.step(50);
     EXPECT_EQ(first.values("a"), second.values("a"));

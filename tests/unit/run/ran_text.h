@@ -21,6 +21,7 @@ struct Ran {
     std::unique_ptr<Simulation> simulation;
     std::string failure;
     std::vector<std::string> warnings;
+    std::vector<std::string> ended;  ///< Stages and grids that they started on, with their steps.
 
     const StageState& state(std::uint32_t stage = 0) const { return simulation->state(stage); }
     const StageState& last() const {
@@ -42,6 +43,10 @@ inline Ran run_text(const std::string& text,
     ran.simulation = std::move(*made);
     RunControl control;
     control.warn = [&](const std::string& warning) { ran.warnings.push_back(warning); };
+    control.report = [&](const Progress& progress) {
+        if (!progress.stage_done) return;
+        ran.ended.push_back(progress.stage + progress.note + ": " + std::to_string(progress.step));
+    };
     for (std::uint32_t k = 0; k < ran.script.stage_count() && ran.failure.empty(); ++k) {
         auto started = ran.simulation->start_stage(k);
         EXPECT_TRUE(started);

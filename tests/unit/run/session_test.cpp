@@ -17,13 +17,13 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
-constexpr const char* spots =
+constexpr const char* spots_of_session =
     "domain { grid: 24, 20 }\n"
     "stage one: turing_spots { iterations: 400 }\n"
     "stage two: turing_spots { a: a; b: b; beta: beta; ka: 1/20; iterations: 300 }\n";
@@ -77,7 +77,7 @@ std::shared_ptr<const Snapshot> snapshot_when(Session& session,
 }
 
 TEST(SessionTest, RunsToTheEndAndShowsIt) {
-    const auto session = begun(spots);
+    const auto session = begun(spots_of_session);
     const auto first = session->newest();
     EXPECT_FALSE(first->is_going_on);
     ASSERT_EQ(first->fields.size(), 1u);
@@ -95,7 +95,7 @@ TEST(SessionTest, RunsToTheEndAndShowsIt) {
 }
 
 TEST(SessionTest, TakesAsManyStepsAsAskedFor) {
-    const auto session = begun(spots);
+    const auto session = begun(spots_of_session);
     done(*session, TakeSteps{37});
     snapshot_when(*session, [](const Snapshot& s) { return s.place == RunPlace{0, 37}; });
     done(*session, TakeSteps{400});
@@ -139,7 +139,7 @@ TEST(SessionTest, TellsTheDoubtsOfAStageThatIsLeft) {
 }
 
 TEST(SessionTest, AnswersWhatIsWrongAndGoesOn) {
-    const auto session = begun(spots);
+    const auto session = begun(spots_of_session);
     done(*session, GoOn{});
     EXPECT_THAT(done(*session, MakeChange{SetText{"stage x: nonsense {}"}}),
                 HasSubstr("test:1:10: error"));
@@ -152,7 +152,7 @@ TEST(SessionTest, AnswersWhatIsWrongAndGoesOn) {
 }
 
 TEST(SessionTest, ShowsWhatIsAskedFor) {
-    const auto session = begun(spots);
+    const auto session = begun(spots_of_session);
     EXPECT_EQ(done(*session, Show{"a + 100"}), "");
     const auto snapshot =
         snapshot_when(*session, [](const Snapshot& s) { return s.fields[0].number_at(0, 0) > 50; });
@@ -197,7 +197,7 @@ TEST(SessionTest, AFailureStopsItAtTheLastGoodStep) {
 
 /// Whatever readers and writers do at the same time, the log gives the same bits.
 TEST(SessionTest, ThreadsChangeNoBit) {
-    std::string text = spots;
+    std::string text = spots_of_session;
     text.replace(text.find("400"), 3, "400000");
     const auto session = begun(text);
     std::atomic<bool> is_over{false};
@@ -240,7 +240,7 @@ TEST(SessionTest, ThreadsChangeNoBit) {
 }
 
 TEST(SessionTest, EndsWhileStepsAreTaken) {
-    std::string text = spots;
+    std::string text = spots_of_session;
     text.replace(text.find("400"), 3, "400000000");
     for (int k = 0; k < 20; ++k) {
         const auto session = begun(text);
@@ -251,4 +251,4 @@ TEST(SessionTest, EndsWhileStepsAreTaken) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

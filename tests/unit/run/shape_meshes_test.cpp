@@ -22,7 +22,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The shape `a` of a script.
 ShapeForm shape_of(const std::string& blocks) {

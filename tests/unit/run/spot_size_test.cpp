@@ -3,6 +3,7 @@
 #include "measure/regions.h"
 #include "run/pictures/measured.h"
 #include "run_fixture.h"
+#include "tests/support/mean_of.h"
 #include "torus_triangles.h"
 
 #include <fmt/format.h>
@@ -13,11 +14,8 @@
 namespace cascade {
 namespace {
 
+using test::mean_of;
 using test::Triangles;
-
-double mean_of(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 /// Connected parts of the cells above their mean, cells being connected by Voronoi edges.
 std::int64_t count_spots(const SurfaceCells& cells, const std::vector<double>& values) {

@@ -17,10 +17,10 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
-constexpr const char* two_stages =
+constexpr const char* stages_with_rk2 =
     "domain { grid: 20, 16; boundary: noflux }\n"
     "system s { u: 1 + x; k: 1 + y; u' = 0.1 * lap(u) - 0.1 * exp(k) * u + sin(t) * k }\n"
     "stage one: s { iterations: 60; speed: 0.2; solver: rk2 }\n"
@@ -28,7 +28,7 @@ constexpr const char* two_stages =
 
 class RunningStage : public ::testing::Test {
 protected:
-    RunningStage() : script_(load_script("test", two_stages, ".")) {}
+    RunningStage() : script_(load_script("test", stages_with_rk2, ".")) {}
 
     std::unique_ptr<Simulation> made() {
         return Simulation::create(script_, {BackendKind::interpreter, 0, 1}).value();
@@ -156,4 +156,4 @@ TEST_F(CopiedState, KeepsItsSides) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

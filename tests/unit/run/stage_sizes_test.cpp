@@ -13,7 +13,7 @@
 namespace cascade {
 namespace {
 
-SimulationOptions compiled() {
+SimulationOptions fastest_options() {
     SimulationOptions options;
     options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
     return options;
@@ -77,7 +77,7 @@ double wavelength_on(const ModelCells& model, std::vector<double> values) {
         moment.push_back(product(now));
     }
     // Power by the angle of x = −cos θ, with Jackson's kernel against ringing.
-    constexpr double pi = std::numbers::pi;
+    using std::numbers::pi;
     std::vector<double> power(angles), wave(angles);
     for (int a = 0; a < angles; ++a) {
         const double theta = pi * (a + 0.5) / angles;
@@ -156,13 +156,13 @@ TEST(ScaledLengths, LeaveSidesOfTheDomainAlone) {
     EXPECT_EQ(with("left: slope(0.1)", ""), with("", "u.left: slope(0.2)"));
 }
 
-struct Case {
+struct SizeCase {
     const char* system;
     double size;
     const char* more = "";
 };
 
-class Sizes : public ::testing::TestWithParam<Case> {};
+class Sizes : public ::testing::TestWithParam<SizeCase> {};
 
 TEST_P(Sizes, AreThoseOfThePattern) {
     const auto [system, size, more] = GetParam();
@@ -171,7 +171,7 @@ TEST_P(Sizes, AreThoseOfThePattern) {
     const Ran ran = run_text(fmt::format("domain {{ grid: {0}, {0}; seed: 7 }}\n"
                                          "stage s: {1} {{ size: {2}; {3} }}\n",
                                          side, system, size, more),
-                             compiled());
+                             fastest_options());
     ASSERT_EQ(ran.failure, "");
     EXPECT_NEAR(wavelength_of(ran) / size, 1, 0.02) << "factor " << factor_of(ran);
 }
@@ -180,7 +180,7 @@ TEST(SizesOnModels, AreThoseOfThePattern) {
     const Ran ran = run_text(
         "domain { surface: torus; cells: 16384; unit: 0.02 }\n"
         "stage s: turing_spots { size: 16 }\n",
-        compiled());
+        fastest_options());
     ASSERT_EQ(ran.failure, "");
     const ModelCells& model = *ran.simulation->model();
     EXPECT_NEAR(wavelength_on(model, cell_values(ran.species(1), model)) / 16, 1, 0.02)
@@ -188,9 +188,10 @@ TEST(SizesOnModels, AreThoseOfThePattern) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfThePlane, Sizes,
-                         ::testing::Values(Case{"turing_spots", 8}, Case{"turing_spots", 16},
-                                           Case{"brusselator", 7}, Case{"schnakenberg", 14},
-                                           Case{"lengyel_epstein", 8}));
+                         ::testing::Values(SizeCase{"turing_spots", 8},
+                                           SizeCase{"turing_spots", 16}, SizeCase{"brusselator", 7},
+                                           SizeCase{"schnakenberg", 14},
+                                           SizeCase{"lengyel_epstein", 8}));
 
 }  // namespace
 }  // namespace cascade

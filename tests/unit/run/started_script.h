@@ -11,6 +11,8 @@
 
 namespace cascade::test {
 
+inline Script load(const std::string& text) { return load_script("test", text, "."); }
+
 /// On the interpreter. A fault fails the test that calls, and gives nothing.
 inline std::unique_ptr<Simulation> start(Script& script) {
     EXPECT_TRUE(script.program) << script.messages(false);

@@ -18,10 +18,11 @@
 namespace cascade {
 namespace {
 
+using test::load;
 using test::result_of;
 using test::start;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double bend = 0.06;
 
 using Vector2 = std::array<double, 2>;
@@ -78,9 +79,8 @@ double divergence(const FluxOfPlace& flux, double sx, double sy) {
 
 constexpr const char* bent_plane = "sx + 0.06 * sin(2 * pi * sy), sy + 0.06 * sin(2 * pi * sx), 0";
 
-Script load(const std::string& text) { return load_script("test", text, "."); }
-
-std::string script_of(const std::string& operation, int side, const std::string& domain) {
+std::string script_on_bent_plane(const std::string& operation, int side,
+                                 const std::string& domain) {
     return fmt::format(
         "domain {{ grid: {}, {}; surface: {}; {} }}\n"
         "system s {{\n  u: 0\n  u' = 0 * u\n"
@@ -90,7 +90,7 @@ std::string script_of(const std::string& operation, int side, const std::string&
 }
 
 double largest_error(const std::string& operation, int side, const OfPlace& exact) {
-    Script script = load(script_of(operation, side, "unit: 1"));
+    Script script = load(script_on_bent_plane(operation, side, "unit: 1"));
     const auto simulation = start(script);
     if (!simulation) return 1e300;
     const Field& found = result_of(*simulation, "r");
@@ -104,7 +104,7 @@ double largest_error(const std::string& operation, int side, const OfPlace& exac
     return largest;
 }
 
-struct Case {
+struct SurfaceOperatorOrder {
     std::string operation;
     double order;
     OfPlace exact;
@@ -127,7 +127,7 @@ TEST(SurfaceOperators, MeasureOnTheSurface) {
         return [=](double sx, double sy) { return divergence(flux, sx, sy); };
     };
     const OfPlace laplacian = [](double sx, double sy) { return -20 * pi * pi * wave(sx, sy); };
-    const std::vector<Case> cases{
+    const std::vector<SurfaceOperatorOrder> cases{
         {"lap(f)", 2, laplacian},
         {"lap(3 * f)", 2, [=](double sx, double sy) { return 3 * laplacian(sx, sy); }},
         {"div(grad(f))", 2, laplacian},
@@ -155,7 +155,7 @@ TEST(SurfaceOperators, MeasureOnTheSurface) {
              return turned(k(sx, sy), {s[0] - f * e[0], s[1] - f * e[1]}, sx, sy);
          })},
     };
-    for (const Case& each : cases) {
+    for (const SurfaceOperatorOrder& each : cases) {
         const double coarse = largest_error(each.operation, 32, each.exact);
         const double fine = largest_error(each.operation, 64, each.exact);
         EXPECT_NEAR(std::log2(coarse / fine), each.order, 0.35)
@@ -165,7 +165,7 @@ TEST(SurfaceOperators, MeasureOnTheSurface) {
 
 TEST(SurfaceOperators, WithoutAMetricCellsAreSquares) {
     const auto on_surface = [](const std::string& domain) {
-        Script script = load(script_of("lap(f)", 32, domain));
+        Script script = load(script_on_bent_plane("lap(f)", 32, domain));
         const auto simulation = start(script);
         return result_of(*simulation, "r").clone();
     };
@@ -190,8 +190,9 @@ TEST(SurfaceOperators, WithoutAMetricCellsAreSquares) {
 TEST(SurfaceOperators, NothingIsLost) {
     // Inside sides that mirror, too: the sum of s · div is 0 to rounding.
     for (const char* boundary : {"periodic", "noflux"}) {
-        Script script = load(script_of("div(tensor(k, 0.5, 0.6) * grad(f) + vector(f, 1))", 48,
-                                       fmt::format("boundary: {}", boundary)));
+        Script script =
+            load(script_on_bent_plane("div(tensor(k, 0.5, 0.6) * grad(f) + vector(f, 1))", 48,
+                                      fmt::format("boundary: {}", boundary)));
         const auto simulation = start(script);
         const Field& flow = result_of(*simulation, "r");
         double sum = 0, size = 0;
@@ -208,11 +209,12 @@ TEST(SurfaceOperators, NothingIsLost) {
 }
 
 TEST(SurfaceOperators, AggregatesCountAreas) {
-    Script script = load(script_of("0 * f + sum(0 * f + 1 over domain)", 40, "unit: 1"));
+    Script script = load(script_on_bent_plane("0 * f + sum(0 * f + 1 over domain)", 40, "unit: 1"));
     const auto simulation = start(script);
     EXPECT_NEAR(result_of(*simulation, "r").at(3, 3), 1, 1e-5);
-    Script mean = load(
-        script_of("0 * f + mean(if(sx < 0.5, 1, 0) * (1 + 0 * f) over domain)", 40, "unit: 1"));
+    Script mean =
+        load(script_on_bent_plane("0 * f + mean(if(sx < 0.5, 1, 0) * (1 + 0 * f) over domain)", 40,
+                                  "unit: 1"));
     const auto second_run = start(mean);
     EXPECT_NEAR(result_of(*second_run, "r").at(3, 3), 0.5, 1e-5);
 }

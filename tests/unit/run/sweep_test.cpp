@@ -1,3 +1,4 @@
+// Sweeps: the runs of many values, their table, pictures and film.
 #include "run_fixture.h"
 
 #include "measure/features.h"
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr const char* spots = R"(
+constexpr const char* swept_spots = R"(
 domain { grid: 32, 24 }   # a comment
 stage s: turing_spots { iterations: 300; ka: 1/20 }
 )";
@@ -65,11 +66,11 @@ TEST_F(SweepTest, AFilmShowsTheEndsOfItsRuns) {
     SweepRequest wanted = request({"ka=1/20,1/10,1/30"});
     wanted.film = path("a.apng");
     wanted.picture.range = ValueRange{0, 8};
-    const SweepReport report = sweep_well(load(spots), wanted);
+    const SweepReport report = sweep_well(load(swept_spots), wanted);
     EXPECT_EQ(report.written.back(), wanted.film);
     EXPECT_EQ(frames_of(bytes("a.apng")), 3);
     // The first frame is the picture of the first run, eight times as large, but for its caption.
-    Script alone = load(spots);
+    Script alone = load(swept_spots);
     RunRequest run = RunTest::request();
     run.picture.range = wanted.picture.range;
     run.picture.scale = 8;
@@ -100,7 +101,7 @@ TEST_F(SweepTest, AFilmLeavesOutRunsThatFail) {
 }
 
 TEST_F(SweepTest, EveryRunIsTheSameAsAlone) {
-    const Script script = load(spots);
+    const Script script = load(swept_spots);
     SweepRequest wanted = request({"turing_spots.ka=1/20,1/10", "seed=1,2"});
     wanted.fields = true;
     const SweepReport report = sweep_well(script, wanted);
@@ -110,7 +111,7 @@ TEST_F(SweepTest, EveryRunIsTheSameAsAlone) {
     Overrides overrides;
     overrides.sets = {"turing_spots.ka=1/10"};
     overrides.seed = 2;
-    Script alone = load(spots, overrides);
+    Script alone = load(swept_spots, overrides);
     RunRequest single = RunTest::request();
     single.save = path("alone");
     single.features = true;
@@ -128,12 +129,12 @@ TEST_F(SweepTest, EveryRunIsTheSameAsAlone) {
 }
 
 TEST_F(SweepTest, GoesOnWhereItStopped) {
-    const Script script = load(spots);
+    const Script script = load(swept_spots);
     EXPECT_EQ(sweep_well(script, request({"ka=1/20,1/10"})).done_before, 0u);
     const std::string sheet = bytes("sweep/sheet.png");
     const auto first = table();
     // Nothing is run again, not even where comments and blanks have changed.
-    std::string text = spots;
+    std::string text = swept_spots;
     text.replace(text.find("a comment"), 9, "another one");
     const Script commented = load("\n\n" + text);
     SweepReport again = sweep_well(commented, request({"ka=1/20,1/10"}));
@@ -177,7 +178,7 @@ TEST_F(SweepTest, ABlowUpIsARowAndAnEmptyTile) {
 TEST_F(SweepTest, ACancelKeepsWhatIsDone) {
     Overrides longer;
     longer.sets = {"iterations=3000"};
-    const Script script = load(spots, longer);
+    const Script script = load(swept_spots, longer);
     SweepRequest wanted = request({"ka=1/20..1/5:30"});
     wanted.simulation.threads = 1;
     SweepControl control;
@@ -197,7 +198,7 @@ TEST_F(SweepTest, ACancelKeepsWhatIsDone) {
 }
 
 TEST_F(SweepTest, NothingRunsWhereAScriptIsWrong) {
-    const Script script = load(spots);
+    const Script script = load(swept_spots);
     SweepControl control;
     auto wrong = sweep(script, request({"kaa=1,2"}), control);
     ASSERT_FALSE(wrong);
@@ -253,7 +254,7 @@ TEST_F(SweepTest, ItIsKeyedByWhatFilesHold) {
 }
 
 TEST_F(SweepTest, LimitsAreKept) {
-    const Script script = load(spots);
+    const Script script = load(swept_spots);
     SweepControl control;
     SweepRequest small = request({"ka=1/20,1/10"});
     small.simulation.memory_limit = 1000;

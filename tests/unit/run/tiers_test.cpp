@@ -14,7 +14,7 @@
 #include <atomic>
 #include <thread>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -75,20 +75,21 @@ public:
     KernelPointer find(const CellKernel&, Stencil) override { return nullptr; }
 };
 
-struct Ran {
+struct TieredRun {
     std::vector<Field> species;  ///< Of all stages.
     std::vector<std::string> warnings;
     KernelCounts counts;
 };
 
-Ran run_text(const std::string& text, std::shared_ptr<TieredBackend> stepper, int threads = 2) {
+TieredRun run_tiered(const std::string& text, std::shared_ptr<TieredBackend> stepper,
+                     int threads = 2) {
     Script script = load_script("test", text, ".", {});
     EXPECT_TRUE(script.program) << script.messages(false);
     SimulationOptions options;
     options.threads = threads;
     options.stepper = stepper;
     options.starts_interpreted = true;
-    Ran ran;
+    TieredRun ran;
     RunControl control;
     control.warn = [&](const std::string& message) { ran.warnings.push_back(message); };
     const auto simulation = Simulation::create(script, options).value();
@@ -107,7 +108,7 @@ std::shared_ptr<TieredBackend> tiered(std::unique_ptr<Backend> native) {
     return std::make_shared<TieredBackend>(std::move(native));
 }
 
-const std::vector<std::string> scripts = {
+const std::vector<std::string> tiered_scripts = {
     "domain { grid: 67, 43 }\nstage a: turing_spots { iterations: 150 }\n"
     "stage b: gray_scott { iterations: 150 }",
     "domain { grid: 48, 40; precision: double }\nstage a: gray_scott { iterations: 40; solver: rk4 "
@@ -116,13 +117,14 @@ const std::vector<std::string> scripts = {
 };
 
 TEST(Tiers, SwapsAtAnyMomentChangeNoBit) {
-    for (const std::string& text : scripts) {
-        const Ran expected = run_text(text, tiered(make_interpreter()));
+    for (const std::string& text : tiered_scripts) {
+        const TieredRun expected = run_tiered(text, tiered(make_interpreter()));
         for (std::uint32_t seed = 0; seed < 3; ++seed) {
-            const Ran found = run_text(text, tiered(std::make_unique<RestlessBackend>(100 * seed)));
+            const TieredRun found =
+                run_tiered(text, tiered(std::make_unique<RestlessBackend>(100 * seed)));
             EXPECT_EQ(same_bits(expected.species, found.species), "") << text;
         }
-        const Ran swapped = run_text(text, tiered(native_backend()));
+        const TieredRun swapped = run_tiered(text, tiered(native_backend()));
         EXPECT_EQ(same_bits(expected.species, swapped.species), "") << text;
         EXPECT_THAT(swapped.warnings, IsEmpty());
     }
@@ -131,7 +133,7 @@ TEST(Tiers, SwapsAtAnyMomentChangeNoBit) {
 TEST(Tiers, WhatIsRefusedLateIsSaidBehindTheStage) {
     // So many steps that they wait for the refusal.
     const std::string text = "domain { grid: 32, 32 }\nstage a: turing_spots { iterations: 8000 }";
-    const Ran ran = run_text(text, tiered(std::make_unique<RefusingBackend>()));
+    const TieredRun ran = run_tiered(text, tiered(std::make_unique<RefusingBackend>()));
     EXPECT_THAT(ran.warnings,
                 ElementsAre(
                     HasSubstr("stage 'a' is interpreted, which is slow: it has too many corners")));
@@ -179,7 +181,7 @@ TEST(Tiers, AShortRunCompilesNothing) {
         "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 3 }\n"
         "stage b: gray_scott { iterations: 3 }";
     const auto stepper = tiered(native_backend());
-    run_text(text, stepper);
+    run_tiered(text, stepper);
     EXPECT_EQ(stepper->counts().compiled, 0);
 }
 
@@ -205,4 +207,4 @@ TEST(Tiers, LaterStagesAreCompiledAhead) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -43,9 +43,9 @@ std::string name_of(const Way& way) {
 }
 
 /// Takes the steps of the only stage; observe() is told of each `every` steps.
-std::unique_ptr<TiledRun> run_text(const std::string& text, const Way& way, RunControl& control,
-                                   const std::function<void()>& observe = {},
-                                   std::int64_t every = 0) {
+std::unique_ptr<TiledRun> run_in_tiles(const std::string& text, const Way& way, RunControl& control,
+                                       const std::function<void()>& observe = {},
+                                       std::int64_t every = 0) {
     auto ran = std::make_unique<TiledRun>();
     ran->script = load_script("test", text, ".");
     EXPECT_TRUE(ran->script.program) << text << ran->script.messages(false);
@@ -75,9 +75,9 @@ std::unique_ptr<TiledRun> run_text(const std::string& text, const Way& way, RunC
     return ran;
 }
 
-std::unique_ptr<TiledRun> run_text(const std::string& text, const Way& way) {
+std::unique_ptr<TiledRun> run_in_tiles(const std::string& text, const Way& way) {
     RunControl control;
-    return run_text(text, way, control);
+    return run_in_tiles(text, way, control);
 }
 
 /// The words of all cells of all species; every NaN is the same.
@@ -108,7 +108,7 @@ std::vector<BackendKind> backends() {
 void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = true) {
     SCOPED_TRACE(text);
     for (const BackendKind backend : backends()) {
-        const auto plain = run_text(text, {backend, 1, {}});
+        const auto plain = run_in_tiles(text, {backend, 1, {}});
         EXPECT_EQ(plain->failure, "");
         const std::vector<std::uint64_t> expected = words_of(*plain);
         ASSERT_FALSE(expected.empty());
@@ -116,7 +116,7 @@ void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = tr
             for (const Tiling& tiling : {Tiling{7, 2}, Tiling{12, 1, 2, 3}}) {
                 const Way way{backend, threads, tiling};
                 SCOPED_TRACE(name_of(way));
-                const auto tiled = run_text(text, way);
+                const auto tiled = run_in_tiles(text, way);
                 EXPECT_EQ(tiled->failure, "");
                 EXPECT_EQ(tiled->steps, plain->steps);
                 if (threads == 1 && is_tiled) {
@@ -262,10 +262,10 @@ const char* const blow_up =
 
 TEST(TiledRuns, BlowUpsAreFoundAtTheSameStepAndCell) {
     for (const BackendKind backend : backends()) {
-        const auto plain = run_text(blow_up, {backend, 1, {}});
+        const auto plain = run_in_tiles(blow_up, {backend, 1, {}});
         ASSERT_NE(plain->failure.find("step"), std::string::npos) << plain->failure;
         for (const int threads : {1, 3}) {
-            const auto tiled = run_text(blow_up, {backend, threads, {11, 2}});
+            const auto tiled = run_in_tiles(blow_up, {backend, threads, {11, 2}});
             EXPECT_EQ(tiled->failure, plain->failure);
             EXPECT_EQ(tiled->steps, plain->steps);
             EXPECT_TRUE(words_of(*tiled) == words_of(*plain));
@@ -288,11 +288,11 @@ TEST(TiledRuns, ACancelLeavesACompleteStep) {
             if (progress.step > 0 && ++seen == 2) control.cancel = true;
         };
         const Way way{BackendKind::interpreter, threads, {7, 2}};
-        const auto stopped = run_text(text(1000000), way, control);
+        const auto stopped = run_in_tiles(text(1000000), way, control);
         EXPECT_EQ(stopped->end, StageEnd::cancelled);
         EXPECT_GT(stopped->steps, 0);
         ASSERT_LT(stopped->steps, 1000000);
-        const auto plain = run_text(text(stopped->steps), {BackendKind::interpreter, 1, {}});
+        const auto plain = run_in_tiles(text(stopped->steps), {BackendKind::interpreter, 1, {}});
         EXPECT_EQ(plain->steps, stopped->steps);
         EXPECT_TRUE(words_of(*stopped) == words_of(*plain));
     }

@@ -9,7 +9,7 @@
 #include <limits>
 #include <thread>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// Two species that excite each other, one that no one's neighbours read, a parameter that varies,
@@ -455,4 +455,4 @@ TEST(Advance, StartValuesThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

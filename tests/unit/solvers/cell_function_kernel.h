@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// What a function of a cell may read.
 struct CellView {
@@ -110,6 +110,13 @@ Field make_field(const Grid& grid, Function function) {
     return field;
 }
 
+/// The fields of a problem that has one species.
+inline std::vector<Field> only_species(Field field) {
+    std::vector<Field> species;
+    species.push_back(std::move(field));
+    return species;
+}
+
 /// The cells row after row, without halo and padding.
 inline std::vector<float> cells_of(const Field& field) {
     std::vector<float> cells;
@@ -133,4 +140,4 @@ inline double scatter(std::int64_t i, std::int64_t j) {
     return wave - static_cast<double>(static_cast<std::int64_t>(wave));
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 const auto board = [](auto i, auto j) { return (i + j) % 2 ? -1.0 : 1.0; };
@@ -107,4 +107,4 @@ TEST(Chequerboard, IsNoPatternOfSmallSpots) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -12,17 +12,13 @@
 namespace cascade {
 namespace {
 
-using testing::PlainState;
-using testing::SchemeRunner;
+using test::PlainState;
+using test::SchemeRunner;
+using test::swing;
 
 constexpr Solver unjudged[] = {Solver::euler, Solver::symplectic, Solver::rk2,  Solver::rk4,
                                Solver::rkl1,  Solver::rkl2,       Solver::imex, Solver::etdrk4,
                                Solver::gauss, Solver::ros2};
-
-/// u' = v cos t, v' = −u cos t.
-PlainState swing(const PlainState& state, double t) {
-    return {{state[1][0] * std::cos(t)}, {-state[0][0] * std::cos(t)}};
-}
 
 double largest_error(Solver solver, double step) {
     SchemeRunner runner(with_error_estimate(make_scheme(solver, 2, false, 5)), swing,

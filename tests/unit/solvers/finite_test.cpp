@@ -1,16 +1,14 @@
 // Finding values that are not finite.
 #include "solvers/finite.h"
 
+#include "tests/support/not_finite.h"
 #include "tests/unit/solvers/cell_function_kernel.h"
 
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Finite, ExtremeNumbersAreFinite) {
     const Grid grid{37, 5, Boundary::periodic};
@@ -63,4 +61,4 @@ TEST(Finite, FirstMeansRowOrder) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

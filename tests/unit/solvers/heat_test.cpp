@@ -8,10 +8,10 @@
 #include <numbers>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Eigenfunctions of the discrete Laplacian along one axis, and their eigenvalues.
 double wave(Boundary boundary, int mode, std::int64_t cells, std::int64_t i) {
@@ -117,4 +117,4 @@ TEST(Heat, FlatFieldStaysPut) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -12,10 +12,10 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 KernelPointer interpreted(KernelBuilder builder, const Grid& grid) {
     const CellKernel kernel = std::move(builder).finish();
@@ -197,4 +197,4 @@ TEST(KernelPhysics, AnUnstableStepIsNoticedAsAChequerboard) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

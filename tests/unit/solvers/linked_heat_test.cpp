@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// Place p of the ring is cell 27 p modulo the number of cells, in rows of 16 cells of which the
@@ -156,4 +156,4 @@ TEST(StabilityOfLinkedCells, IsThatOfTheFastestWave) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

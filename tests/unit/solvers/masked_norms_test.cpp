@@ -11,21 +11,21 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t side = 12;
+constexpr std::int64_t plane_side = 12;
 
 /// The left half is inside; outside everything is 0.
 Mask left_half() {
-    Mask mask{PlaneLayout(Grid{side, side})};
-    for (std::int64_t j = 0; j < side; ++j) {
-        for (std::int64_t i = 0; i < side / 2; ++i) mask.at(i, j) = 1;
+    Mask mask{PlaneLayout(Grid{plane_side, plane_side})};
+    for (std::int64_t j = 0; j < plane_side; ++j) {
+        for (std::int64_t i = 0; i < plane_side / 2; ++i) mask.at(i, j) = 1;
     }
     return mask;
 }
 
 template <typename Value>
 Field field_of(std::int64_t width, Value value) {
-    Field field{PlaneLayout(Grid{width, side})};
-    for (std::int64_t j = 0; j < side; ++j) {
+    Field field{PlaneLayout(Grid{width, plane_side})};
+    for (std::int64_t j = 0; j < plane_side; ++j) {
         for (std::int64_t i = 0; i < width; ++i) field.at(i, j) = value(i, j);
     }
     return field;
@@ -37,9 +37,9 @@ float pattern(std::int64_t i, std::int64_t j) {
 
 TEST(MaskedNorms, AreThoseOfASmallField) {
     const Mask inside = left_half();
-    const Field small = field_of(side / 2, pattern);
-    const Field large = field_of(side, [](std::int64_t i, std::int64_t j) {
-        return i < side / 2 ? pattern(i, j) : 0.0F;
+    const Field small = field_of(plane_side / 2, pattern);
+    const Field large = field_of(plane_side, [](std::int64_t i, std::int64_t j) {
+        return i < plane_side / 2 ? pattern(i, j) : 0.0F;
     });
     const FieldMoments expected = moments(small), found = moments(large, &inside);
     EXPECT_DOUBLE_EQ(found.mean, expected.mean);
@@ -52,11 +52,13 @@ TEST(MaskedNorms, ChangesAreThoseOfASmallField) {
     const Mask inside = left_half();
     const auto at = [](float amplitude, std::int64_t width) {
         return field_of(width, [&](std::int64_t i, std::int64_t j) {
-            return i < side / 2 ? amplitude * pattern(i, j) : 0.0F;
+            return i < plane_side / 2 ? amplitude * pattern(i, j) : 0.0F;
         });
     };
-    const FieldMoments found = moments_of_difference(at(1.5F, side), at(1, side), &inside);
-    const FieldMoments expected = moments_of_difference(at(1.5F, side / 2), at(1, side / 2));
+    const FieldMoments found =
+        moments_of_difference(at(1.5F, plane_side), at(1, plane_side), &inside);
+    const FieldMoments expected =
+        moments_of_difference(at(1.5F, plane_side / 2), at(1, plane_side / 2));
     EXPECT_DOUBLE_EQ(found.root_mean_square, expected.root_mean_square);
     EXPECT_DOUBLE_EQ(found.deviation, expected.deviation);
 }
@@ -87,12 +89,12 @@ TEST(MaskedNorms, AChequerboardIsLookedForInside) {
     const auto alternating = [](std::int64_t i, std::int64_t j) {
         return 3 + ((i + j) % 2 == 0 ? 0.1F : -0.1F);
     };
-    const Field there = field_of(side, [&](std::int64_t i, std::int64_t j) {
-        return i < side / 2 ? alternating(i, j) : 0.0F;
+    const Field there = field_of(plane_side, [&](std::int64_t i, std::int64_t j) {
+        return i < plane_side / 2 ? alternating(i, j) : 0.0F;
     });
     EXPECT_GT(alternating_part(there, &inside), 0.99);
-    const Field smooth = field_of(side, [&](std::int64_t i, std::int64_t j) {
-        return i < side / 2 ? pattern(i, j) : 0.0F;
+    const Field smooth = field_of(plane_side, [&](std::int64_t i, std::int64_t j) {
+        return i < plane_side / 2 ? pattern(i, j) : 0.0F;
     });
     EXPECT_EQ(alternating_part(smooth, &inside), 0);
 }

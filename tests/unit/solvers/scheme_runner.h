@@ -5,13 +5,14 @@
 #include "solvers/etd_stages.h"
 #include "solvers/scheme.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// One entry for each species, each a vector of cells.
 using PlainState = std::vector<std::vector<double>>;
@@ -19,6 +20,11 @@ using PlainRates = std::function<PlainState(const PlainState& state, double t)>;
 /// Of the rates of a cell by its values.
 using PlainMatrix = std::vector<std::vector<double>>;
 using PlainJacobian = std::function<PlainMatrix(const std::vector<double>& cell, double t)>;
+
+/// u' = v cos t, v' = −u cos t: a circle at the angle sin t. Stages see it at different times.
+inline PlainState swing(const PlainState& state, double t) {
+    return {{state[1][0] * std::cos(t)}, {-state[0][0] * std::cos(t)}};
+}
 
 class SchemeRunner {
 public:
@@ -184,4 +190,4 @@ private:
     int evaluations_ = 0;
 };
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

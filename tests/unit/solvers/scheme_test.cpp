@@ -16,14 +16,10 @@
 namespace cascade {
 namespace {
 
-using testing::PlainRates;
-using testing::PlainState;
-using testing::SchemeRunner;
-
-/// u' = v cos t, v' = −u cos t: a circle at the angle sin t. Stages see it at different times.
-PlainState swing(const PlainState& state, double t) {
-    return {{state[1][0] * std::cos(t)}, {-state[0][0] * std::cos(t)}};
-}
+using test::PlainRates;
+using test::PlainState;
+using test::SchemeRunner;
+using test::swing;
 
 double swing_error(Solver solver, int steps, std::uint32_t stages) {
     const double end = 2;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 StepProblem diffusion_rates(const Grid& grid, float diffusion) {
@@ -18,16 +18,10 @@ StepProblem diffusion_rates(const Grid& grid, float diffusion) {
     return problem;
 }
 
-std::vector<Field> one(Field field) {
-    std::vector<Field> species;
-    species.push_back(std::move(field));
-    return species;
-}
-
 TEST(Stability, DiffusionOnAPlane) {
     const Grid grid{64, 64, Boundary::periodic};
     for (const double level : {1.0, 1e-4, 300.0}) {
-        const auto species = one(
+        const auto species = only_species(
             make_field(grid, [&](auto i, auto j) { return level * (1 + 0.1 * scatter(i, j)); }));
         const StabilityEstimate estimate = estimate_stability(diffusion_rates(grid, 0.3f), species);
         EXPECT_NEAR(estimate.eigenvalue, -8 * 0.3, 0.02 * 8 * 0.3);
@@ -38,21 +32,21 @@ TEST(Stability, DiffusionOnAPlane) {
 
 TEST(Stability, DiffusionAlongARow) {
     const Grid grid{200, 1, Boundary::no_flux};
-    const auto species = one(make_field(grid, scatter));
+    const auto species = only_species(make_field(grid, scatter));
     const StabilityEstimate estimate = estimate_stability(diffusion_rates(grid, 2), species);
     EXPECT_NEAR(estimate.eigenvalue, -8, 0.01 * 8);
 }
 
 TEST(Stability, DiffusionFromZero) {
     const Grid grid{32, 32, Boundary::periodic};
-    const auto species = one(Field{PlaneLayout(grid)});
+    const auto species = only_species(Field{PlaneLayout(grid)});
     const StabilityEstimate estimate = estimate_stability(diffusion_rates(grid, 1), species);
     EXPECT_NEAR(estimate.eigenvalue, -8, 0.02 * 8);
 }
 
 TEST(Stability, ALargeGridIsEstimatedWithFewerIterations) {
     const Grid grid{1100, 900, Boundary::periodic};
-    const auto species = one(make_field(grid, scatter));
+    const auto species = only_species(make_field(grid, scatter));
     const StabilityEstimate estimate = estimate_stability(diffusion_rates(grid, 1), species);
     EXPECT_NEAR(estimate.eigenvalue, -8, 0.02 * 8);
 }
@@ -66,7 +60,7 @@ TEST(Stability, DecayAndGrowth) {
         problem.passes[0].uniforms = {k};
         return problem;
     };
-    const auto species = one(make_field(grid, scatter));
+    const auto species = only_species(make_field(grid, scatter));
     const StabilityEstimate decay = estimate_stability(rates(-5), species);
     EXPECT_NEAR(decay.eigenvalue, -5, 1e-3);
     EXPECT_NEAR(decay.largest_speed.value_or(0), 0.4, 1e-4);
@@ -118,7 +112,7 @@ TEST(Stability, FrozenCellsDoNotMove) {
     });
     Mask frozen{PlaneLayout(grid)};
     for (const std::int64_t i : {0, 1, 4, 5}) frozen.at(i, 0) = 1;
-    const auto species = one(make_field(grid, [](auto, auto) { return 1.0; }));
+    const auto species = only_species(make_field(grid, [](auto, auto) { return 1.0; }));
     const StabilityEstimate estimate = estimate_stability(problem, species, &frozen);
     EXPECT_NEAR(estimate.eigenvalue, -3, 1e-3);
     EXPECT_NEAR(estimate.largest_speed.value_or(0), 2.0 / 3, 1e-3);
@@ -127,7 +121,7 @@ TEST(Stability, FrozenCellsDoNotMove) {
 TEST(Stability, AllFrozenOrNotFinite) {
     const Grid grid{4, 4, Boundary::periodic};
     StepProblem problem = diffusion_rates(grid, 1);
-    std::vector<Field> species = one(make_field(grid, scatter));
+    std::vector<Field> species = only_species(make_field(grid, scatter));
     species[0].at(1, 1) = std::numeric_limits<float>::max();
     species[0].at(2, 1) = -std::numeric_limits<float>::max();
     EXPECT_FALSE(estimate_stability(problem, species).largest_speed);
@@ -210,4 +204,4 @@ TEST(Stability, OfASpeciesThatHasDiedOut) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

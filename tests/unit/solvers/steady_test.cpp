@@ -2,6 +2,7 @@
 #include "solvers/steady.h"
 
 #include "solvers/field_norms.h"
+#include "tests/unit/solvers/cell_function_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,8 @@
 namespace cascade {
 namespace {
 
+using test::only_species;
+
 Field make(std::int64_t side, const std::function<double(double, double)>& value) {
     Field field{PlaneLayout(Grid{side, side})};
     for (std::int64_t j = 0; j < side; ++j) {
@@ -25,12 +28,6 @@ Field make(std::int64_t side, const std::function<double(double, double)>& value
         }
     }
     return field;
-}
-
-std::vector<Field> one(Field field) {
-    std::vector<Field> fields;
-    fields.push_back(std::move(field));
-    return fields;
 }
 
 double wave(double x, double y) {
@@ -72,7 +69,7 @@ TEST(FieldNorms, OfADifferenceTellShiftFromShape) {
 double end_of(std::int64_t side, double interval, double last, double tolerance,
               const std::function<double(double t, double x, double y)>& value) {
     const auto state = [&](double t) {
-        return one(make(side, [&](double x, double y) { return value(t, x, y); }));
+        return only_species(make(side, [&](double x, double y) { return value(t, x, y); }));
     };
     SteadyWatch watch;
     watch.begin(state(0));
@@ -157,7 +154,7 @@ TEST(Steady, WhatDoesNotChangeIsSettledAtTheFirstLook) {
 
 TEST(Steady, WithoutABeginningTheFirstLookJudgesNothing) {
     SteadyWatch watch;
-    const auto state = one(make(16, wave));
+    const auto state = only_species(make(16, wave));
     EXPECT_FALSE(watch.settled(state, 100, 0.01));
     EXPECT_TRUE(watch.settled(state, 200, 0.01));
 }
@@ -172,7 +169,7 @@ TEST(Steady, WavesAndSwingsNeverSettle) {
 TEST(Steady, EverySpeciesCounts) {
     SteadyWatch watch;
     const auto at = [](double t) {
-        std::vector<Field> both = one(make(16, wave));
+        std::vector<Field> both = only_species(make(16, wave));
         both.push_back(make(16, [=](double x, double y) { return amplitude(t) * wave(x, y); }));
         return both;
     };

@@ -2,17 +2,12 @@
 #include "solvers/stepping.h"
 
 #include "tests/unit/solvers/cell_function_kernel.h"
+#include "tests/unit/solvers/tiling_levels.h"
 
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
-
-Tiling levels(int count) {
-    Tiling tiling;
-    tiling.levels = count;
-    return tiling;
-}
 
 /// Five passes, of which some begin with a sum over all cells.
 StepProblem five_passes(const std::vector<std::size_t>& with_sums) {
@@ -71,4 +66,4 @@ TEST(SteppingTest, StepsThatMayBeTakenBackAreTakenOneByOne) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// When a layer of a level is done: parts of a phase are done at once, those of a part in order.
@@ -105,4 +105,4 @@ TEST(TileShape, ManyLevelsTakeWideBands) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

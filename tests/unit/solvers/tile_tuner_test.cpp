@@ -1,6 +1,8 @@
 // The choice of a tiling, on made-up machines: no clock is looked at.
 #include "solvers/tile_tuner.h"
 
+#include "tests/unit/solvers/tiling_levels.h"
+
 #include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>
@@ -8,11 +10,7 @@
 namespace cascade {
 namespace {
 
-Tiling levels(int count) {
-    Tiling tiling;
-    tiling.levels = count;
-    return tiling;
-}
+using test::levels;
 
 const std::vector<Tiling> usual = {levels(16), levels(8), levels(1)};
 

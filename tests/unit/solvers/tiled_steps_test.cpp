@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// Numbers that a seed and the calls before decide.
@@ -374,4 +374,4 @@ TEST(TiledSteps, OnLinkedCells) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

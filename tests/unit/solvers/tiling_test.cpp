@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 constexpr CacheSizes caches{1 << 20, 8 << 20};
@@ -168,4 +168,4 @@ TEST(Tiling, SidesWrapWhereAnyPlaneDoes) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

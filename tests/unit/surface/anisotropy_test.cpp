@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-const std::atomic<bool> never = false;
+using test::never;
 
 /// The square 0..1² as n² squares.
 SurfaceMesh plane(std::uint32_t n) {
@@ -31,8 +31,8 @@ Anisotropy constant(const SurfaceMesh& mesh, Vector3d direction, double ratio) {
             std::vector<double>(mesh.triangles.size(), ratio)};
 }
 
-SurfaceCells cells_of(const SurfaceMesh& mesh, std::uint64_t count, const Anisotropy& anisotropy,
-                      int threads = 2) {
+SurfaceCells stretched_cells(const SurfaceMesh& mesh, std::uint64_t count,
+                             const Anisotropy& anisotropy, int threads = 2) {
     Team team(threads);
     CellOptions options;
     options.count = count;
@@ -41,7 +41,7 @@ SurfaceCells cells_of(const SurfaceMesh& mesh, std::uint64_t count, const Anisot
 }
 
 /// Sums of squares along a direction and across it.
-struct Spread {
+struct SquaresAlongAndAcross {
     double along = 0, across = 0;
     void add(Vector3d offset, Vector3d direction, double weight) {
         const Vector3d side = {-direction.y, direction.x, 0};
@@ -73,10 +73,11 @@ TEST(Anisotropy, CellsAreLongerThanWide) {
         const SurfaceMesh mesh = plane(n);
         const Vector3d direction = unit(Vector3d{2, 1, 0});
         for (const double ratio : {1.0, 2.0, 4.0}) {
-            const SurfaceCells cells = cells_of(mesh, 1500, constant(mesh, direction * 7, ratio));
+            const SurfaceCells cells =
+                stretched_cells(mesh, 1500, constant(mesh, direction * 7, ratio));
             test::expect_areas_sum_to(mesh, cells);
             test::expect_symmetric_edges(cells);
-            Spread spread;
+            SquaresAlongAndAcross spread;
             for (std::uint32_t k = 0; k < 1500; ++k) {
                 const Vector3d p = position_of(mesh, cells.places[k]);
                 if (std::max(std::abs(p.x - 0.5), std::abs(p.y - 0.5)) > 0.35) continue;
@@ -94,31 +95,31 @@ TEST(Anisotropy, DiffusionSpreadsFartherAlongTheDirection) {
     const SurfaceMesh mesh = plane(20);
     const Vector3d direction = unit(Vector3d{1, -1, 0});
     const double ratio = 3;
-    const SurfaceCells cells = cells_of(mesh, 6000, constant(mesh, direction, ratio));
+    const SurfaceCells cells = stretched_cells(mesh, 6000, constant(mesh, direction, ratio));
     // From a spot in the middle, until it is a tenth of the square wide.
     std::vector<double> c(6000);
     const Vector3d middle = {0.5, 0.5, 0};
     const auto spread_of = [&] {
-        Spread spread;
+        SquaresAlongAndAcross spread;
         double sum = 0;
         for (std::size_t k = 0; k < c.size(); ++k) {
             spread.add(position_of(mesh, cells.places[k]) - middle, direction,
                        c[k] * cells.areas[k]);
             sum += c[k] * cells.areas[k];
         }
-        return Spread{spread.along / sum, spread.across / sum};
+        return SquaresAlongAndAcross{spread.along / sum, spread.across / sum};
     };
     for (std::size_t k = 0; k < c.size(); ++k) {
         const Vector3d d = position_of(mesh, cells.places[k]) - middle;
         c[k] = std::exp(-dot(d, d) / 2 / 0.0009);
     }
-    const Spread before = spread_of();
+    const SquaresAlongAndAcross before = spread_of();
     const double step = 0.1 / 6000, time = 0.002;
     for (double t = 0; t < time - step / 2; t += step) {
         const std::vector<double> change = test::laplacian(cells, c);
         for (std::size_t k = 0; k < c.size(); ++k) c[k] += step * change[k];
     }
-    const Spread after = spread_of();
+    const SquaresAlongAndAcross after = spread_of();
     // The variance grows by 2 D t, with D = ratio along and 1 / ratio across.
     EXPECT_NEAR((after.along - before.along) / (2 * time) / ratio, 1, 0.05);
     EXPECT_NEAR((after.across - before.across) / (2 * time) * ratio, 1, 0.05);
@@ -129,8 +130,8 @@ TEST(Anisotropy, WorksOnASphereOnAnyNumberOfThreads) {
     Anisotropy anisotropy = constant(mesh, {0, 0, 1}, 3);
     for (std::size_t t = 0; t < anisotropy.ratio.size(); t += 2) anisotropy.ratio[t] = 2;
     anisotropy.direction[5] = {};  // No direction at all.
-    const SurfaceCells one = cells_of(mesh, 900, anisotropy, 1),
-                       three = cells_of(mesh, 900, anisotropy, 3);
+    const SurfaceCells one = stretched_cells(mesh, 900, anisotropy, 1),
+                       three = stretched_cells(mesh, 900, anisotropy, 3);
     EXPECT_EQ(one.areas, three.areas);
     EXPECT_EQ(one.ends, three.ends);
     test::expect_areas_sum_to(mesh, one);
@@ -144,7 +145,7 @@ TEST(Anisotropy, OfRatioOneChangesNothing) {
     CellOptions options;
     options.count = 300;
     const auto plain = make_cells(mesh, options, team, never);
-    EXPECT_EQ(cells_of(mesh, 300, constant(mesh, {1, 2, 3}, 1)).areas, plain->areas);
+    EXPECT_EQ(stretched_cells(mesh, 300, constant(mesh, {1, 2, 3}, 1)).areas, plain->areas);
 }
 
 }  // namespace

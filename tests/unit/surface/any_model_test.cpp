@@ -11,10 +11,8 @@
 
 #include <algorithm>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 /// Triangles between few points, some of them in one place or on one line, of any size.
 PolygonSoup random_soup(std::uint32_t seed) {
@@ -109,4 +107,4 @@ TEST(AnyModel, HasFiniteGeometry) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

@@ -10,10 +10,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 double total(const SurfaceCells& cells, const std::vector<float>& values) {
     double sum = 0;
@@ -134,4 +132,4 @@ TEST(BlurCells, CellsThatCoincideDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

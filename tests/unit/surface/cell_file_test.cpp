@@ -14,7 +14,7 @@
 namespace cascade {
 namespace {
 
-const std::atomic<bool> never = false;
+using test::never;
 constexpr std::uint64_t any_size = std::uint64_t{1} << 30;
 
 class CellFile : public testing::Test {

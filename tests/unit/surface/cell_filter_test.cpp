@@ -7,10 +7,8 @@
 
 #include <cmath>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 CellFilter filter_of(const SurfaceMesh& mesh, const SurfaceCells& cells, int threads = 2) {
     Team team(threads);
@@ -37,7 +35,7 @@ std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
 }
 
 /// −1 or 1 by chance: the roughest values there are.
-std::vector<float> coins(std::size_t count) {
+std::vector<float> random_signs(std::size_t count) {
     std::vector<float> values;
     for (std::uint32_t k = 0; k < count; ++k)
         values.push_back(pcg4d({k, 0, 0, 0})[0] & 1 ? 1.0F : -1.0F);
@@ -141,7 +139,7 @@ double largest_jump(const SurfaceMesh& mesh, std::size_t count, const std::vecto
 }
 
 TEST(CellFilter, NothingJumpsAtEdges) {
-    const std::vector<float> values = coins(40'000);
+    const std::vector<float> values = random_signs(40'000);
     EXPECT_LT(largest_jump(square(), 1000, values), 1e-4);
     EXPECT_LT(largest_jump(sphere(40), 300, values), 0.05);
     EXPECT_LT(largest_jump(sphere(10), 1000, values), 0.05);
@@ -245,7 +243,7 @@ TEST(CellFilter, SlopesAreThoseOfTheShares) {
     for (const SurfaceMesh& mesh : {square(), sphere(8)}) {
         const SurfaceCells cells = cells_of(mesh, 700);
         const CellFilter filter = filter_of(mesh, cells);
-        const std::vector<float> values = coins(700);
+        const std::vector<float> values = random_signs(700);
         std::vector<SlopedShare> shares;
         for (const SurfacePlace& place : scatter(mesh, 300, 6)) {
             filter.sloped_shares(place, shares);
@@ -288,4 +286,4 @@ TEST(CellFilter, ThreadsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

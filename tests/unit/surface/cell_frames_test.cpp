@@ -11,10 +11,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 std::vector<double> evenness(const SurfaceMesh& mesh, const SurfaceCells& cells, bool are_spread,
                              int threads = 2) {
@@ -87,4 +85,4 @@ TEST(CellFrames, DependOnNoThreads) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

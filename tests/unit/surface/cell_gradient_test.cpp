@@ -5,10 +5,8 @@
 
 #include <gtest/gtest.h>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 std::vector<Vector3d> weights_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                  int threads = 2) {
@@ -130,4 +128,4 @@ TEST(CellGradient, SizeOfTheModelAndThreadsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

@@ -31,7 +31,7 @@ std::size_t link_count(const LinkList& links, std::uint32_t cell) {
 struct Square {
     explicit Square(std::size_t side) : numbers(side * side) {
         std::iota(numbers.begin(), numbers.end(), 0U);
-        testing::RandomStream random(side);
+        test::RandomStream random(side);
         for (std::size_t k = numbers.size(); k > 1; --k) {
             std::swap(numbers[k - 1], numbers[random.below(k)]);
         }
@@ -62,9 +62,9 @@ struct Square {
 double distance(std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; }
 
 /// The largest and the mean difference of numbers over links.
-struct Spread {
+struct LinkDistances {
     double largest = 0, mean = 0;
-    explicit Spread(const LinkList& links) {
+    explicit LinkDistances(const LinkList& links) {
         for (std::uint32_t cell = 0; cell < links.ends.size(); ++cell) {
             for (std::size_t k = link_count(links, cell); k > 0; --k) {
                 const double apart = distance(cell, links.neighbours[links.ends[cell] - k]);
@@ -81,9 +81,9 @@ TEST(CellOrder, LevelsPutNeighboursIntoBands) {
     const Order order = order_by_levels(square.links);
     ASSERT_TRUE(has_each_once(order, side * side));
     // From a corner the levels are diagonals of at most `side` cells.
-    const Spread spread(renumbered(square.links, order));
+    const LinkDistances spread(renumbered(square.links, order));
     EXPECT_LE(spread.largest, side + 1);
-    EXPECT_GT(Spread(square.links).mean, 900) << "before";
+    EXPECT_GT(LinkDistances(square.links).mean, 900) << "before";
 }
 
 /// What steps go through: slices as long as their longest list of links, near each other.
@@ -91,7 +91,7 @@ TEST(CellOrder, StepsHaveBandsAndLittleToFillUp) {
     constexpr std::size_t side = 60;
     const Square square(side);
     const LinkList links = renumbered(square.links, order_for_steps(square.links));
-    EXPECT_LE(Spread(links).largest, side + 1 + 2 * 64);
+    EXPECT_LE(LinkDistances(links).largest, side + 1 + 2 * 64);
     const auto entries = [](const LinkList& list) {
         std::size_t sum = 0;
         for (std::uint32_t first = 0; first < list.ends.size(); first += 16) {
@@ -110,7 +110,7 @@ TEST(CellOrder, StepsHaveBandsAndLittleToFillUp) {
 
 TEST(CellOrder, GroupsAreSortedByLinksWithinWindows) {
     constexpr std::size_t cells = 1000, window = 128;
-    const LinkList links = testing::random_links(cells, 5);
+    const LinkList links = test::random_links(cells, 5);
     Order order(cells);
     std::iota(order.begin(), order.end(), 0U);
     group_by_links(order, links, window);
@@ -127,7 +127,7 @@ TEST(CellOrder, GroupsAreSortedByLinksWithinWindows) {
 TEST(CellOrder, LevelsReachEveryCell) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         const std::size_t cells = 1 + 17 * (seed - 1);
-        const LinkList links = testing::random_links(cells, seed);
+        const LinkList links = test::random_links(cells, seed);
         const Order order = order_by_levels(links);
         ASSERT_TRUE(has_each_once(order, cells)) << seed;
         const LinkList renamed = renumbered(links, order);

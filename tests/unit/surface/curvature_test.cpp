@@ -9,12 +9,10 @@
 #include <algorithm>
 #include <numeric>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
 
-using namespace test;
-
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 bool is_finite(const PrincipalCurvatures& c) {
     double sum = 0;
@@ -186,4 +184,4 @@ TEST(PlaceValues, AreLinearInATriangle) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

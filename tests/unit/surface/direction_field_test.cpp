@@ -7,12 +7,10 @@
 
 #include <algorithm>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
 
-using namespace test;
-
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void expect_tangents(const TangentPlanes& planes, const std::vector<Vector3d>& field) {
     ASSERT_EQ(field.size(), planes.size());
@@ -248,4 +246,4 @@ TEST(Directions, OfAnythingAreFinite) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

@@ -7,10 +7,8 @@
 
 #include <algorithm>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 SurfacePlace nearest(const SurfaceMesh& mesh, Vector3d point) {
     return NearestPlace(mesh).find(point).value();
@@ -253,4 +251,4 @@ TEST(Distance, BadTrianglesOnlyTakeLonger) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

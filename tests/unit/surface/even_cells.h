@@ -4,11 +4,10 @@
 #include "surface/relax.h"
 #include "surface/scatter.h"
 #include "surface/voronoi_cells.h"
+#include "tests/support/never.h"
 #include "unit/mesh/meshes.h"
 
 namespace cascade::test {
-
-inline const std::atomic<bool> never = false;
 
 inline std::vector<SurfacePlace> even_places(const SurfaceMesh& mesh, std::size_t count,
                                              int threads = 2, int rounds = 40) {

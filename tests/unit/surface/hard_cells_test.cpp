@@ -9,9 +9,9 @@
 namespace cascade {
 namespace {
 
-const std::atomic<bool> never = false;
+using test::never;
 
-Result<SurfaceCells> cells_of(const SurfaceMesh& mesh, std::uint64_t count) {
+Result<SurfaceCells> made_cells(const SurfaceMesh& mesh, std::uint64_t count) {
     Team team(2);
     CellOptions options;
     options.count = count;
@@ -19,7 +19,7 @@ Result<SurfaceCells> cells_of(const SurfaceMesh& mesh, std::uint64_t count) {
 }
 
 void expect_fine(const SurfaceMesh& mesh, std::uint64_t count) {
-    const auto cells = cells_of(mesh, count);
+    const auto cells = made_cells(mesh, count);
     ASSERT_TRUE(cells) << cells.error().message;
     EXPECT_EQ(cells->places.size(), count);
     test::expect_areas_sum_to(mesh, *cells);
@@ -91,10 +91,10 @@ TEST(HardCells, ThinPartsHaveNoWeightyCells) {
         const SurfaceMesh mesh = *box_mesh({1, width, width}, width / 4);
         for (const std::uint64_t count : {100, 400}) {
             expect_fine(mesh, count);
-            EXPECT_LT(largest_weight(*cells_of(mesh, count)), 12) << width << ' ' << count;
+            EXPECT_LT(largest_weight(*made_cells(mesh, count)), 12) << width << ' ' << count;
         }
     }
-    EXPECT_LT(largest_weight(*cells_of(*box_mesh({1, 1, 1}, 0.05), 4000)), 7);
+    EXPECT_LT(largest_weight(*made_cells(*box_mesh({1, 1, 1}, 0.05), 4000)), 7);
 }
 
 TEST(HardCells, AFinOnABox) {
@@ -108,11 +108,11 @@ TEST(HardCells, AFinOnABox) {
 }
 
 TEST(HardCells, VeryLargeAndVerySmallModels) {
-    const auto at_one = cells_of(test::box(), 300);
+    const auto at_one = made_cells(test::box(), 300);
     for (const double size : {1e-60, 1e-9, 1e9, 1e60}) {
         const SurfaceMesh mesh = mesh_of(scaled(test::cube(), size));
         expect_fine(mesh, 300);
-        const auto cells = cells_of(mesh, 300);
+        const auto cells = made_cells(mesh, 300);
         EXPECT_EQ(cells->edges.size(), at_one->edges.size()) << size;
         EXPECT_NEAR(cells->areas[7] / size / size / at_one->areas[7], 1, 1e-3);
     }
@@ -127,16 +127,16 @@ TEST(HardCells, EveryPieceHasACell) {
     expect_fine(mesh, 41);
     expect_fine(mesh, 42);
     expect_fine(mesh, 600);
-    const auto few = cells_of(mesh, 40);
+    const auto few = made_cells(mesh, 40);
     ASSERT_FALSE(few);
     EXPECT_EQ(few.error().message, "40 cells cannot cover a surface of 41 connected components");
     EXPECT_EQ(few.error().hint, "use 41 cells or more, or join components");
 }
 
 TEST(HardCells, RefusesWhatCannotBe) {
-    EXPECT_FALSE(cells_of(test::box(), 0));
-    EXPECT_FALSE(cells_of(test::box(), std::uint64_t{1} << 32));
-    EXPECT_FALSE(cells_of({}, 3));
+    EXPECT_FALSE(made_cells(test::box(), 0));
+    EXPECT_FALSE(made_cells(test::box(), std::uint64_t{1} << 32));
+    EXPECT_FALSE(made_cells({}, 3));
     CellOptions options;
     options.count = 1'000'000'000;
     EXPECT_GT(memory_of_cells(test::box(), options), 1e11);

@@ -10,10 +10,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace cascade {
+namespace cascade::test {
 namespace {
-
-using namespace test;
 
 std::vector<double> smooth(const SurfaceCells& cells, std::vector<double> values, double length,
                            int threads = 2) {
@@ -216,4 +214,4 @@ TEST(CellFinder, WhatCannotBeFound) {
 }
 
 }  // namespace
-}  // namespace cascade
+}  // namespace cascade::test

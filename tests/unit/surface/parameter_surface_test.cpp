@@ -18,14 +18,14 @@ Grid grid_of(std::int64_t width, std::int64_t height) {
     return grid;
 }
 
-Position torus(double sx, double sy) {
+Position torus_position(double sx, double sy) {
     const double out = 3 + std::cos(two_pi * sy);
     return {out * std::cos(two_pi * sx), out * std::sin(two_pi * sx), std::sin(two_pi * sy)};
 }
 
 TEST(ParameterSurface, ATorusHasItsMetric) {
     const Grid grid = grid_of(90, 40);
-    const auto metric = measure_surface(torus, grid, 1.0);
+    const auto metric = measure_surface(torus_position, grid, 1.0);
     ASSERT_TRUE(metric);
     double area = 0;
     for (std::int64_t j = 0; j < 40; ++j) {
@@ -45,7 +45,7 @@ TEST(ParameterSurface, ATorusHasItsMetric) {
 
 TEST(ParameterSurface, WithoutAUnitTheMeanCellHasAreaOne) {
     const Grid grid = grid_of(30, 50);
-    const auto metric = measure_surface(torus, grid, std::nullopt);
+    const auto metric = measure_surface(torus_position, grid, std::nullopt);
     ASSERT_TRUE(metric);
     double area = 0;
     for (std::int64_t j = 0; j < 50; ++j) {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 Vector3d random_step(RandomStream& random, double length) {
@@ -134,4 +134,4 @@ TEST(PlaceFollower, StaysOnItsSheet) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

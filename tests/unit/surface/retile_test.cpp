@@ -16,7 +16,9 @@ using test::farthest_moved;
 using test::never;
 using test::torus_soup;
 
-SurfaceMesh torus(std::uint32_t n, std::uint32_t m) { return make_mesh(torus_soup(n, m))->mesh; }
+SurfaceMesh torus_mesh(std::uint32_t n, std::uint32_t m) {
+    return make_mesh(torus_soup(n, m))->mesh;
+}
 
 /// A square 0..1² of n² squares.
 SurfaceMesh fine_square(std::uint32_t n) {
@@ -108,7 +110,7 @@ TEST(Retile, KeepsTopologyPointsAndShape) {
         double distance;  ///< Allowed, in spacings.
     };
     for (const auto& [mesh, count, distance] :
-         {Case{test::sphere(12), 600, 0.1}, Case{torus(40, 20), 700, 0.25},
+         {Case{test::sphere(12), 600, 0.1}, Case{torus_mesh(40, 20), 700, 0.25},
           Case{test::box(), 500, 0.75}, Case{three_pieces(), 900, 0.6},
           Case{test::sphere(24), 150, 0.2}}) {
         const std::vector<SurfacePlace> places = even_places(mesh, count);
@@ -213,7 +215,7 @@ TEST(Retile, TopologyNeedsItsPoints) {
     // P. J. Heawood's bound: (7 + √(49 − 24 χ)) / 2 points at least, 4 on a sphere and 7 on a
     // torus.
     for (const auto& [mesh, least] :
-         {std::pair(test::sphere(6), 4u), std::pair(torus(12, 8), 7u)}) {
+         {std::pair(test::sphere(6), 4u), std::pair(torus_mesh(12, 8), 7u)}) {
         for (std::size_t count = 0; count <= 8; ++count) {
             const std::vector<SurfacePlace> places = scatter(mesh, count, 3);
             const Result<Retiled> retiled = retile(mesh, places, never);

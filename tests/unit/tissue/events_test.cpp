@@ -8,7 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// Species 4 is ripe. Cells divide at 1 and begin again at 0.
@@ -435,4 +435,4 @@ TEST(RandomDirection, IsInThePlane) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

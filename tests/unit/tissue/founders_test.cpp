@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 TEST(Founders, AreSpreadByArea) {
@@ -112,4 +112,4 @@ TEST(Founders, FaceTheWayTheyAreTold) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

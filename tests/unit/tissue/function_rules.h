@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 
 /// What a function of a cell may read.
 class CellState {
@@ -363,4 +363,4 @@ inline void expect_equal_records(const TissueRecord& a, const TissueRecord& b) {
     EXPECT_EQ(a.time.progress, b.time.progress);
 }
 
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,27 +10,28 @@
 #include <cstdint>
 #include <vector>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
-constexpr double radius = 0.02, many = 1e9;
-constexpr float skin = 0.3F;
+constexpr double usual_radius = 0.02, many = 1e9;
+constexpr float usual_skin = 0.3F;
 
 /// Cells on a square, and the marks with which their neighbours were last looked for.
 class MovingCells {
 public:
     explicit MovingCells(const NeighbourRule& rule, std::size_t count = 400) : rule_(rule) {
         for (std::size_t k = 0; k < count; ++k) add(random_place());
-        std::vector<float> skins(count, skin);
+        std::vector<float> skins(count, usual_skin);
         const CellPlaces cells{places_, radii_, ranks_, skins};
-        for (std::uint32_t k = 0; k < count; ++k) marks_.push_back(boxed(cells, k, rule_, skin));
+        for (std::uint32_t k = 0; k < count; ++k)
+            marks_.push_back(boxed(cells, k, rule_, usual_skin));
         NeighbourSearch search(cells, rule_, 0);
         Team team(1);
         auto found = find_neighbours(search, ranks_, many, team);
         lists_.start(std::move(*found), std::move(search));
     }
 
-    void add(Vector3d place, double size = radius) {
+    void add(Vector3d place, double size = usual_radius) {
         ranks_.push_back(static_cast<std::uint32_t>(places_.size()));
         places_.push_back(place);
         radii_.push_back(size);
@@ -57,7 +58,7 @@ public:
     bool renew(const std::vector<std::uint32_t>& cells, double most_links = many) {
         std::vector<BoxedCell> renewed;
         for (const std::uint32_t cell : cells) {
-            renewed.push_back(boxed({places_, radii_, ranks_, {}}, cell, rule_, skin));
+            renewed.push_back(boxed({places_, radii_, ranks_, {}}, cell, rule_, usual_skin));
         }
         if (!lists_.renew(renewed, ranks_, most_links)) return false;
         marks_.resize(places_.size());
@@ -166,9 +167,9 @@ TEST(KeptLists, AreNotKeptWhereAllCellsAreBetterFound) {
     EXPECT_FALSE(cells.renew(many_cells));
     EXPECT_FALSE(cells.renew({1}, 1000)) << "too many links";
     cells.expect_all_pairs();
-    cells.add({0.5, 0.5, 0}, 2 * radius);
+    cells.add({0.5, 0.5, 0}, 2 * usual_radius);
     EXPECT_FALSE(cells.renew({400})) << "wider than the boxes";
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 struct Cells {
@@ -173,4 +173,4 @@ TEST(Neighbours, AreNearEachOtherInMemoryAlongACurve) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

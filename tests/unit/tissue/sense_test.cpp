@@ -9,7 +9,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 NearPlace found(const Surroundings& around, Vector3d point) {
@@ -195,4 +195,4 @@ TEST(SenseKernel, ReadsTheCellsOfAModel) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 FunctionRules pushing_rules() {
@@ -279,4 +279,4 @@ TEST(TissueLoop, IsCancelledBetweenSteps) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 /// Cells whose two species tell their numbers.
@@ -105,4 +105,4 @@ TEST(Tissue, MayDieOut) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test

@@ -10,7 +10,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::string_view token = "00112233445566778899aabbccddeeff";
+constexpr std::string_view session_token = "00112233445566778899aabbccddeeff";
 
 RequestHead page_request() {
     RequestHead head;
@@ -20,7 +20,7 @@ RequestHead page_request() {
     return head;
 }
 
-RequestHead socket_request() {
+RequestHead session_request() {
     RequestHead head = page_request();
     head.target = "/session?token=00112233445566778899aabbccddeeff";
     head.origin = "http://127.0.0.1:4000";
@@ -31,16 +31,16 @@ RequestHead socket_request() {
 
 /// 0 if admitted.
 unsigned status_of(const RequestHead& head) {
-    const auto refusal = Admission(4000, std::string(token)).refuse(head);
+    const auto refusal = Admission(4000, std::string(session_token)).refuse(head);
     return refusal ? refusal->status : 0;
 }
 
 TEST(Admission, TakesItsOwnPage) {
     EXPECT_EQ(status_of(page_request()), 0U);
-    EXPECT_EQ(status_of(socket_request()), 0U);
+    EXPECT_EQ(status_of(session_request()), 0U);
     for (const std::string_view name : {"127.0.0.1:4000", "localhost:4000", "[::1]:4000"}) {
         const std::string origin = "http://" + std::string(name);
-        RequestHead head = socket_request();
+        RequestHead head = session_request();
         head.host = name;
         head.origin = origin;
         EXPECT_EQ(status_of(head), 0U) << name;
@@ -66,14 +66,14 @@ TEST(Admission, RefusesOriginsOfOtherSites) {
          {"", "null", "http://evil.example", "https://127.0.0.1:4000", "http://127.0.0.1:4001",
           "http://127.0.0.1", "http://localhost:4000", "http://127.0.0.1:4000/",
           "127.0.0.1:4000"}) {
-        RequestHead head = socket_request();
+        RequestHead head = session_request();
         head.origin = origin;
         EXPECT_EQ(status_of(head), 403U) << origin;
         head.is_upgrade = false;
         head.target = "/";
         EXPECT_EQ(status_of(head), 403U) << origin;
     }
-    RequestHead none = socket_request();
+    RequestHead none = session_request();
     none.origin.reset();
     EXPECT_EQ(status_of(none), 403U) << "an origin that comes twice";
     none.has_origin = false;
@@ -90,7 +90,7 @@ TEST(Admission, RefusesMethodsThatCouldChangeSomething) {
     RequestHead head = page_request();
     head.method = "HEAD";
     EXPECT_EQ(status_of(head), 0U);
-    head = socket_request();
+    head = session_request();
     head.method = "HEAD";
     EXPECT_EQ(status_of(head), 403U);
 }
@@ -102,14 +102,14 @@ TEST(Admission, RefusesSocketsWithoutTheToken) {
                                           "/session?token=00112233445566778899aabbccddeeff0",
                                           "/session?token=00112233445566778899AABBCCDDEEFF",
                                           "/session?x=1&token=00112233445566778899aabbccddeeff"}) {
-        RequestHead head = socket_request();
+        RequestHead head = session_request();
         head.target = target;
         EXPECT_EQ(status_of(head), 403U) << target;
     }
-    RequestHead head = socket_request();
+    RequestHead head = session_request();
     head.target = "/?token=00112233445566778899aabbccddeeff";
     EXPECT_EQ(status_of(head), 404U);
-    head = socket_request();
+    head = session_request();
     head.is_upgrade = false;
     EXPECT_EQ(status_of(head), 426U);
 }

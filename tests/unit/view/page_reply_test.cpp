@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view waves = R"(domain { grid: 6, 4; mask: x < 0.5 }
+constexpr std::string_view fading_waves = R"(domain { grid: 6, 4; mask: x < 0.5 }
 system waves {
   u: 1 + x
   k: 0.5 in 0 .. 1   ## how fast it fades
@@ -20,7 +20,7 @@ stage one: waves { iterations: 5 }
 
 class PageReply : public testing::Test {
 protected:
-    void SetUp() override { begin(waves); }
+    void SetUp() override { begin(fading_waves); }
     void begin(std::string_view text) {
         SimulationOptions options;
         options.backend = BackendKind::interpreter;

@@ -1,0 +1,14 @@
+// A tiling of so many levels.
+#pragma once
+
+#include "solvers/tiling.h"
+
+namespace cascade::test {
+
+inline Tiling levels(int count) {
+    Tiling tiling;
+    tiling.levels = count;
+    return tiling;
+}
+
+}  // namespace cascade::test
