@@ -25,7 +25,12 @@ add_custom_command(
   VERBATIM)
 set(code_version_header ${code_version_folder}/jit/code_version.h)
 
-add_library(cascade_jit STATIC ${jit_without_llvm} ${code_version_header})
+# Both parts have this file. It is an object by itself, so that a program that links both takes only one.
+set(code_version ${PROJECT_SOURCE_DIR}/jit/code_version.cpp)
+set_source_files_properties(${code_version} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+
+add_library(cascade_jit STATIC ${code_version_header})
+cascade_compile(cascade_jit ${jit_without_llvm})
 target_link_libraries(cascade_jit PUBLIC cascade_options cascade_ir cascade_core ${CMAKE_DL_LIBS})
 target_include_directories(cascade_jit PRIVATE ${code_version_folder})
 get_target_property(llvm_library LLVM LOCATION)
@@ -34,15 +39,16 @@ target_compile_definitions(cascade_jit PRIVATE
   CASCADE_LLVM_VERSION="${LLVM_PACKAGE_VERSION}")
 
 # The module's parts, which tests use directly instead of through its function table.
-add_library(cascade_llvm_parts STATIC ${jit_with_llvm} ${PROJECT_SOURCE_DIR}/jit/code_version.cpp
-  ${code_version_header})
+set(llvm_module ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp)
+list(REMOVE_ITEM jit_with_llvm ${llvm_module})
+add_library(cascade_llvm_parts STATIC ${code_version_header})
+cascade_compile(cascade_llvm_parts ${jit_with_llvm} ${code_version})
+set_target_properties(cascade_llvm_parts PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # LLVM's macros come first.
 target_link_libraries(cascade_llvm_parts PUBLIC cascade_options cascade_ir cascade_core)
 target_include_directories(cascade_llvm_parts PRIVATE ${code_version_folder})
 cascade_link_llvm(cascade_llvm_parts)
-cascade_compile_together(cascade_llvm_parts ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp
-  ${PROJECT_SOURCE_DIR}/jit/code_version.cpp)
 
-add_library(cascade_llvm MODULE ${PROJECT_SOURCE_DIR}/jit/llvm_module.cpp)
+add_library(cascade_llvm MODULE ${llvm_module})
 target_link_libraries(cascade_llvm PRIVATE cascade_llvm_parts)
 cascade_link_llvm(cascade_llvm)
 target_link_options(cascade_llvm PRIVATE LINKER:--exclude-libs,ALL)

@@ -4,7 +4,12 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The rooms are linked in but not exported: only the functions of cascade.h can be called.
-add_library(cascade_library SHARED run/commands/pattern.cpp)
+# They are objects by themselves, which tests link, too.
+add_library(cascade_pattern OBJECT run/commands/pattern.cpp)
+target_link_libraries(cascade_pattern PRIVATE cascade_run)
+target_compile_options(cascade_pattern PRIVATE ${usual_options})
+add_library(cascade_library SHARED $<TARGET_OBJECTS:cascade_pattern>)
+set_target_properties(cascade_library PROPERTIES LINKER_LANGUAGE CXX)
 target_link_libraries(cascade_library PRIVATE cascade_run)
 target_link_options(cascade_library PRIVATE LINKER:--exclude-libs,ALL)
 target_include_directories(cascade_library INTERFACE

@@ -8,6 +8,10 @@ target_compile_options(cascade_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # g++ 12 and 13 warn of an overlap in std::string's own operator+ (GCC bug 105651).
   target_compile_options(cascade_options INTERFACE -Wno-restrict)
+  if(CASCADE_UNITS)
+    # False alarms: of anonymous namespaces in files that another one includes, and of std::optional without -O3.
+    target_compile_options(cascade_options INTERFACE -Wno-subobject-linkage -Wno-maybe-uninitialized)
+  endif()
 endif()
 if(CASCADE_WERROR)
   target_compile_options(cascade_options INTERFACE -Werror)
@@ -18,19 +22,7 @@ if(CASCADE_SANITIZE)
   target_link_options(cascade_options INTERFACE -fsanitize=${CASCADE_SANITIZE})
 endif()
 
-# Compilers vectorise loops with square roots and choices only without errno and floating-point traps.
-set_source_files_properties(mesh/limbs.cpp solvers/flicker.cpp surface/repulsion.cpp
-  PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
-
-# With CASCADE_UNITY several files of a target are compiled as one, so that their headers are read once: a
-# full build takes a third of the time, a change of one file takes longer. Not for builds with warnings as
-# errors, since files that are compiled together can cause warnings that each of them does not.
-# Arguments after the target are files that another target compiles, too; they are compiled separately, so
-# that the linker takes only one of the two.
-function(cascade_compile_together target)
-  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${CASCADE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
-endfunction()
+include(cmake/units.cmake)
 
 # The table of rooms and of what each may include. A changed table reconfigures the build.
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
@@ -67,7 +59,7 @@ function(cascade_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
   list(JOIN CASCADE_WITHOUT "|" without)
   list(FILTER sources EXCLUDE REGEX "^${PROJECT_SOURCE_DIR}/(${without})\\.cpp$")
-  add_library(cascade_${name} STATIC ${sources})
+  add_library(cascade_${name} STATIC)
   cascade_rooms_below(${name} rooms)
   foreach(room IN LISTS rooms)
     if(TARGET cascade_${room})
@@ -75,5 +67,5 @@ function(cascade_room name)
     endif()
   endforeach()
   target_link_libraries(cascade_${name} PUBLIC cascade_options ${ARGN})
-  cascade_compile_together(cascade_${name})
+  cascade_compile(cascade_${name} ${sources})
 endfunction()

@@ -56,6 +56,18 @@ install_packages() {
     fi
 }
 
+# compilers: prints how many compilers may run at a time: one for each processor and each GiB of free memory.
+compilers() {
+    local free
+    free=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null)
+    if [ -n "$free" ] && [ "$free" -lt "$(nproc)" ]; then
+        [ "$free" -ge 1 ] || free=1
+        printf '%s\n' "$free"
+    else
+        nproc
+    fi
+}
+
 # time_left SECONDS DONE ALL: prints "about 3 minutes left" once a twentieth is done.
 time_left() {
     [ $(($2 * 20)) -ge "$3" ] || return 0
@@ -67,24 +79,51 @@ time_left() {
     fi
 }
 
-# show_progress LOG: shows the number of steps done, as ninja and make log it, and the time left, until
-# it is killed.
+# progress LOG SECONDS: prints the number of steps done, as ninja and make log it, and the time left.
+progress() {
+    local step
+    step=$(tail -c 4000 "$1" | grep -oE '^\[ *[0-9]+(/[0-9]+|%)\]' | tail -n 1 | tr -d '[] ')
+    case $step in
+        */*) printf '%s steps%s' "${step/\// of }" "$(time_left "$2" "${step%/*}" "${step#*/}")" ;;
+        *%) printf '%s%s' "$step" "$(time_left "$2" "${step%\%}" 100)" ;;
+    esac
+}
+
+# show_progress LOG: shows the progress until it is killed: in a terminal one line that changes, elsewhere a line
+# each half minute.
 show_progress() {
-    local line begun=$SECONDS
-    while sleep 0.5; do
-        line=$(tail -c 4000 "$1" | grep -oE '^\[ *[0-9]+(/[0-9]+|%)\]' | tail -n 1 | tr -d '[] ')
-        case $line in
-            */*) printf '\rcascade: %s steps%s\033[K' "${line/\// of }" \
-                "$(time_left $((SECONDS - begun)) "${line%/*}" "${line#*/}")" >&2 ;;
-            *%) printf '\rcascade: %s%s\033[K' "$line" \
-                "$(time_left $((SECONDS - begun)) "${line%\%}" 100)" >&2 ;;
-        esac
+    local line begun=$SECONDS next=${CASCADE_PROGRESS_SECONDS:-30}
+    # The script may have been interrupted, which a process in the background is not.
+    while sleep 0.5 && kill -0 $$ 2>/dev/null; do
+        if [ ! -t 2 ]; then
+            [ $((SECONDS - begun)) -ge "$next" ] || continue
+            next=$((next + ${CASCADE_PROGRESS_SECONDS:-30}))
+        fi
+        line=$(progress "$1" $((SECONDS - begun)))
+        if [ -z "$line" ]; then
+            continue
+        elif [ -t 2 ]; then
+            printf '\rcascade: %s\033[K' "$line" >&2
+        else
+            say "$line"
+        fi
     done
+}
+
+# explain_failure LOG: prints the end of the log of a failed build, and what is known of its cause.
+explain_failure() {
+    say "the build failed; the end of $1:"
+    tail -n 40 "$1" >&2
+    if grep -q 'No space left on device' "$1"; then
+        say "the disk is full: a build takes 1 GiB"
+    elif grep -qE 'Killed signal|Cannot allocate memory|out of memory' "$1"; then
+        say "there was not enough memory: a compiler takes up to 1 GiB"
+    fi
 }
 
 # configure_and_build LOG BUILD_FOLDER TARGET [CMAKE OPTION]…
 configure_and_build() {
-    local log=$1 build=$2 target=$3
+    local log=$1 build=$2 target=$3 jobs
     shift 3
     # A build folder holds absolute paths, so a moved or copied tree is configured anew.
     local home
@@ -96,23 +135,21 @@ configure_and_build() {
     if [ ! -e "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
         options+=(-G Ninja)
     fi
-    command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    local watcher='' status=0
-    if [ -t 2 ]; then
-        show_progress "$log" &
-        watcher=$!
+    if command -v ccache >/dev/null; then
+        options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+        export CCACHE_SLOPPINESS=pch_defines,time_macros  # It looks at precompiled headers only then.
     fi
+    jobs=$(compilers)
+    [ "$jobs" = "$(nproc)" ] || say "$jobs of $(nproc) processors compile, since a compiler takes up to 1 GiB of memory"
+    local watcher status=0
+    show_progress "$log" 9>&- &
+    watcher=$!
     { cmake -S "$root" -B "$build" "${options[@]}" &&
-        cmake --build "$build" --target "$target" --parallel "$(nproc)"; } \
+        cmake --build "$build" --target "$target" --parallel "$jobs"; } \
         </dev/null >>"$log" 2>&1 || status=1
-    if [ -n "$watcher" ]; then
-        kill "$watcher" 2>/dev/null
-        wait "$watcher" 2>/dev/null
-        printf '\r\033[K' >&2
-    fi
-    if [ "$status" != 0 ]; then
-        say "the build failed; the end of $log:"
-        tail -n 40 "$log" >&2
-        return 1
-    fi
+    kill "$watcher" 2>/dev/null
+    wait "$watcher" 2>/dev/null
+    [ ! -t 2 ] || printf '\r\033[K' >&2
+    [ "$status" = 0 ] || explain_failure "$log"
+    return "$status"
 }

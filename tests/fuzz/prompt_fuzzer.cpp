@@ -30,7 +30,7 @@ void type(const std::string& text) {
     options.backend = BackendKind::interpreter;
     options.threads = 1;
     options.memory_limit = std::uint64_t{16} << 20;
-    PromptSession session(options, console, false);
+    PromptSession session(options, console, false, TerminalPictures());
     std::istringstream lines(text);
     std::string last;
     for (std::string line; std::getline(lines, line);) {

@@ -24,7 +24,7 @@
 #include <fstream>
 #include <set>
 
-namespace cascade::testing {
+namespace cascade::test {
 namespace {
 
 using Json = nlohmann::json;
@@ -126,11 +126,11 @@ void write_states(const std::filesystem::path& path, bool is_exact) {
 }
 
 }  // namespace
-}  // namespace cascade::testing
+}  // namespace cascade::test
 
 int main(int argc, char** argv) {
     CHECK(argc == 3, "test: tab_states kept|exact FILE");
     const bool is_exact = std::string(argv[1]) == "exact";
     if (!is_exact) cascade::keep_denormals();
-    cascade::testing::write_states(argv[2], is_exact);
+    cascade::test::write_states(argv[2], is_exact);
 }

@@ -1,0 +1,103 @@
+# How files are compiled: several at a time, most of them with little optimisation, after a precompiled header.
+# Of the text that a file compiles, 2 % is its own and 98 % is headers (docs/building.md). A unit is a number of files of
+# one target that are compiled as one, so that their headers are read, and their templates compiled, once. It is as large as a
+# compiler process of less than 1 GiB allows. Names in anonymous namespaces must therefore differ within a room.
+#
+# CASCADE_UNITS=OFF compiles each file by itself, without the precompiled header: so builds the preset `strict`, which
+# finds missing includes.
+
+# Bytes of source text in a unit.
+set(unit_size 160000)
+
+# The precompiled header for each level of optimisation, as g++ asks for.
+set(common_headers <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <numbers>
+  <numeric> <optional> <set> <span> <string> <string_view> <unordered_map> <utility> <variant> <vector>
+  <fmt/format.h> <tl/expected.hpp>)
+
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND
+  PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/optimised.txt)
+file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/optimised.txt optimised_table REGEX "^[-a-z]")
+string(REPLACE " " ";" optimised_table "${optimised_table}")
+set(not_optimised ${optimised_table})
+list(FILTER not_optimised INCLUDE REGEX "^-")
+list(TRANSFORM not_optimised REPLACE "^-" "")
+list(FILTER optimised_table EXCLUDE REGEX "^-")
+foreach(name IN LISTS optimised_table not_optimised)
+  if(NOT EXISTS ${PROJECT_SOURCE_DIR}/${name} AND NOT EXISTS ${PROJECT_SOURCE_DIR}/${name}.cpp)
+    message(FATAL_ERROR "cmake/optimised.txt names ${name}, which does not exist")
+  endif()
+endforeach()
+list(JOIN optimised_table "|" optimised_table)
+list(JOIN not_optimised "|" not_optimised)
+
+# The options of code whose loops matter, and of the rest. Compilers vectorise loops with square roots and choices only
+# without errno and floating-point traps, neither of which changes a value.
+set(loop_options $<$<CONFIG:Release>:-O3> -fno-math-errno -fno-trapping-math)
+set(usual_options $<$<CONFIG:Release>:-O1>)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32)
+  set(usual_options)  # clang gains little from less optimisation, and pages run the rest on slower machines.
+endif()
+
+# cascade_headers(NAME OPTIONS…): the target whose precompiled header other targets with these options share.
+function(cascade_headers name)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "// Has the precompiled header compiled.\n")
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE cascade_options)
+  foreach(package fmt::fmt tl::expected)
+    if(TARGET ${package})
+      target_link_libraries(${name} PRIVATE ${package})
+    endif()
+  endforeach()
+  target_compile_options(${name} PRIVATE ${ARGN})
+  target_precompile_headers(${name} PRIVATE ${common_headers})
+endfunction()
+if(CASCADE_UNITS)
+  cascade_headers(cascade_headers ${usual_options})
+  cascade_headers(cascade_loop_headers ${loop_options})
+endif()
+
+# cascade_units(TARGET HEADERS FILES…): compiles the files of a target in units after the precompiled header of the
+# target HEADERS.
+function(cascade_units target headers)
+  if(NOT CASCADE_UNITS)
+    return()
+  endif()
+  set(all 0)
+  foreach(path IN LISTS ARGN)
+    file(SIZE ${path} size)
+    math(EXPR all "${all} + ${size}")
+  endforeach()
+  math(EXPR count "(${all} + ${unit_size} - 1) / ${unit_size}")
+  set(before 0)
+  foreach(path IN LISTS ARGN)
+    file(SIZE ${path} size)
+    math(EXPR unit "${before} * ${count} / ${all}")
+    set_source_files_properties(${path} PROPERTIES UNITY_GROUP ${unit})
+    math(EXPR before "${before} + ${size}")
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_precompile_headers(${target} REUSE_FROM ${headers})
+endfunction()
+
+# cascade_compile(TARGET FILES…): adds files to a library of a room, with the optimisation that cmake/optimised.txt asks for.
+function(cascade_compile target)
+  set(loops ${ARGN})
+  list(FILTER loops INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/(${optimised_table})[/.]")
+  list(FILTER loops EXCLUDE REGEX "^${PROJECT_SOURCE_DIR}/(${not_optimised})[/.]")
+  set(usual ${ARGN})
+  list(REMOVE_ITEM usual ${loops})
+  if(loops)
+    add_library(${target}_loops OBJECT ${loops})
+    target_link_libraries(${target}_loops PRIVATE $<TARGET_PROPERTY:${target},LINK_LIBRARIES>)
+    foreach(property COMPILE_DEFINITIONS INCLUDE_DIRECTORIES)
+      set_property(TARGET ${target}_loops APPEND PROPERTY ${property} $<TARGET_PROPERTY:${target},${property}>)
+    endforeach()
+    target_compile_options(${target}_loops PRIVATE ${loop_options})
+    cascade_units(${target}_loops cascade_loop_headers ${loops})
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_loops>)
+  endif()
+  target_sources(${target} PRIVATE ${usual})
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  target_compile_options(${target} PRIVATE ${usual_options})
+  cascade_units(${target} cascade_headers ${usual})
+endfunction()
