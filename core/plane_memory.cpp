@@ -1,5 +1,6 @@
 // Small planes come from the heap, large ones straight from the system, which clears their pages
-// when a thread first touches them.
+// when a thread first touches them. That takes longer than to fill the plane of a picture, so the
+// memory of one freed plane waits for the next of its size.
 #include "core/enough_memory.h"
 #include "core/plane.h"
 
@@ -59,18 +60,46 @@ void* map_pages(std::size_t bytes) {
     return begin;
 }
 
+/// Pages of a freed plane that wait for the next one. This is in their first bytes.
+struct SparePages {
+    std::size_t bytes;
+};
+std::atomic<SparePages*> spare_pages = nullptr;
+constexpr std::size_t most_spare_bytes = std::size_t{32} << 20;
+
+void unmap_pages(SparePages* pages) {
+    if (pages != nullptr) ::munmap(pages, pages->bytes);
+}
+
+/// The pages that wait, if there are so many; else null, and none wait any more.
+void* take_spare_pages(std::size_t bytes) {
+    SparePages* const pages = spare_pages.exchange(nullptr);
+    if (pages != nullptr && pages->bytes == bytes) return pages;
+    unmap_pages(pages);
+    return nullptr;
+}
+
+void free_pages(void* begin, std::size_t bytes) {
+    auto* pages = new (begin) SparePages{bytes};
+    if (bytes <= most_spare_bytes) pages = spare_pages.exchange(pages);
+    unmap_pages(pages);
+}
+
 }  // namespace
 
 void* allocate_plane(std::size_t bytes) {
     const bool is_large = bytes >= 2 * huge_page;
     const std::size_t shift = next_shift(bytes);
     const std::size_t rounded = round_up(bytes + shift, is_large ? huge_page : cache_line);
-    void* const begin = is_large ? map_pages(rounded) : std::aligned_alloc(cache_line, rounded);
+    void* const spare = is_large ? take_spare_pages(rounded) : nullptr;
+    void* const begin = spare      ? spare
+                        : is_large ? map_pages(rounded)
+                                   : std::aligned_alloc(cache_line, rounded);
     if (begin == nullptr) lack_memory();
     const Block block{begin, is_large ? rounded : 0};
     char* const plane = static_cast<char*>(begin) + shift;
     std::memcpy(plane - sizeof block, &block, sizeof block);
-    if (!is_large) std::memset(plane, 0, bytes);
+    if (spare || !is_large) std::memset(plane, 0, bytes);
     return plane;
 }
 
@@ -78,7 +107,7 @@ void free_plane(void* plane) {
     if (plane == nullptr) return;
     Block block;
     std::memcpy(&block, static_cast<char*>(plane) - sizeof block, sizeof block);
-    if (block.mapped_bytes > 0) ::munmap(block.begin, block.mapped_bytes);
+    if (block.mapped_bytes > 0) free_pages(block.begin, block.mapped_bytes);
     else std::free(block.begin);
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
 
 namespace cascade {
 namespace {
@@ -27,6 +28,25 @@ template <typename Result, typename Number, typename Combine>
     return results;
 }
 
+/// Finds the smallest and the largest of a multiple of `lanes` values, at least one. Compilers make
+/// no vectors of such loops by themselves.
+template <typename Number>
+[[gnu::always_inline]] inline void find_extremes(std::span<const Number> values, Spread& spread) {
+    typedef Number Vector [[gnu::vector_size(lanes * sizeof(Number))]];
+    Vector least, most, next;
+    std::memcpy(&least, values.data(), sizeof least);
+    most = least;
+    for (std::size_t k = lanes; k < values.size(); k += lanes) {
+        std::memcpy(&next, values.data() + k, sizeof next);
+        least = next < least ? next : least;
+        most = next > most ? next : most;
+    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        spread.smallest = std::min(spread.smallest, double{least[lane]});
+        spread.largest = std::max(spread.largest, double{most[lane]});
+    }
+}
+
 /// Of a multiple of `lanes` values, at least one. The mean is not finite if one of them is not.
 template <typename Number>
 [[gnu::always_inline]] inline Spread spread_of_finite(std::span<const Number> values) {
@@ -40,12 +60,7 @@ template <typename Number>
         return sum + (double{value} - mean) * (double{value} - mean);
     });
     for (const double square : squares) spread.squares += square;
-    spread.smallest = std::ranges::min(by_lanes(values, values[0], [](Number least, Number value) {
-        return value < least ? value : least;
-    }));
-    spread.largest = std::ranges::max(by_lanes(values, values[0], [](Number most, Number value) {
-        return value > most ? value : most;
-    }));
+    find_extremes(values, spread);
     return spread;
 }
 

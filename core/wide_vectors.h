@@ -1,6 +1,8 @@
 // Functions that use the widest vectors of the processor they run on.
 #pragma once
 
+#include <cstddef>  // Defines __GLIBC__ where that is the library.
+
 /// Compiles a function several times and chooses by the processor when the program starts. Only for
 /// functions whose results do not depend on the width of vectors.
 // The thread sanitizer instruments the choice, which is made before it has started.

@@ -91,11 +91,12 @@ private:
 
     static std::string compressed(const FilmFrame& frame, const FramePart& part) {
         const std::size_t count = static_cast<std::size_t>(part.width) * FilmFrame::pixel_bytes;
-        const std::vector<std::uint8_t> rows =
-            filtered_rows(part.height, count, FilmFrame::pixel_bytes,
-                          [&](std::int64_t y, std::uint8_t* out) {
-                              std::memcpy(out, frame.row(part.y + y, part.x), count);
-                          });
+        std::vector<std::uint8_t> rows((1 + count) * static_cast<std::size_t>(part.height));
+        for (std::int64_t y = 0; y < part.height; ++y) {
+            std::memcpy(&rows[(1 + count) * static_cast<std::size_t>(y) + 1],
+                        frame.row(part.y + y, part.x), count);
+        }
+        filter_rows(rows, count, FilmFrame::pixel_bytes);
         return deflated({reinterpret_cast<const char*>(rows.data()), rows.size()}, apng_effort);
     }
 

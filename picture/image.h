@@ -82,10 +82,21 @@ double position_in(ValueRange range, float value);
 
 /// Draws a field by a palette. A range of no width gives the palette's middle; a range with swapped
 /// ends reverses the palette. Values beyond an end of the range get its colour, NaN magenta.
-Image paint(const Field& field, ValueRange range, const Palette& palette);
+/// The image may be made in the memory of an earlier one.
+Image paint(const Field& field, ValueRange range, const Palette& palette, Image earlier = {});
 
 /// Three fields of one layout as red, green and blue, clamped to 0 … 1; magenta if one is NaN.
-Image paint(const Field& red, const Field& green, const Field& blue);
+Image paint(const Field& red, const Field& green, const Field& blue, Image earlier = {});
+
+/// What paint() is to draw, not yet drawn.
+struct Painting {
+    const Field& field;
+    ValueRange range;
+    const Palette& palette;
+
+    /// True if the palette goes from a grey to another, both from 0 to 1, and the range is finite.
+    bool has_two_greys() const;
+};
 
 /// Makes every pixel transparent whose cell of `field`, of the same columns and rows, is NaN: such
 /// cells are outside of the domain.
@@ -116,6 +127,12 @@ enum class PngEffort { small, fast };
 /// A PNG file in memory, as write_png writes it. Fails if a side is 0 or above 2^31 − 1, if texts
 /// are too long or contain a NUL, or if memory is short.
 Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts,
+                               PngMeaning meaning = PngMeaning::colours,
+                               PngEffort effort = PngEffort::small);
+
+/// The same file as that of what paint() draws. Of two greys it is made without an image, in half
+/// of the time.
+Result<std::string> encode_png(const Painting& painting, PngDepth depth, const PngTexts& texts,
                                PngMeaning meaning = PngMeaning::colours,
                                PngEffort effort = PngEffort::small);
 

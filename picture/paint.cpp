@@ -1,11 +1,17 @@
 // Drawing of fields as images: ranges, palettes, enlargement.
 #include "core/check.h"
+#include "core/wide_vectors.h"
 #include "picture/image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace cascade {
 /// Computed in double, so that no range overflows.
@@ -16,6 +22,106 @@ double position_in(ValueRange range, float value) {
     if (width == 0) return 0.5;
     return (static_cast<double>(value) - low) / width;
 }
+
+namespace {
+
+constexpr std::size_t painted_at_once = 256;
+
+/// Places in a palette: the segment between two stops, and which part of it.
+struct PalettePlaces {
+    std::array<std::int32_t, painted_at_once> segment;
+    std::array<double, painted_at_once> part;
+};
+
+/// The places of at most `painted_at_once` values in a palette of `last` segments; `last` for NaN.
+WITH_WIDE_VECTORS void find_palette_places(std::span<const float> values, ValueRange range,
+                                           std::int32_t last, PalettePlaces& places) {
+    const double low = static_cast<double>(range.low);
+    const double width = static_cast<double>(range.high) - low;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const double value = static_cast<double>(values[k]);
+        const double position = width == 0 ? 0.5 : (value - low) / width;  // As position_in().
+        const bool is_nan = value != value || position != position;
+        const double above = position > 0 ? position : 0.0;
+        const double place = (above < 1 ? above : 1.0) * static_cast<double>(last);
+        const auto whole = static_cast<std::int32_t>(place);
+        const std::int32_t left = whole < last ? whole : last - 1;
+        places.segment[k] = is_nan ? last : left;
+        places.part[k] = place - static_cast<double>(left);
+    }
+}
+
+/// The colours of a palette from one stop to the next.
+struct PaletteSegment {
+    std::array<double, 3> from{}, rise{};
+
+    Colour at(double part) const {
+        const auto channel = [&](std::size_t c) {
+            return static_cast<float>(from[c] + rise[c] * part);
+        };
+        return {channel(0), channel(1), channel(2)};
+    }
+};
+
+/// Colours in one segment.
+WITH_WIDE_VECTORS void paint_segment(const PaletteSegment& segment, std::span<const double> parts,
+                                     Colour* pixels) {
+    const PaletteSegment here = segment;
+    for (std::size_t k = 0; k < parts.size(); ++k) pixels[k] = here.at(parts[k]);
+}
+
+/// Paints many values as colour_at() and position_in() paint one.
+class PalettePainter {
+public:
+    PalettePainter(ValueRange range, const Palette& palette)
+        : range_(range), segments_(palette.stops.size()) {
+        for (std::size_t channel = 0; channel < colour_of_nan.size(); ++channel) {
+            for (std::size_t left = 0; left + 1 < segments_.size(); ++left) {
+                const double from = static_cast<double>(palette.stops[left][channel]);
+                const double to = static_cast<double>(palette.stops[left + 1][channel]);
+                segments_[left].from[channel] = from;
+                segments_[left].rise[channel] = to - from;
+            }
+            segments_.back().from[channel] = static_cast<double>(colour_of_nan[channel]);
+        }
+    }
+
+    void paint(std::span<const float> values, Colour* pixels) const {
+        const auto last = static_cast<std::int32_t>(segments_.size() - 1);
+        PalettePlaces places;
+        while (!values.empty()) {
+            const std::size_t count = std::min(values.size(), painted_at_once);
+            find_palette_places(values.first(count), range_, last, places);
+            std::int32_t others = 0;
+            for (std::size_t k = 0; k < count; ++k) others |= places.segment[k];
+            if (others == 0) {
+                paint_segment(segments_[0], std::span(places.part).first(count), pixels);
+            } else {
+                for (std::size_t k = 0; k < count; ++k) {
+                    const auto number = static_cast<std::size_t>(places.segment[k]);
+                    pixels[k] = segments_[number].at(places.part[k]);
+                }
+            }
+            values = values.subspan(count);
+            pixels += count;
+        }
+    }
+
+private:
+    ValueRange range_;
+    std::vector<PaletteSegment> segments_;  ///< The last one is NaN's.
+};
+
+/// An image of a plane whose pixels are as they were.
+Image unpainted(const PlaneLayout& layout, Image image) {
+    image.width = layout.width;
+    image.height = layout.height;
+    image.pixels.resize(static_cast<std::size_t>(image.width * image.height));
+    image.alpha.clear();
+    return image;
+}
+
+}  // namespace
 
 Spread spread_of(const Field& field) {
     const PlaneLayout& layout = field.layout();
@@ -35,33 +141,27 @@ ValueRange automatic_range(const Spread& values) {
     return {static_cast<float>(values.smallest), static_cast<float>(values.largest)};
 }
 
-Image paint(const Field& field, ValueRange range, const Palette& palette) {
+Image paint(const Field& field, ValueRange range, const Palette& palette, Image earlier) {
     const PlaneLayout& layout = field.layout();
-    Image image(layout.width, layout.height);
+    Image image = unpainted(layout, std::move(earlier));
+    const PalettePainter painter(range, palette);
     for (std::int64_t j = 0; j < layout.height; ++j) {
-        const float* row = field.row(j);
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            image.at(i, j) = colour_at(palette, position_in(range, row[i]));
-        }
+        painter.paint({field.row(j), static_cast<std::size_t>(layout.width)}, &image.at(0, j));
     }
     return image;
 }
 
-Image paint(const Field& red, const Field& green, const Field& blue) {
+Image paint(const Field& red, const Field& green, const Field& blue, Image earlier) {
     const PlaneLayout& layout = red.layout();
     CHECK(layout == green.layout() && layout == blue.layout(),
           "the three channels of a picture have one layout");
-    Image image(layout.width, layout.height);
+    Image image = unpainted(layout, std::move(earlier));
     for (std::int64_t j = 0; j < layout.height; ++j) {
+        const float *r = red.row(j), *g = green.row(j), *b = blue.row(j);
         for (std::int64_t i = 0; i < layout.width; ++i) {
-            const Colour values{red.at(i, j), green.at(i, j), blue.at(i, j)};
-            Colour& pixel = image.at(i, j);
-            if (std::any_of(values.begin(), values.end(), [](float v) { return std::isnan(v); })) {
-                pixel = colour_of_nan;
-                continue;
-            }
-            std::transform(values.begin(), values.end(), pixel.begin(),
-                           [](float value) { return std::clamp(value, 0.0F, 1.0F); });
+            const bool is_nan = std::isnan(r[i]) || std::isnan(g[i]) || std::isnan(b[i]);
+            const auto shown = [](float value) { return std::clamp(value, 0.0F, 1.0F); };
+            image.at(i, j) = is_nan ? colour_of_nan : Colour{shown(r[i]), shown(g[i]), shown(b[i])};
         }
     }
     return image;
@@ -71,8 +171,9 @@ void clear_where_nan(Image& image, const Field& field) {
     CHECK(image.width == field.layout().width && image.height == field.layout().height,
           "a picture and its field have the same cells");
     for (std::int64_t j = 0; j < image.height; ++j) {
+        const float* const row = field.row(j);
         for (std::int64_t i = 0; i < image.width; ++i) {
-            if (std::isnan(field.at(i, j))) image.at(i, j) = transparent;
+            if (std::isnan(row[i])) image.at(i, j) = transparent;
         }
     }
 }

@@ -3,11 +3,12 @@
 // so that compilers vectorise them.
 #include "picture/png_rows.h"
 
+#include "core/wide_vectors.h"
 #include "picture/srgb.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -16,56 +17,207 @@ namespace {
 
 using Byte = std::uint8_t;
 
-bool is_grey(const Colour& pixel, unsigned highest) {
-    if (pixel[0] == pixel[1] && pixel[0] == pixel[2]) return true;
-    const unsigned red = level_of(pixel[0], highest);
-    return red == level_of(pixel[1], highest) && red == level_of(pixel[2], highest);
-}
-
 unsigned highest_level(PngDepth depth) { return (1U << static_cast<unsigned>(depth)) - 1; }
 
-/// Writes the first `colours` channels of each pixel, and alpha if there is one, as levels. `alpha`
-/// is of the first pixel, or null. The format is a matter of compilation, since this is done for
-/// every pixel.
-template <PngDepth depth, std::size_t colours, bool has_alpha>
-void put_samples(std::span<const Colour> pixels, const float* alpha, Byte* out) {
-    const auto put = [&out](float value) {
-        const unsigned level = level_of(value, highest_level(depth));
-        if constexpr (depth == PngDepth::sixteen) *out++ = static_cast<Byte>(level >> 8);
-        *out++ = static_cast<Byte>(level & 0xffU);
+bool are_grey(std::span<const Colour> pixels, unsigned highest) {
+    return std::all_of(pixels.begin(), pixels.end(), [highest](const Colour& pixel) {
+        if (pixel[0] == pixel[1] && pixel[0] == pixel[2]) return true;
+        const unsigned red = level_of(pixel[0], highest);
+        return red == level_of(pixel[1], highest) && red == level_of(pixel[2], highest);
+    });
+}
+
+/// True if one of the pixels is transparent.
+WITH_WIDE_VECTORS bool show_background(std::span<const Colour> pixels) {
+    int is_one = 0;
+    for (const Colour& pixel : pixels) is_one |= static_cast<int>(is_transparent(pixel));
+    return is_one != 0;
+}
+
+/// The levels of all channels of the pixels, or of the first one of each.
+WITH_WIDE_VECTORS void find_levels(std::span<const Colour> pixels, std::size_t channels,
+                                   unsigned highest, std::uint16_t* levels) {
+    const auto level = [highest](float value) {
+        return static_cast<std::uint16_t>(level_of(value, highest));
     };
-    for (const Colour& pixel : pixels) {
-        // Transparent pixels are white, for programs that ignore alpha.
-        const bool is_seen = !has_alpha || !is_transparent(pixel);
-        for (std::size_t c = 0; c < colours; ++c) put(is_seen ? pixel[c] : 1);
-        if constexpr (has_alpha) {
-            put(!is_seen ? 0 : alpha != nullptr ? *alpha : 1);
-            if (alpha != nullptr) ++alpha;
+    if (channels == 1) {
+        for (std::size_t k = 0; k < pixels.size(); ++k) levels[k] = level(pixels[k][0]);
+        return;
+    }
+    const float* const values = pixels.data()->data();
+    for (std::size_t k = 0; k < 3 * pixels.size(); ++k) levels[k] = level(values[k]);
+}
+
+/// The levels of pixels whose channels are the same numbers. Returns false if one's are not.
+WITH_WIDE_VECTORS bool find_grey_levels(std::span<const Colour> pixels, unsigned highest,
+                                        std::uint16_t* levels) {
+    int differ = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const auto& [red, green, blue] = pixels[k];
+        levels[k] = static_cast<std::uint16_t>(level_of(red, highest));
+        differ |= (red != green) | (red != blue);
+    }
+    return differ == 0;
+}
+
+/// The levels of values in two greys, as paint() draws them. Returns false if one is not a number.
+WITH_WIDE_VECTORS bool find_painted_levels(std::span<const float> values, const Painting& how,
+                                           unsigned highest, std::uint16_t* levels) {
+    const double low = static_cast<double>(how.range.low);
+    const double width = static_cast<double>(how.range.high) - low;
+    const double from = static_cast<double>(how.palette.stops[0][0]);
+    const double rise = static_cast<double>(how.palette.stops[1][0]) - from;
+    // It is 1, but compilers make no vectors if they know that.
+    const double last = static_cast<double>(how.palette.stops.size() - 1);
+    int is_one_nan = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const double value = static_cast<double>(values[k]);
+        const double position = width == 0 ? 0.5 : (value - low) / width;
+        is_one_nan |= static_cast<int>(std::isnan(values[k]));
+        const double above = position > 0 ? position : 0.0;
+        const double part = above < last ? above : last;
+        const float grey = static_cast<float>(from + rise * part);
+        levels[k] = static_cast<std::uint16_t>(static_cast<int>(double{grey} * highest + 0.5));
+    }
+    return is_one_nan == 0;
+}
+
+/// A row of pixels; `alpha` is of the first one, or null.
+struct PixelRow {
+    std::span<const Colour> pixels;
+    const float* alpha;
+};
+
+PixelRow pixel_row(const Image& image, std::int64_t y) {
+    const auto width = static_cast<std::size_t>(image.width);
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    return {{&image.pixels[first], width}, image.alpha.empty() ? nullptr : &image.alpha[first]};
+}
+
+/// Writes the samples of rows in one format.
+class SampleWriter {
+public:
+    SampleWriter(const PngFormat& format, std::size_t width)
+        : format_(format), levels_(width * format.colours()) {}
+
+    /// Checks and puts pixels of the most usual format, grey alone. Returns false if theirs is
+    /// another one.
+    bool put_grey(const PixelRow& row, Byte* out) {
+        if (!format_.is_grey || format_.has_alpha) return false;
+        if (!find_grey_levels(row.pixels, highest_, levels_.data())) return false;
+        put_levels(out);
+        return true;
+    }
+
+    void put(const PixelRow& row, Byte* out) {
+        find_levels(row.pixels, format_.colours(), highest_, levels_.data());
+        if (format_.has_alpha) {
+            put_with_alpha(row, out);
+        } else {
+            put_levels(out);
         }
     }
-}
 
-template <PngDepth depth>
-auto sample_writer(const PngFormat& format) {
-    if (format.is_grey) {
-        return format.has_alpha ? put_samples<depth, 1, true> : put_samples<depth, 1, false>;
+    /// The same for values in two greys. Returns false if one is not a number.
+    bool put_painted(std::span<const float> values, const Painting& how, Byte* out) {
+        if (!find_painted_levels(values, how, highest_, levels_.data())) return false;
+        put_levels(out);
+        return true;
     }
-    return format.has_alpha ? put_samples<depth, 3, true> : put_samples<depth, 3, false>;
+
+private:
+    void put_levels(Byte* out) const {
+        if (format_.depth == PngDepth::eight) {
+            for (const std::uint16_t level : levels_) *out++ = static_cast<Byte>(level);
+        } else {
+            for (const std::uint16_t level : levels_) {
+                *out++ = static_cast<Byte>(level >> 8);
+                *out++ = static_cast<Byte>(level & 0xffU);
+            }
+        }
+    }
+
+    /// Transparent pixels are white, for programs that ignore alpha.
+    void put_with_alpha(const PixelRow& row, Byte* out) const {
+        const auto put = [&](unsigned level) {
+            if (format_.depth == PngDepth::sixteen) *out++ = static_cast<Byte>(level >> 8);
+            *out++ = static_cast<Byte>(level & 0xffU);
+        };
+        const std::uint16_t* level = levels_.data();
+        for (std::size_t k = 0; k < row.pixels.size(); ++k) {
+            const bool is_seen = !is_transparent(row.pixels[k]);
+            for (std::size_t c = 0; c < format_.colours(); ++c, ++level) {
+                put(is_seen ? *level : highest_);
+            }
+            const unsigned opaque = row.alpha ? level_of(row.alpha[k], highest_) : highest_;
+            put(is_seen ? opaque : 0);
+        }
+    }
+
+    PngFormat format_;
+    unsigned highest_ = highest_level(format_.depth);
+    std::vector<std::uint16_t> levels_;  ///< Of the colours of a row.
+};
+
+/// The bytes of a row, with the number of its filter.
+std::size_t bytes_of_row(const PngFormat& format, std::int64_t width) {
+    return 1 + static_cast<std::size_t>(width) * format.pixel_bytes();
 }
 
-/// The prediction of filter 4 from the bytes to the left, above, and above to the left.
-Byte paeth(int left, int above, int corner) {
-    const int by_left = std::abs(above - corner), by_above = std::abs(left - corner);
-    const int by_corner = std::abs(left + above - 2 * corner);
-    const int upper = by_above <= by_corner ? above : corner;
-    return static_cast<Byte>(by_left <= by_above && by_left <= by_corner ? left : upper);
+/// Writes all rows in a format, which takes part in `rows`. Returns false if a row needs channels
+/// that the format lacks; then the format has them.
+bool put_rows(const Image& image, PngRows& rows) {
+    const PngFormat format = rows.format;
+    const std::size_t count = bytes_of_row(format, image.width);
+    rows.bytes.assign(count * static_cast<std::size_t>(image.height), 0);
+    SampleWriter writer(format, static_cast<std::size_t>(image.width));
+    Byte* out = rows.bytes.data();
+    for (std::int64_t y = 0; y < image.height; ++y, out += count) {
+        const PixelRow row = pixel_row(image, y);
+        if (writer.put_grey(row, out + 1)) continue;
+        rows.format.is_grey = format.is_grey && are_grey(row.pixels, highest_level(format.depth));
+        rows.format.has_alpha = format.has_alpha || show_background(row.pixels);
+        if (rows.format != format) return false;
+        writer.put(row, out + 1);
+    }
+    return true;
+}
+
+/// Writes all rows in a format without colour and alpha. Returns false if they need another one.
+bool put_painted_rows(const Painting& painting, PngRows& rows) {
+    if (!painting.has_two_greys()) return false;
+    const PlaneLayout& layout = painting.field.layout();
+    const auto width = static_cast<std::size_t>(layout.width);
+    const std::size_t count = bytes_of_row(rows.format, layout.width);
+    rows.bytes.assign(count * static_cast<std::size_t>(layout.height), 0);
+    SampleWriter writer(rows.format, width);
+    Byte* out = rows.bytes.data();
+    for (std::int64_t y = 0; y < layout.height; ++y, out += count) {
+        if (!writer.put_painted({painting.field.row(y), width}, painting, out + 1)) return false;
+    }
+    return true;
+}
+
+Byte byte_distance(Byte one, Byte other) {
+    return static_cast<Byte>(std::max(one, other) - std::min(one, other));
+}
+
+/// The prediction of filter 4: that of the bytes to the left, above, and above to the left which is
+/// nearest to left + above − corner. All is done in bytes, of which a vector holds the most.
+Byte paeth(Byte left, Byte above, Byte corner) {
+    const Byte by_left = byte_distance(above, corner), by_above = byte_distance(left, corner);
+    // Where the corner is not between the others, it is the farthest.
+    const bool is_between = (above >= corner) != (left >= corner);
+    const Byte by_corner = is_between ? byte_distance(by_left, by_above) : Byte{255};
+    const Byte upper = by_above <= by_corner ? above : corner;
+    return by_left <= by_above && by_left <= by_corner ? left : upper;
 }
 
 constexpr std::size_t filters = 5;
 
 /// A row after each of the five filters. `row` and `above` are preceded by a pixel of zeros.
-void filter(const Byte* row, const Byte* above, std::size_t count, std::size_t pixel,
-            std::array<std::vector<Byte>, filters>& results) {
+WITH_WIDE_VECTORS void filter(const Byte* row, const Byte* above, std::size_t count,
+                              std::size_t pixel, std::array<std::vector<Byte>, filters>& results) {
     const Byte* left = row - pixel;
     const Byte* corner = above - pixel;
     const auto subtract = [&](std::size_t number, const auto& prediction) {
@@ -82,56 +234,70 @@ void filter(const Byte* row, const Byte* above, std::size_t count, std::size_t p
 }
 
 /// The sum of the absolute values of differences, which are bytes modulo 256.
-std::uint32_t size_of(const std::vector<Byte>& differences) {
+WITH_WIDE_VECTORS std::uint32_t size_of(const std::vector<Byte>& differences) {
+    constexpr std::size_t at_once = 256;  // The sum of so many fits into 16 bits.
     std::uint32_t sum = 0;
-    for (const Byte difference : differences) {
-        sum += static_cast<unsigned>(std::abs(static_cast<std::int8_t>(difference)));
+    for (std::size_t begin = 0; begin < differences.size(); begin += at_once) {
+        const std::size_t end = std::min(differences.size(), begin + at_once);
+        std::uint16_t part = 0;
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto negative = static_cast<Byte>(-differences[k]);
+            part = static_cast<std::uint16_t>(part + std::min(differences[k], negative));
+        }
+        sum += part;
     }
     return sum;
 }
 
 }  // namespace
 
-PngFormat png_format(const Image& image, PngDepth depth) {
-    const unsigned highest = highest_level(depth);
-    const auto& pixels = image.pixels;
-    const auto grey = [highest](const Colour& pixel) { return is_grey(pixel, highest); };
-    return {depth, std::all_of(pixels.begin(), pixels.end(), grey),
-            !image.alpha.empty() || std::any_of(pixels.begin(), pixels.end(), is_transparent)};
+bool Painting::has_two_greys() const {
+    const auto is_grey = [](const Colour& stop) {
+        return stop[0] == stop[1] && stop[0] == stop[2] && stop[0] >= 0 && stop[0] <= 1;
+    };
+    return palette.stops.size() == 2 && std::ranges::all_of(palette.stops, is_grey) &&
+           std::isfinite(range.low) && std::isfinite(range.high);
 }
 
-std::vector<std::uint8_t> filtered_rows(std::int64_t height, std::size_t count, std::size_t pixel,
-                                        const PutRow& put) {
+void filter_rows(std::span<std::uint8_t> rows, std::size_t count, std::size_t pixel) {
     std::vector<Byte> row(pixel + count), above(pixel + count);
     std::array<std::vector<Byte>, filters> results;
     results.fill(std::vector<Byte>(count));
-    std::vector<Byte> rows;
-    rows.reserve((1 + count) * static_cast<std::size_t>(height));
-    for (std::int64_t y = 0; y < height; ++y) {
-        put(y, row.data() + pixel);
+    // From below, so that the row above is as it was.
+    const auto take = [&](std::size_t end, std::vector<Byte>& to) {
+        if (end == 0) std::fill(to.begin(), to.end(), Byte{0});
+        else std::copy_n(rows.begin() + (end - count), count, to.begin() + pixel);
+    };
+    take(rows.size(), row);
+    for (std::size_t end = rows.size(); end > 0; end -= 1 + count) {
+        take(end - (1 + count), above);
         filter(row.data() + pixel, above.data() + pixel, count, pixel, results);
         std::array<std::uint32_t, filters> sizes{};
         std::transform(results.begin(), results.end(), sizes.begin(), size_of);
         const auto best = std::min_element(sizes.begin(), sizes.end()) - sizes.begin();
-        const std::vector<Byte>& result = results[static_cast<std::size_t>(best)];
-        rows.push_back(static_cast<Byte>(best));
-        rows.insert(rows.end(), result.begin(), result.end());
+        Byte* const out = rows.data() + (end - (1 + count));
+        *out = static_cast<Byte>(best);
+        std::ranges::copy(results[static_cast<std::size_t>(best)], out + 1);
         std::swap(row, above);
     }
+}
+
+PngRows png_rows(const Image& image, PngDepth depth) {
+    PngRows rows{{depth, true, !image.alpha.empty()}, {}};
+    while (!put_rows(image, rows)) {
+    }
+    filter_rows(rows.bytes, bytes_of_row(rows.format, image.width) - 1, rows.format.pixel_bytes());
     return rows;
 }
 
-std::vector<std::uint8_t> png_rows(const Image& image, const PngFormat& format) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const auto put = format.depth == PngDepth::eight ? sample_writer<PngDepth::eight>(format)
-                                                     : sample_writer<PngDepth::sixteen>(format);
-    const auto alpha_of = [&](std::int64_t y) {
-        return image.alpha.empty() ? nullptr : &image.alpha[static_cast<std::size_t>(y) * width];
-    };
-    return filtered_rows(image.height, width * format.pixel_bytes(), format.pixel_bytes(),
-                         [&](std::int64_t y, Byte* out) {
-                             put({&image.at(0, y), width}, alpha_of(y), out);
-                         });
+PngRows png_rows(const Painting& painting, PngDepth depth) {
+    PngRows rows{{depth, true, false}, {}};
+    if (!put_painted_rows(painting, rows)) {
+        return png_rows(paint(painting.field, painting.range, painting.palette), depth);
+    }
+    const std::int64_t width = painting.field.layout().width;
+    filter_rows(rows.bytes, bytes_of_row(rows.format, width) - 1, rows.format.pixel_bytes());
+    return rows;
 }
 
 }  // namespace cascade

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -20,21 +20,23 @@ struct PngFormat {
     std::size_t sample_bytes() const { return static_cast<std::size_t>(depth) / 8; }
     std::size_t colours() const { return is_grey ? 1 : 3; }
     std::size_t pixel_bytes() const { return sample_bytes() * (colours() + (has_alpha ? 1 : 0)); }
+    bool operator==(const PngFormat&) const = default;
 };
 
-/// The format with the fewest channels that holds all pixels.
-PngFormat png_format(const Image& image, PngDepth depth);
+/// Filters rows in place. Each is a byte, which becomes the number of its filter, before `count`
+/// bytes; a pixel has `pixel` bytes. Throws std::bad_alloc.
+void filter_rows(std::span<std::uint8_t> rows, std::size_t count, std::size_t pixel);
 
-/// Writes the samples of row `y` of a picture to `out`.
-using PutRow = std::function<void(std::int64_t y, std::uint8_t* out)>;
+/// Filtered rows, in the format with the fewest channels that holds all pixels.
+struct PngRows {
+    PngFormat format;
+    std::vector<std::uint8_t> bytes;
+};
 
-/// `height` rows of `count` bytes, each as the number of its filter and its filtered bytes. A pixel
-/// has `pixel` bytes. Throws std::bad_alloc.
-std::vector<std::uint8_t> filtered_rows(std::int64_t height, std::size_t count, std::size_t pixel,
-                                        const PutRow& put);
+/// All rows of an image. Throws std::bad_alloc.
+PngRows png_rows(const Image& image, PngDepth depth);
 
-/// All rows of an image, each as the number of its filter and its filtered bytes. Throws
-/// std::bad_alloc.
-std::vector<std::uint8_t> png_rows(const Image& image, const PngFormat& format);
+/// The same of what paint() draws.
+PngRows png_rows(const Painting& painting, PngDepth depth);
 
 }  // namespace cascade

@@ -27,8 +27,10 @@ inline Colour stored_of(const Colour& light) {
 
 /// The nearest of the levels 0 … `highest` of a file to a value, clamped to 0 … 1; NaN becomes 0.
 inline unsigned level_of(float value, unsigned highest) {
-    const double amount = value > 0 ? std::min(static_cast<double>(value), 1.0) : 0.0;
-    return static_cast<unsigned>(amount * highest + 0.5);
+    // So written that compilers make vectors of it.
+    const double most = highest, amount = static_cast<double>(value) * most;
+    const double above = amount > 0 ? amount : 0.0;
+    return static_cast<unsigned>(static_cast<int>((above < most ? above : most) + 0.5));
 }
 
 /// base ^ exponent, computed in binary64: the library's binary32 functions differ in the last bit

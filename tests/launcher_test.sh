@@ -69,11 +69,33 @@ ln -sf tree/cascade by_link
 # In a terminal one sees how far it is.
 if command -v script >/dev/null; then
     touch tree/core/a.cpp
-    sed -i 's|^    sleep 0.3|    echo "[1/20] one"; sleep 0.7; echo "[17/20] two"; sleep 0.8|' bin/cmake
+    sed -i 's|^    sleep 0.3|    echo "[1/20] one"; sleep 0.7; echo "[17/20] two"; sleep 2|' bin/cmake
     script -qec "tree/cascade" /dev/null >out </dev/null
     grep -q '17 of 20 steps, about a minute left' out || fail "no progress in a terminal: $(cat out)"
     sed -i 's|^    echo "\[1/20.*|    sleep 0.3|' bin/cmake
 fi
+
+# In a pipe one sees it from time to time, and nothing holds the pipe open afterwards.
+touch tree/core/a.cpp
+sed -i 's|^    sleep 0.3|    echo "[5/20] one"; sleep 2.3|' bin/cmake
+begin=$SECONDS
+CASCADE_PROGRESS_SECONDS=1 launch
+grep -q '^cascade: 5 of 20 steps, about a minute left$' err || fail "no progress in a pipe: $(cat err)"
+[ $((SECONDS - begin)) -lt 20 ] || fail "the launcher waited for the end of what shows the progress"
+sed -i 's|^    echo "\[5/20.*|    sleep 0.3|' bin/cmake
+
+# A compiler takes up to 1 GiB.
+root=$PWD/tree
+compilers_with() { (. tree/cmake/setup.sh; awk() { echo "$memory"; }; nproc() { echo 8; }; memory=$1; compilers); }
+[ "$(compilers_with 0) $(compilers_with 3) $(compilers_with 20)" = '1 3 8' ] || fail "compilers do not fit into memory"
+
+# What is known of the cause of a failure is said.
+touch break_build tree/core/a.cpp
+sed -i 's|some error|fatal error: No space left on device|' bin/cmake
+launch && fail "a failed build is no success"
+grep -q 'the disk is full' err || fail "a full disk is not named: $(cat err)"
+sed -i 's|fatal error: No space left on device|some error|' bin/cmake
+rm break_build
 
 touch tree/core/a.cpp
 launch

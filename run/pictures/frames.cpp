@@ -30,6 +30,14 @@ std::size_t plane_size(const PlaneLayout& layout) {
 const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
 
+/// The last of the planes, if it has this layout, else a new one.
+Field reused_plane(const PlaneLayout& layout, std::vector<Field>& planes) {
+    if (planes.empty()) return Field(layout);
+    Field plane = std::move(planes.back());
+    planes.pop_back();
+    return plane.layout() == layout ? std::move(plane) : Field(layout);
+}
+
 }  // namespace
 
 Result<FrameRecorder> FrameRecorder::create(bool keep_values, bool space_time) {
@@ -119,7 +127,7 @@ bool FrameRecorder::keep_body(const SurfaceMesh& body, Frame& frame) {
     return keep_items(body.points) && keep_items(body.triangles) && keep_items(body.across);
 }
 
-Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
+Result<Canvas> FrameRecorder::read_back(const Frame& frame, std::vector<Field> planes) {
     Canvas canvas;
     canvas.cells = frame.cells;
     if (::fseeko(file_.get(), frame.place, SEEK_SET) != 0) {
@@ -127,7 +135,7 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame) {
     }
     bool is_read = true;
     const auto next = [&] {
-        Field field(frame.layout);
+        Field field = reused_plane(frame.layout, planes);
         const std::size_t count = plane_size(frame.layout);
         is_read = is_read && std::fread(storage(field), sizeof(float), count, file_.get()) == count;
         return field;
@@ -172,29 +180,27 @@ int FrameRecorder::threads_for(const Painter& painter, int threads) const {
     return static_cast<int>(std::clamp<std::uint64_t>(fitting, 1, most));
 }
 
-Result<void> FrameRecorder::draw(Painter& painter, std::span<const std::size_t> numbers,
-                                 int threads, const std::atomic<bool>& cancel,
-                                 const UseImage& use) {
-    const ValueRange range = this->range();
+Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, int threads,
+                                         const std::atomic<bool>& cancel, const UseCanvas& use) {
     std::mutex mutex;  // Of the following, and of the file.
     std::condition_variable is_done;
     std::size_t begun = 0, done = 0;
     std::optional<Failure> failed;
     const auto work = [&](int) {
         std::unique_lock lock(mutex);
+        std::vector<Field> planes;  // These keep their memory from frame to frame.
+        Image image;
         while (!failed && !cancel && begun < numbers.size()) {
             const std::size_t turn = begun++;
             const std::size_t number = numbers[turn];
-            Result<Canvas> canvas = enough_memory_for([&] { return read_back(frames_[number]); });
+            Result<Canvas> canvas =
+                enough_memory_for([&] { return read_back(frames_[number], std::move(planes)); });
             lock.unlock();
             Result<InOrder> finish = enough_memory_for([&]() -> Result<InOrder> {
                 if (!canvas) return tl::unexpected(canvas.error());
-                Image image = painter.image(*canvas, range);
-                const std::string& label = frames_[number].label;
-                if (!label.empty() && has_room_for_caption(image.width, image.height)) {
-                    draw_caption(image, label);
-                }
-                return use(number, image);
+                auto used = use(number, *canvas, image);
+                planes = std::move(canvas->fields);
+                return used;
             });
             lock.lock();
             is_done.wait(lock, [&] { return failed || done == turn; });
@@ -208,9 +214,28 @@ Result<void> FrameRecorder::draw(Painter& painter, std::span<const std::size_t> 
             is_done.notify_all();
         }
     };
-    Team(threads_for(painter, threads)).run(work);
+    Team(threads).run(work);
     if (failed) return tl::unexpected(*failed);
     return {};
+}
+
+void FrameRecorder::draw_one(Painter& painter, std::size_t number, const Canvas& canvas,
+                             Image& image) const {
+    image = painter.image(canvas, range(), std::move(image));
+    const std::string& label = frames_[number].label;
+    if (!label.empty() && has_room_for_caption(image.width, image.height)) {
+        draw_caption(image, label);
+    }
+}
+
+Result<void> FrameRecorder::draw(Painter& painter, std::span<const std::size_t> numbers,
+                                 int threads, const std::atomic<bool>& cancel,
+                                 const UseImage& use) {
+    return use_canvases(numbers, threads_for(painter, threads), cancel,
+                        [&](std::size_t number, const Canvas& canvas, Image& image) {
+                            draw_one(painter, number, canvas, image);
+                            return use(number, image);
+                        });
 }
 
 Result<std::vector<std::filesystem::path>> FrameRecorder::write(const std::filesystem::path& folder,
@@ -220,18 +245,29 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const std::files
     std::vector<std::size_t> all(frames_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     std::vector<std::filesystem::path> written;
-    const auto use = [&](std::size_t number, const Image& image) -> Result<InOrder> {
+    const auto encoded = [&](const auto& picture) {
+        return encode_png(picture, painter.request().png_depth(), texts, PngMeaning::colours,
+                          PngEffort::fast);
+    };
+    const auto encode = [&](std::size_t number, const Canvas& canvas, Image& image) {
+        const auto painting = painter.painting(canvas, range());
+        const bool is_grey = painting && painting->has_two_greys();
+        if (is_grey && frames_[number].label.empty()) return encoded(*painting);
+        draw_one(painter, number, canvas, image);
+        return encoded(image);
+    };
+    const auto use = [&](std::size_t number, const Canvas& canvas,
+                         Image& image) -> Result<InOrder> {
         const Frame& frame = frames_[number];
         const auto path = folder / frame_name(number, frame.stage, frame.step);
-        auto bytes = encode_png(image, painter.request().png_depth(), texts, PngMeaning::colours,
-                                PngEffort::fast);
+        auto bytes = encode(number, canvas, image);
         return [&written, path, bytes = std::move(bytes)]() -> Result<void> {
             auto done = write_encoded(path, [&] { return bytes; });
             if (done) written.push_back(path);
             return done;
         };
     };
-    auto drawn = draw(painter, all, threads, never_cancelled, use);
+    auto drawn = use_canvases(all, threads_for(painter, threads), never_cancelled, use);
     if (!drawn) return tl::unexpected(drawn.error());
     return written;
 }

@@ -79,6 +79,13 @@ private:
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
+    /// Takes the values of frame `number`, on several threads at once. `image` is its own for each
+    /// thread, and keeps its memory from frame to frame.
+    using UseCanvas =
+        std::function<Result<InOrder>(std::size_t number, const Canvas& canvas, Image& image)>;
+    Result<void> use_canvases(std::span<const std::size_t> numbers, int threads,
+                              const std::atomic<bool>& cancel, const UseCanvas& use);
+    void draw_one(Painter& painter, std::size_t number, const Canvas& canvas, Image& image) const;
     int threads_for(const Painter& painter, int threads) const;
     bool keep(const Field& field);
     bool keep_cells(const DrawnCells& cells, Frame& frame);
@@ -87,7 +94,8 @@ private:
     bool keep_items(const std::vector<T>& items);
     template <typename T>
     bool read_items(std::vector<T>& items, std::size_t count);
-    Result<Canvas> read_back(const Frame& frame);
+    /// Fields may be made in the memory of other planes.
+    Result<Canvas> read_back(const Frame& frame, std::vector<Field> planes = {});
 
     bool keep_rows_ = false;
     std::unique_ptr<std::FILE, CloseFile> file_;

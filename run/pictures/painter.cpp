@@ -206,10 +206,11 @@ ValueRange Painter::range_of(const Canvas& canvas, std::optional<ValueRange> ran
     return number != nullptr ? automatic_range(spread_of(*number)) : ValueRange();
 }
 
-Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range) const {
-    const ValueRange used = range_of(canvas, range);
-    Image image = canvas.is_colour() ? paint(canvas.fields[0], canvas.fields[1], canvas.fields[2])
-                                     : paint(canvas.fields[0], used, *palette_);
+Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range, Image earlier) const {
+    const auto& fields = canvas.fields;
+    Image image = canvas.is_colour()
+                      ? paint(fields[0], fields[1], fields[2], std::move(earlier))
+                      : paint(fields[0], range_of(canvas, range), *palette_, std::move(earlier));
     if (!outside_.empty()) clear_where_nan(image, outside_);
     return image;
 }
@@ -325,13 +326,21 @@ Image Painter::with_cells(const Canvas& canvas, std::optional<ValueRange> range)
                       options);
 }
 
-Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
+bool Painter::has_pixel_per_cell(const Canvas& canvas) const {
+    return !canvas.cells && !canvas.body && has_square_cells() && request_.scale == 1 &&
+           request_.copies == PictureCopies();
+}
+
+Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Image earlier) {
+    // Other images are not made in its memory.
+    if (!has_pixel_per_cell(canvas)) earlier = {};
     if (canvas.cells) return with_cells(canvas, range);
     if (canvas.body) return of_body(canvas, range);
     if (model_) return on_model(canvas, range);
     if (is_flat()) {
-        Image copy =
-            request_.size ? smooth(canvas, range) : enlarge(texture(canvas, range), request_.scale);
+        Image copy = request_.size
+                         ? smooth(canvas, range)
+                         : enlarge(texture(canvas, range, std::move(earlier)), request_.scale);
         if (request_.copies == PictureCopies()) return copy;
         return repeated(copy, request_.copies.across, request_.copies.down);
     }
@@ -342,6 +351,13 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range) {
     Team team(hardware_threads());
     return draw_on_surface(function_of(*domain.surface), flat, sides.x == Boundary::periodic,
                            sides.y == Boundary::periodic, options, team);
+}
+
+std::optional<Painting> Painter::painting(const Canvas& canvas,
+                                          std::optional<ValueRange> range) const {
+    const bool is_plain = has_pixel_per_cell(canvas) && outside_.empty() && !canvas.is_colour();
+    if (!is_plain) return std::nullopt;
+    return Painting{canvas.fields[0], range_of(canvas, range), *palette_};
 }
 
 Image draw_sheet(const Simulation& simulation, const PictureRequest& request) {

@@ -77,8 +77,13 @@ public:
     std::optional<Formula> formula(const Simulation& simulation);
 
     /// The canvas as an image, enlarged or smooth, and transparent outside of the mask; drawn on
-    /// the surface if the domain has one. `range` overrides the automatic range.
-    Image image(const Canvas& canvas, std::optional<ValueRange> range = {});
+    /// the surface if the domain has one. `range` overrides the automatic range. The image may be
+    /// made in the memory of an earlier one.
+    Image image(const Canvas& canvas, std::optional<ValueRange> range = {}, Image earlier = {});
+    /// What image() paints, if it does no more than that: there is a pixel for each cell, and no
+    /// mask.
+    std::optional<Painting> painting(const Canvas& canvas,
+                                     std::optional<ValueRange> range = {}) const;
     /// True if the last canvas is seen as the plane it is, or as the texture of a surface.
     bool is_flat() const;
     /// True if each of its cells, moreover, becomes a square of pixels. Then image() may be called
@@ -110,7 +115,9 @@ public:
 private:
     void look_at_domain(const Simulation& simulation);
     Canvas canvas_of_plane(const Simulation& simulation, std::int64_t texels, bool has_material);
-    Image texture(const Canvas& canvas, std::optional<ValueRange> range) const;
+    /// True if the image has one pixel for each cell and no others.
+    bool has_pixel_per_cell(const Canvas& canvas) const;
+    Image texture(const Canvas& canvas, std::optional<ValueRange> range, Image earlier = {}) const;
     Image smooth(const Canvas& canvas, std::optional<ValueRange> range) const;
     std::vector<Field> evaluate(const Simulation& simulation, const EvaluateFormula& evaluate);
     MaterialFields material(const Simulation& simulation, const EvaluateFormula& evaluate) const;
