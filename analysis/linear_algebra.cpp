@@ -1,29 +1,11 @@
-// The only file of the room that includes more of Eigen than its matrices.
+// Linear systems, and singular values. This file and eigenvalues.cpp alone include more of Eigen than its matrices.
 #include "analysis/linear_algebra.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-#include <algorithm>
-
 namespace cascade::analysis {
-
-ComplexVector eigenvalues_of(const Matrix& matrix) {
-    return Eigen::EigenSolver<Matrix>(matrix, false).eigenvalues();
-}
-
-ComplexVector eigenvalues_of(const ComplexMatrix& matrix) {
-    return Eigen::ComplexEigenSolver<ComplexMatrix>(matrix, false).eigenvalues();
-}
-
-EigenPair least_eigenpair(const Matrix& matrix) {
-    const Eigen::EigenSolver<Matrix> solver(matrix);
-    Eigen::Index least = 0;
-    solver.eigenvalues().cwiseAbs().minCoeff(&least);
-    return {solver.eigenvalues()[least], solver.eigenvectors().col(least).real()};
-}
 
 Vector solution_of(const Matrix& matrix, const Vector& right) {
     return matrix.fullPivLu().solve(right);

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace cascade {
 namespace {
@@ -129,16 +128,17 @@ TEST_F(DirectedDiffusionTest, ASpotBecomesTheEllipseOfItsTensor) {
                         "u' = diffuse(u, 3, 1, {})\n px' = 0\n py' = 0",
                         theta),
             t / 100, 100);
+        const std::vector<double> area = areas();
         const auto moments = [&](const std::vector<double>& u) {
             const std::vector<double>&x = before_[1], &y = before_[2];
             std::array<double, 3> sums{};
             for (std::size_t k = 0; k < u.size(); ++k) {
-                const double each = areas()[0] > 0 ? u[k] : 0, a = x[k] - 0.5, b = y[k] - 0.5;
+                const double each = area[k] * u[k], a = x[k] - 0.5, b = y[k] - 0.5;
                 sums[0] += each * a * a;
                 sums[1] += each * a * b;
                 sums[2] += each * b * b;
             }
-            const double all = std::accumulate(u.begin(), u.end(), 0.0);
+            const double all = sum(u);
             for (double& each : sums) each /= all;
             return sums;
         };
