@@ -101,7 +101,12 @@ Space CellPlace::space() {
 
 ValueId CellPlace::content() {
     if (assembly_.context().is_tissue()) return builder_.number(1);
-    if (assembly_.program().domain.model) return of_model(ModelPlane::area);
+    if (assembly_.program().domain.model) {
+        // The copies of a cell that fill the last row have no area, which nothing may divide by.
+        const ValueId area = of_model(ModelPlane::area);
+        const ValueId is_copy = builder_.apply(Op::equal, area, builder_.number(0));
+        return builder_.select(is_copy, builder_.number(1), area);
+    }
     const DomainSettings& domain = assembly_.program().domain;
     return builder_.number(std::pow(domain.grid.spacing, axes_of(domain)));
 }

@@ -55,15 +55,21 @@ public:
 
     double number(const std::string& name) const { return values(name).at(0); }
 
-    /// Σ area · item, in square units; of areas alone where no item is named.
-    double area_sum(const std::string& name) const {
-        const std::vector<double> areas = cell_values(
+    /// Of the cells, in square units.
+    std::vector<double> areas() const {
+        if (!simulation_) return {};
+        return cell_values(
             simulation_->model()->spread().planes[static_cast<std::size_t>(ModelPlane::area)],
             *simulation_->model());
+    }
+
+    /// Σ area · item, in square units; of areas alone where no item is named.
+    double area_sum(const std::string& name) const {
+        const std::vector<double> each = areas();
         const std::vector<double> of =
-            name.empty() ? std::vector<double>(areas.size(), 1) : values(name);
+            name.empty() ? std::vector<double>(each.size(), 1) : values(name);
         double sum = 0;
-        for (std::size_t k = 0; k < areas.size(); ++k) sum += areas[k] * of[k];
+        for (std::size_t k = 0; k < each.size(); ++k) sum += each[k] * of[k];
         return sum;
     }
 
