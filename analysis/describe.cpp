@@ -105,6 +105,16 @@ private:
                    : fmt::format("{:.4g} cells, {:.4g} in length", cells, cells * lattice_.spacing);
     }
 
+    /// The same of a range.
+    std::string lengths(double least, double most) const {
+        const double spacing = lattice_.spacing;
+        if (lattice_.is_continuous || spacing == 1) {
+            return fmt::format("{:.4g} to {}", least, length(most));
+        }
+        return fmt::format("{:.4g} to {:.4g} cells, {:.4g} to {:.4g} in length", least, most,
+                           least * spacing, most * spacing);
+    }
+
     std::string direction() const {
         const Direction& d = relation_.fastest.direction;
         if (!relation_.depends_on_direction) return "";
@@ -138,8 +148,8 @@ private:
             const double most = 2 * std::numbers::pi / band.least;
             const double least = 2 * std::numbers::pi / band.most;
             bands += bands.empty() ? "" : ", and ";
-            bands += band.least == 0 ? fmt::format("all above {}", length(least))
-                                     : fmt::format("{:.4g} to {}", least, length(most));
+            bands +=
+                band.least == 0 ? fmt::format("all above {}", length(least)) : lengths(least, most);
         }
         line("growing waves", bands);
         if (is_longest()) return;

@@ -25,8 +25,9 @@ std::string pattern_words(const System& system, const ParameterScan& scan,
         return by.ends_in_stripes() ? "stripes, grow smoothly" : "spots or squares";
     }
     const bool is_high = (by.quadratic > 0) == (by.wave[0] > 0);
+    const ItemId first = system.species()[SpeciesId(0)];
     std::string text =
-        fmt::format("spots {} in {}", is_high ? "high" : "low", system.quantities[ItemId(0)].name);
+        fmt::format("spots {} in {}", is_high ? "high" : "low", system.quantities[first].name);
     if (change.stripes >= scan.span.low && change.stripes <= scan.span.high) {
         text += fmt::format(", stripes from {:.4g}", change.stripes);
     }

@@ -4,6 +4,7 @@
 #include "analysis/describe_parameters.h"
 #include "analysis/dispersion_plot.h"
 #include "analysis/map_plot.h"
+#include "analysis/negative_diffusion.h"
 #include "analysis/outlook.h"
 #include "analysis/stage_analysis.h"
 #include "core/file.h"
@@ -119,6 +120,9 @@ private:
         if (const auto why = why_nothing_grows(program_, stage_)) {
             text += fmt::format("\nnothing will grow: {}\n", *why);
         }
+        if (const auto why = negative_diffusion(program_, stage_)) {
+            text += fmt::format("\nno pattern has a length: {}\n", *why);
+        }
         if (!scans_.empty()) {
             text += fmt::format("\nby parameters, the flat state {}\n",
                                 values_text(analysis.model, state_to_show(analysis).state.species));
@@ -202,6 +206,9 @@ Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request) {
 
 std::string outlook(const Program& program, std::uint32_t stage) {
     if (program.system_of(stage).cells) return "";
+    if (const auto words = analysis::negative_diffusion(program, stage)) {
+        return fmt::format("stage '{}': {}", program.stages[stage].name, *words);
+    }
     // Lengths are not yet those of the run, whose trial will show whether something grows.
     const auto& size = program.stages[stage].size;
     if (size && size->factor == 1) return "";

@@ -36,8 +36,9 @@ struct AnalyzeReport {
 /// cannot be varied, or if the output cannot be written.
 Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request);
 
-/// A remark for each stage of fields from whose start no pattern can come, which its equations tell
-/// before it runs: "stage 'a': nothing will grow: no wave grows from …".
+/// A remark for each stage of fields from whose start no pattern can come, or whose diffusion is
+/// negative, which its equations tell before it runs: "stage 'a': nothing will grow: no wave grows
+/// from …".
 std::vector<std::string> outlooks(const Script& script);
 /// That of one stage, or nothing.
 std::string outlook(const Program& program, std::uint32_t stage);

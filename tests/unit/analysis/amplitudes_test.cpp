@@ -1,6 +1,8 @@
 // Amplitude equations whose coefficients are known in closed form.
+#include "analysis/describe_parameters.h"
 #include "tests/unit/analysis/closed_forms.h"
 
+#include <array>
 #include <cmath>
 
 namespace cascade::test {
@@ -104,6 +106,26 @@ TEST(Amplitudes, KnowWhereTheyDoNotApply) {
         none("system s { u: 0; r: -0.1\nu' = r*u - (u + 2*dxx(u) + dxx(dxx(u))) - dx(u) - "
              "u^3 }\ndomain { grid: 64; spacing: 0.2 }\nstage a: s { }\n",
              "r", -0.5, 0.5));
+}
+
+TEST(Amplitudes, SpotsAreOfASpeciesWhereverItIsDeclared) {
+    // Schnakenberg's equations, whose u makes spots.
+    const std::string a = "a: 0.1 in 0 .. 0.4", b = "b: 0.9", u = "u: 1 + normal(0, 0.01)",
+                      v = "v: 0.9",
+                      rates = "u' = a - u + u^2*v + lap(u)\nv' = b - u^2*v + 40*lap(v)";
+    for (const auto& order : {std::array{u, v, a, b}, std::array{a, b, u, v},
+                              std::array{b, u, a, v}, std::array{u, a, v, b}}) {
+        std::string text = "system s {\n";
+        for (const std::string& line : order) text += line + "\n";
+        const Analysed analysed =
+            analyse(text + rates + " }\ndomain { grid: 96, 96; spacing: 0.625 }\nstage k: s { }\n");
+        const Program& program = *analysed.script->program;
+        const auto scan = analysis::scan_parameter(program, 0, {item_named(program, "a"), 0, 0.4},
+                                                   analysed.first().state.species);
+        ASSERT_TRUE(scan);
+        const std::string words = analysis::describe(program, 0, *scan);
+        EXPECT_NE(words.find("spots high in u"), std::string::npos) << words;
+    }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // What is said of stages in which nothing will grow, and of which nothing is said.
+#include "analysis/negative_diffusion.h"
 #include "analysis/outlook.h"
 #include "lang/library/library.h"
 #include "tests/unit/analysis/closed_forms.h"
@@ -52,6 +53,36 @@ TEST(Outlook, SaysNothingWhereAPatternMayGrow) {
               "");
 }
 
+std::string negative_diffusion_in(const std::string& text) {
+    const auto script = check_text(text);
+    EXPECT_TRUE(script->program) << text;
+    if (!script->program) return "";
+    return analysis::negative_diffusion(*script->program, 0).value_or("");
+}
+std::string with_rate(const std::string& rate) {
+    return "system s { u: random(0.5, 0.1); v: 0; k: 2; m: x; t0: 1\nu' = -u\nv' = " + rate +
+           " }\ndomain { grid: 16, 16 }\nstage a: s { iterations: 1 }\n";
+}
+
+TEST(Outlook, NamesANegativeDiffusionCoefficient) {
+    for (const char* rate :
+         {"-0.08 * lap(v)", "u - 0.04 * k * lap(v)", "lap(-0.08 * v) - v", "div(-0.08 * grad(v))",
+          "-0.08 * (dxx(v) + dyy(v))", "0.02 * lap(v) - 0.1 * lap(v) + u"}) {
+        EXPECT_NE(negative_diffusion_in(with_rate(rate))
+                      .find("v has a negative diffusion coefficient, -0.08: "),
+                  std::string::npos)
+            << rate << ": " << negative_diffusion_in(with_rate(rate));
+    }
+}
+
+TEST(Outlook, SaysNothingOfDiffusionThatDampsOrIsNotKnown) {
+    for (const char* rate :
+         {"0.08 * lap(v)", "-lap(v) - lap(lap(v))", "-0.08 * lap(u)", "-m * lap(v)", "-u * lap(v)",
+          "-sin(t) * lap(v)", "lap(v^3 - v) - lap(lap(v))", "u - v", "0 * lap(v)"}) {
+        EXPECT_EQ(negative_diffusion_in(with_rate(rate)), "") << rate;
+    }
+}
+
 TEST(Outlook, NoScriptOfTheLibraryIsCalledIdle) {
     for (const LibraryText& each : library_texts()) {
         const auto script = check_text(std::string(each.text));
@@ -59,6 +90,8 @@ TEST(Outlook, NoScriptOfTheLibraryIsCalledIdle) {
         const auto stages = static_cast<std::uint32_t>(script->program->stages.size());
         for (std::uint32_t stage = 0; stage < stages; ++stage) {
             EXPECT_EQ(analysis::why_nothing_grows(*script->program, stage).value_or(""), "")
+                << each.file_name;
+            EXPECT_EQ(analysis::negative_diffusion(*script->program, stage).value_or(""), "")
                 << each.file_name;
         }
     }

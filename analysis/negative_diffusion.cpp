@@ -1,0 +1,90 @@
+// Evaluates the factors of diffusion with the starting values of parameters.
+#include "analysis/negative_diffusion.h"
+
+#include "analysis/start_values.h"
+#include "lang/calculus/algebra.h"
+#include "lang/calculus/diffusion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::analysis {
+
+namespace {
+
+class ConstantFactors {
+public:
+    ConstantFactors(const Program& program, std::uint32_t stage)
+        : program_(program), stage_(stage), starts_(start_values(algebra_, program, stage, {})) {}
+
+    /// 0 of a formula without nodes; empty if the value differs from cell to cell or changes.
+    std::optional<double> value(const Formula& formula) {
+        if (formula.nodes.empty()) return 0;
+        if (changes_in_time(program_, stage_, formula)) return std::nullopt;
+        IdVector<NodeId, NodeId> parts;
+        for (const Node& node : formula.nodes) {
+            const auto part = part_of(node, parts);
+            if (!part) return std::nullopt;
+            parts.push_back(*part);
+        }
+        const double* const number = algebra_[parts.back()].as<double>();
+        return number ? std::optional(*number) : std::nullopt;
+    }
+
+private:
+    std::optional<NodeId> part_of(const Node& node, const IdVector<NodeId, NodeId>& parts) {
+        if (const auto* number = node.as<double>()) return algebra_.number(*number);
+        if (const auto* item = node.as<ItemId>()) {
+            const StartValue& start = starts_[*item];
+            if (start.differs || start.is_unknown || !algebra_.is_number(start.scatter, 0)) {
+                return std::nullopt;
+            }
+            return start.value;
+        }
+        if (!node.is<Call>() || !is_elementary(node.function)) return std::nullopt;
+        const auto operand = [&](std::size_t k) { return parts[node.operands[k]]; };
+        switch (node.operand_count) {
+            case 1: return algebra_.call(node.function, {operand(0)});
+            case 2: return algebra_.call(node.function, {operand(0), operand(1)});
+            case 3: return algebra_.call(node.function, {operand(0), operand(1), operand(2)});
+            default: return std::nullopt;
+        }
+    }
+
+    const Program& program_;
+    std::uint32_t stage_;
+    Algebra algebra_;
+    IdVector<ItemId, StartValue> starts_;
+};
+
+/// The coefficient, if it is negative and nothing damps short waves.
+std::optional<double> coefficient(ConstantFactors& factors, const SpeciesDiffusion& diffusion) {
+    double lowest = 0;
+    for (std::size_t term = 0; term < mixed_term; ++term) {
+        const auto value = factors.value(diffusion[term]);
+        const bool is_second_order = term == 0 || term >= laplacian_powers;
+        if (!value || *value > 0 || (*value < 0 && !is_second_order)) return std::nullopt;
+        lowest = std::min(lowest, *value);
+    }
+    return lowest < 0 ? std::optional(lowest) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> negative_diffusion(const Program& program, std::uint32_t stage) {
+    const auto diffusion = diffusion_of(program, stage);
+    ConstantFactors factors(program, stage);
+    const System& system = program.system_of(stage);
+    for (const SpeciesId species : diffusion.ids()) {
+        const auto found = coefficient(factors, diffusion[species]);
+        if (!found) continue;
+        return fmt::format(
+            "{} has a negative diffusion coefficient, {:.4g}: the shortest waves grow fastest, "
+            "however short the steps are",
+            system.item_name(system.species()[species]), *found);
+    }
+    return std::nullopt;
+}
+
+}  // namespace cascade::analysis

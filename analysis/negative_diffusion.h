@@ -1,0 +1,17 @@
+// Diffusion that makes differences grow, which no step is short enough for.
+#pragma once
+
+#include "lang/program/program.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace cascade::analysis {
+
+/// "v has a negative diffusion coefficient, -0.08: …": of the first species whose coefficient is a
+/// negative number in all cells and at all times, and that no higher power of lap damps. Empty if
+/// there is none, and where the coefficient is not known before the run.
+std::optional<std::string> negative_diffusion(const Program& program, std::uint32_t stage);
+
+}  // namespace cascade::analysis
