@@ -43,6 +43,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     report_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     report_.steps += simulation_->state(k).steps - before;
     if (log_) log_->record(*simulation_, k);
+    if (series_ && simulation_->state(k).steps > before) add_to_series(k);
     if (stops_here && end && *end == StageEnd::finished) return StageEnd::stopped;
     return end;
 }
@@ -134,12 +135,20 @@ void Runner::observe(std::uint32_t k) {
 void Runner::look() {
     if (!frames_ && !series_) return;
     const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
-    if (series_) series_->add(*simulation_);
-    if (!frames_) return;
     const auto stage = simulation_->shown_stage().value_or(0);
+    if (series_) add_to_series(stage);
+    if (!frames_) return;
     frames_->record(painter_->canvas(*simulation_), script_.program->stages[stage].name,
                     simulation_->state(stage).steps,
                     labels_ ? labels_->text(*simulation_, stage) : "");
+}
+
+/// Each moment once: the end of a stage may be one of its intervals.
+void Runner::add_to_series(std::uint32_t stage) {
+    const std::pair moment(stage, simulation_->state(stage).steps);
+    if (last_in_series_ == moment) return;
+    last_in_series_ = moment;
+    series_->add(*simulation_);
 }
 
 std::string Runner::place() const {

@@ -166,10 +166,9 @@ Result<void> Runner::make_simulation() {
         options.known_model = played->simulation().model();
     }
     auto made = Simulation::create(script_, options);
-    if (!made && !script_.diagnostics.has_errors() &&
-        has_cancelled("the making of the model's cells")) {
-        return {};
-    }
+    const char* const doing =
+        script_.program->domain.model ? "the making of the model's cells" : "the trials of 'size'";
+    if (!made && !script_.diagnostics.has_errors() && has_cancelled(doing)) return {};
     if (!made) return tl::unexpected(made.error());
     simulation_ = std::move(*made);
     if (played && simulation_->model()) {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -52,6 +53,7 @@ private:
     void remark(std::string words);
     void remark_on_resumed();
     void look();
+    void add_to_series(std::uint32_t stage);
     void observe(std::uint32_t stage);
     bool frame_is_due(std::uint32_t stage);
     double tenths_done(std::uint32_t stage) const;
@@ -80,6 +82,7 @@ private:
     std::optional<RunLog> log_;
     std::optional<SeriesWriter> series_;
     double tenths_seen_ = 0;  ///< Of the stage's duration, at the last frame.
+    std::optional<std::pair<std::uint32_t, std::int64_t>> last_in_series_;  ///< Stage and step.
 };
 
 }  // namespace cascade

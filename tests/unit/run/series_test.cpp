@@ -58,6 +58,24 @@ TEST_F(SeriesTest, HasAFileForEachMomentWithItsTime) {
     EXPECT_EQ(value, 0.75F * 0.75F * 0.75F * 0.75F);
 }
 
+TEST_F(SeriesTest, HasTheEndThatIsNoInterval) {
+    run_series(decay, 3);
+    EXPECT_THAT(pieces(), ElementsAre("000001.vti", "000002.vti", "000003.vti", "000004.vti"));
+    EXPECT_THAT(list(), HasSubstr("timestep=\"1.5\" part=\"0\" file=\"grown/000003.vti\""));
+    EXPECT_THAT(list(), HasSubstr("timestep=\"2\" part=\"0\" file=\"grown/000004.vti\""));
+    EXPECT_FALSE(list().find("000005") != std::string::npos);
+}
+
+TEST_F(SeriesTest, HasTheEndOfEachStageOnce) {
+    run_series(std::string(decay) +
+                   "stage next: s { u: grow.u; v: grow.v; iterations: 5; "
+                   "interval: 4; speed: 0.25 }\n",
+               20);
+    // 0 and 2 of the first stage; 2, 3 and 3.25 of the second, whose start is a moment of its own.
+    EXPECT_THAT(pieces(), ElementsAre("000001.vti", "000002.vti", "000003.vti", "000004.vti"));
+    EXPECT_THAT(list(), HasSubstr("timestep=\"3.25\" part=\"0\" file=\"grown/000004.vti\""));
+}
+
 TEST_F(SeriesTest, RemovesWhatAnEarlierRunHasLeft) {
     run_series(decay, 1);
     EXPECT_EQ(pieces().size(), 9U);
