@@ -128,9 +128,12 @@ void add_shown(CLI::App& app, PictureChanges& picture) {
               "'a - b'",
               any_text, [&](auto show) { picture.show = show; })
         ->group(group);
-    add_value(app, "--palette", "NAME", help::in_lines(palette_names()), one_of(palette_names()),
-              [&](auto palette) { picture.palette = palette; })
-        ->group(group);
+    const auto palette = [known = one_of(palette_names())](const std::string& text) {
+        return known(text == "gray" ? "grey" : text);
+    };
+    add_value(app, "--palette", "NAME", help::in_lines(palette_names()), palette, [&](auto name) {
+        picture.palette = name;
+    })->group(group);
     add_value(app, "--range", "LOW,HIGH",
               "The values at the palette's two ends; without it the\n"
               "smallest and the largest",
@@ -241,8 +244,8 @@ void add_files(CLI::App& app, RunRequest& run) {
     add_value(app, "--sheet", "FILE.png", "All species of all stages in one labelled picture",
               parse_png_path, [&](auto path) { run.sheet = path; })
         ->group(group);
-    add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range", any_text,
-              [&](auto path) { run.frames = path; })
+    add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range",
+              parse_frames_folder, [&](auto path) { run.frames = path; })
         ->group(group);
     add_film_pace(app, run.film);
     app.add_option("--panel", run.panels,

@@ -282,11 +282,26 @@ Result<std::string> parse_output_path(std::string_view text) {
         return failure(fmt::format("'{}' is a volume, and -o writes what is seen of it", text),
                        fmt::format("--volume {} writes it", text));
     }
+    const std::string ending = lower_ending(std::filesystem::path(text));
+    if (ending == ".npy" || ending == ".csv" || ending == ".h5" || ending == ".txt") {
+        return failure(fmt::format("'{}' is a file of numbers, and -o writes pictures", text),
+                       "--save FOLDER writes each species as .npy; --log FILE.csv writes numbers "
+                       "over time");
+    }
     return failure(
         fmt::format("'{}' has no ending of a file that can be written", text),
         ".png is a picture, .svg or .pdf a figure with axes; .gif, .webp, .apng, .mp4 and .webm "
         "are films; on a model, .ply, .obj, .glb, .vtp and .stl are models, .npz and .cells.vtp "
         "their cells");
+}
+
+Result<std::string> parse_frames_folder(std::string_view text) {
+    const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+    if (!is_number) return std::string(text);
+    return failure(fmt::format("a folder is missing, and '{}' is a number", text),
+                   fmt::format("the stage's 'interval' says how many frames there are; the folder "
+                               "./{} can be named so",
+                               text));
 }
 
 Result<std::string> parse_png_path(std::string_view text) {

@@ -70,6 +70,8 @@ Result<float> parse_bump(std::string_view text);
 
 /// The path of an output of `run -o`; see output_kind() for the endings.
 Result<std::string> parse_output_path(std::string_view text);
+/// A folder for frames; a number alone is refused, since it was meant as the number of frames.
+Result<std::string> parse_frames_folder(std::string_view text);
 /// The path of a picture; it must end in .png.
 Result<std::string> parse_png_path(std::string_view text);
 /// The path of a model without a pattern; see is_model_ending().

@@ -6,6 +6,7 @@
 #include "app/help.h"
 #include "app/option_groups.h"
 #include "core/near_name.h"
+#include "lang/vocabulary/settings.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -261,6 +262,11 @@ std::string Parser::describe_unexpected(const std::string& program) {
     const std::string where = called(program);
     if (const auto option = unknown_option()) {
         const std::string near = near_option(*option);
+        const std::string setting = option->substr(0, option->find('=')).substr(2);
+        if (option->starts_with("--") && is_setting_of(SettingBlock::stage, setting)) {
+            return fmt::format("{}: there is no option --{}; write --set {}=…", where, setting,
+                               setting);
+        }
         return fmt::format("{}: there is no option {}{}", where, *option,
                            near.empty() ? "" : fmt::format("; did you mean {}?", near));
     }

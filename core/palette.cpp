@@ -104,6 +104,7 @@ const Palette* find_own(std::string_view name) {
 }  // namespace
 
 const Palette* find_palette(std::string_view name) {
+    if (name == "gray") name = "grey";
     for (const Palette& palette : all_palettes) {
         if (palette.name == name) return &palette;
     }

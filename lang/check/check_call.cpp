@@ -125,6 +125,12 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
 }
 
 void ExpressionChecker::unknown_function(const ast::Word& name) {
+    if (scope_.system != unknown_system && find(work_.names[scope_.system], name.text) != nullptr) {
+        error(name.span, fmt::format("'{}' is a number and no function", name.text),
+              fmt::format("write '{0} * (…)' to multiply", name.text));
+        parts_.back().has_error = true;
+        return;
+    }
     report_unknown_function(work_, name, functions_of(work_, from_).names());
     parts_.back().has_error = true;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace cascade::checking {
@@ -118,6 +119,18 @@ std::string not_a_parameter(std::string_view name, const System& system) {
     return fmt::format("'{}' is not a parameter of {}", name, system.name);
 }
 
+/// "write 'dxx(u)'" for u_xx, if there is a u.
+std::string hint_of_subscript(std::string_view name, const std::vector<std::string>& known) {
+    const std::size_t bar = name.rfind('_');
+    if (bar == name.npos) return "";
+    const std::string_view of = name.substr(0, bar), axes = name.substr(bar + 1);
+    const bool is_derivative = !axes.empty() && axes.size() <= 2 &&
+                               axes.find_first_not_of("xyz") == axes.npos &&
+                               function_named(fmt::format("d{}", axes));
+    if (!is_derivative || std::find(known.begin(), known.end(), of) == known.end()) return "";
+    return fmt::format("write 'd{}({})'", axes, of);
+}
+
 void report_unknown_own(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     const System& system = system_at(work, scope.system);
     if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
@@ -127,6 +140,7 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     if (is_incomplete(work, scope.system)) return;
     const std::string names = list_names(quantity_names(system));
     std::string hint(advice_about(name, WordContext::value));
+    if (hint.empty()) hint = hint_of_subscript(name, readable_names(system, scope));
     if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
     if (hint.empty() && scope.context == Context::rate)
         hint = fmt::format("add {}: 0.1, for example", name);

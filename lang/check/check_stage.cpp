@@ -22,6 +22,18 @@ namespace {
 /// The most nodes of defaults, which are copied into every stage; it bounds the memory of a check.
 constexpr std::size_t most_copied_nodes = 8u << 20;
 
+/// Advice that has the number of the statement in place of its example: "write 'speed: 0.5'" for
+/// `dt: 0.5`.
+std::string with_number(std::string advice, const ast::Expr& value) {
+    const auto* const number = std::get_if<ast::Number>(&value.node);
+    const std::size_t colon = advice.rfind(": ");
+    if (number == nullptr || colon == advice.npos) return advice;
+    const std::size_t begin = colon + 2, end = advice.find_first_not_of("0123456789.", begin);
+    const std::string_view rest = std::string_view(advice).substr(std::min(end, advice.size()));
+    if (end == begin || (!rest.starts_with("'") && !rest.starts_with(" }'"))) return advice;
+    return advice.replace(begin, end - begin, fmt::format("{}", number->value));
+}
+
 class StageChecker {
 public:
     StageChecker(Workspace& work, const ast::Script& script, std::uint32_t index,
@@ -248,7 +260,9 @@ void StageChecker::report_unknown(const Declaration& declaration) {
         for (std::string& each : settings_of({SettingBlock::stage, own}))
             names.push_back(std::move(each));
         if (system().cells) names.insert(names.end(), {"ey", "ez"});
-        diagnostic.hint = hint_about(work_, declaration.name, WordContext::stage, names);
+        diagnostic.hint =
+            with_number(hint_about(work_, declaration.name, WordContext::stage, names),
+                        script_.expressions[declaration.value().root]);
         if (is_side_word(declaration.name)) {
             diagnostic.hint =
                 fmt::format("a side of one species is SPECIES.{0}: …, of all {0}: … in the domain",

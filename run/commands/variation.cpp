@@ -43,6 +43,21 @@ Failure wrong(std::string_view text, const std::string& why) {
             "write NAME=LOW..HIGH:COUNT or NAME=VALUE,VALUE, as in feed=0.02..0.06:9"};
 }
 
+/// For LOW:HIGH:COUNT, the range of other programs; empty for other texts.
+std::optional<Failure> colons_for_dots(std::string_view text, std::string_view name,
+                                       std::string_view values) {
+    const std::size_t first = values.find(':'), last = values.rfind(':');
+    if (first == values.npos || first == last || values.find("..") != values.npos) return {};
+    const std::string_view low = trimmed(values.substr(0, first)),
+                           high = trimmed(values.substr(first + 1, last - first - 1)),
+                           count = trimmed(values.substr(last + 1));
+    if (!read_number(low) || !read_number(high) || !read_number(count)) return {};
+    Failure failure = wrong(text, "two dots stand between the ends of a range");
+    const bool is_count = read_all<std::int64_t>(count).has_value();
+    failure.hint = fmt::format("write {}={}..{}:{}", name, low, high, is_count ? count : "COUNT");
+    return failure;
+}
+
 /// `count` equidistant numbers from low to high, as short texts.
 std::vector<std::string> spread(double low, double high, std::int64_t count) {
     std::vector<std::string> values;
@@ -90,6 +105,9 @@ Result<Variation> parse_variation(std::string_view text) {
     const std::string_view values = trimmed(text.substr(equals + 1));
     if (variation.name.empty()) return tl::unexpected(wrong(text, "there is no name"));
     const std::size_t dots = values.find("..");
+    if (auto failure = colons_for_dots(text, variation.name, values)) {
+        return tl::unexpected(std::move(*failure));
+    }
     if (dots == std::string_view::npos) {
         variation.values = split_list(values);
         const auto is_empty = [](const std::string& value) { return value.empty(); };

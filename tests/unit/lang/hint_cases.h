@@ -17,6 +17,9 @@ inline constexpr HintCase hint_cases[] = {
     // Characters, numbers and operators of elsewhere.
     {"rate", "7 % v", "write mod(a, b) for a % b", "mod(7, v)"},
     {"rate", "u === v", "write '=='"},
+    {"rate", "u + 2cm", "numbers have no units: write '0.02' for 2 cm in metres"},
+    {"rate", "u_xx", "write 'dxx(u)'"},
+    {"rate", "v (u - 1)", "write 'v * (…)' to multiply", "v * (u - 1)"},
     {"rate", "u !== v", "write '!='"},
     {"rate", "u <> v", "write '!='"},
     {"rate", "u ** 2", "write '^' for a power"},
@@ -255,7 +258,7 @@ inline constexpr HintCase hint_cases[] = {
      "stage only: s { iterations: 1 }"},
     {"domain", "seeed: 1", "did you mean 'seed'?"},
     {"picture", "color: palette(u, 0, 1, 'grey')", "write \"grey\""},
-    {"picture", "color: palette(u, 0, 1, \"gray\")", "did you mean 'grey'?",
+    {"picture", "color: palette(u, 0, 1, \"gery\")", "did you mean 'grey'?",
      "color: palette(u, 0, 1, \"grey\")"},
 };
 

@@ -117,7 +117,8 @@ std::string used(WordContext context, std::string_view word) {
         case WordContext::side: return fmt::format("sides: {}", word);
         case WordContext::function: return fmt::format("{}(u)", word);
         case WordContext::value: return std::string(word);
-        default: return fmt::format("{}: 1", word);
+        // No number alone, which the advice would take for its own.
+        default: return fmt::format("{}: 1 + 1", word);
     }
 }
 

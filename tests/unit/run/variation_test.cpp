@@ -36,6 +36,16 @@ TEST(Variation, RangesHaveBothEnds) {
     EXPECT_THAT(values_of("a=1e-3..3e3:1"), ElementsAre("0.001"));
 }
 
+TEST(Variation, RangesOfOtherProgramsAreExplained) {
+    const auto hint_of = [](const std::string& text) {
+        const auto variation = parse_variation(text);
+        return variation ? "" : variation.error().hint;
+    };
+    EXPECT_EQ(hint_of("F=0.02:0.06:5"), "write F=0.02..0.06:5");
+    EXPECT_EQ(hint_of("gs.feed = -1 : 1 : 0.5"), "write gs.feed=-1..1:COUNT");
+    EXPECT_EQ(hint_of("k=0:1/3:4"), "write k=0..1/3:4");
+}
+
 TEST(Variation, ListsAreExpressions) {
     EXPECT_THAT(values_of("a=1,2,5"), ElementsAre("1", "2", "5"));
     EXPECT_THAT(values_of("b=1/400, random(12, 0.1) ,if([a]<1,2,3)"),
