@@ -228,14 +228,10 @@ std::string_view name_of(Stability stability) {
 
 std::string values_text(const LinearModel& model, const Vector& species) {
     std::string text;
-    const double largest = species.cwiseAbs().maxCoeff();
     for (Eigen::Index k = 0; k < std::min(species.size(), most_named); ++k) {
-        // Rounding errors of 0.
-        const double value =
-            std::abs(species[k]) < std::max(1e-12 * largest, 1e-14) ? 0 : species[k];
         text += fmt::format("{}{} = {:.5g}", k > 0 ? ", " : "",
                             model.system().item_name(model.species[static_cast<std::size_t>(k)]),
-                            value);
+                            species[k] + 0.0);  // Without the sign of -0.
     }
     return text + (species.size() > most_named ? ", …" : "");
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace cascade::analysis {
 
@@ -35,7 +36,11 @@ public:
         : rates_(rates),
           conserved_(conserved),
           totals_(conserved * totals_of),
-          sizes_(sizes_of(rates)) {}
+          sizes_(sizes_of(rates)) {
+        const Matrix at_start = rates.jacobian(rates.start());
+        const double usual = at_start.allFinite() ? (at_start.cwiseAbs() * sizes_).maxCoeff() : 0;
+        usual_rate_ = usual > 0 ? usual : sizes_.maxCoeff();
+    }
 
     void repel(const Vector& state) { known_.push_back(state); }
 
@@ -110,14 +115,32 @@ public:
     }
 
 private:
-    std::optional<Vector> accepted(const Vector& x) const {
+    /// Values that are small beside the species' size are 0 if that is as good a solution.
+    Vector without_rounding_of_0(const Vector& x) const {
+        Vector result = x;
+        for (Eigen::Index k = 0; k < x.size(); ++k) {
+            if (x[k] == 0 || std::abs(x[k]) >= 1e-12 * sizes_[k]) continue;
+            const double value = std::exchange(result[k], 0.0);
+            const Vector before = residual_of(x), there = residual_of(result);
+            const Matrix jacobian = rates_.jacobian(x);
+            const double rounding = 1e-15 * (jacobian.cwiseAbs() * x.cwiseAbs()).maxCoeff();
+            const bool is_as_good =
+                there.cwiseAbs().maxCoeff() <= std::max(before.cwiseAbs().maxCoeff(), rounding);
+            if (!is_as_good) result[k] = value;
+        }
+        return result;
+    }
+
+    std::optional<Vector> accepted(const Vector& found) const {
+        const Vector x = without_rounding_of_0(found);
         const Vector rates = rates_.rates(x);
         const Matrix jacobian = rates_.jacobian(x);
         if (!rates.allFinite() || !jacobian.allFinite()) return std::nullopt;
         // As small as rounding of the values makes it.
         const Vector rounding = jacobian.cwiseAbs() * x.cwiseAbs().cwiseMax(sizes_);
         const double most = std::max(rounding.maxCoeff(), 1e-300);
-        if (rates.cwiseAbs().maxCoeff() > 1e-9 * most && rates.cwiseAbs().maxCoeff() > 1e-12) {
+        if (rates.cwiseAbs().maxCoeff() > 1e-9 * most &&
+            rates.cwiseAbs().maxCoeff() > 1e-12 * usual_rate_) {
             return std::nullopt;
         }
         return x;
@@ -126,6 +149,7 @@ private:
     const LocalRates& rates_;
     Matrix conserved_;
     Vector totals_, sizes_;
+    double usual_rate_ = 0;
     std::vector<Vector> known_;
 };
 

@@ -48,7 +48,10 @@ struct WatchedRun {
 std::string in_words(const Field& field) {
     const Spread values = spread_of(field);
     if (values.count == 0) return "no values\n";
-    if (values.is_even()) return fmt::format("{:.6g} in all cells\n", values.mean);
+    if (values.is_even()) {
+        return fmt::format("{:.6g} in all cells{}\n", values.mean,
+                           values.is_one_number() ? "" : ", within a 100,000th of it");
+    }
     return fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest);
 }
 

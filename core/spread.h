@@ -12,8 +12,9 @@ namespace cascade {
 /// Values count as even if their standard deviation is at most this fraction of their largest
 /// magnitude, about the rounding error of binary32.
 inline constexpr double even_deviation = 1e-5;
-/// They also do if it is at most this, which remains of a pattern that dies away.
-inline constexpr double least_deviation = 1e-12;
+/// They also do if it is at most this fraction of the largest magnitude they once had: the remains
+/// of a pattern that dies away.
+inline constexpr double remaining_part = 1e-12;
 
 /// The statistics of a set of values. Values that are not finite are ignored.
 struct Spread {
@@ -27,10 +28,13 @@ struct Spread {
     double magnitude() const {
         return count > 0 ? std::max(std::abs(smallest), std::abs(largest)) : 0;
     }
-    /// A set without values is even.
-    bool is_even() const {
-        return !(deviation() > std::max(even_deviation * magnitude(), least_deviation));
+    /// A set without values is even. `once`: the largest magnitude they had before. No size of
+    /// values is small by itself: units are the user's.
+    bool is_even(double once = 0) const {
+        return !(deviation() > std::max(even_deviation * magnitude(), remaining_part * once));
     }
+    /// Are they all the same number?
+    bool is_one_number() const { return !(smallest < largest); }
 
     /// Merges in another set of values, without cancellation: T. F. Chan, G. H. Golub and R. J.
     /// LeVeque, "Updating formulae and a pairwise algorithm for computing sample variances", 1979.

@@ -87,12 +87,14 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
     planes_.set_roles(roles);
     knows_first_rates_ = first_rate_passes > 0;
     const std::int64_t cells = problem().counted_cells();
+    // Close to the least normal numbers errors are those of rounding.
+    const double least = problem().precision == Precision::single ? 1e-30 : 1e-150;
     double largest = 0;
     for (const Squares& squares : squares_) {
         const double error = root_mean_square(squares.of_errors, cells);
         const double size = root_mean_square(squares.of_values, cells);
         if (!std::isfinite(error) || !std::isfinite(size)) return NAN;
-        if (error > 0) largest = std::max(largest, error / (tolerance * std::max(size, 1e-30)));
+        if (error > 0) largest = std::max(largest, error / (tolerance * std::max(size, least)));
     }
     return largest;
 }

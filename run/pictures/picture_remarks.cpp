@@ -65,8 +65,10 @@ std::string describe_even(const Canvas& canvas) {
         return fmt::format("{}: what it shows is infinite or not a number in all cells",
                            is_one_colour);
     }
-    return fmt::format("{}: what it shows is {:.4g} in all cells", is_one_colour,
-                       spread_of(canvas.fields[0]).mean);
+    const Spread values = spread_of(canvas.fields[0]);
+    return fmt::format("{}: what it shows {} {:.4g}{}", is_one_colour,
+                       values.is_one_number() ? "is" : "differs by less than a 100,000th from",
+                       values.mean, values.is_one_number() ? " in all cells" : "");
 }
 
 std::string describe_waves(Painter& painter, const Simulation& simulation, std::uint32_t stage) {

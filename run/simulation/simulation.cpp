@@ -376,11 +376,13 @@ bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
     if (holds_in_rates(system, is_draw) || !holds_in_rates(system, is_of_neighbours)) return false;
     const StageCourse& course = simulation.state(k).course;
     if (course.empty()) return false;
-    const auto is_made = [](const Spread& first, const Spread& last) {
-        return last.is_even() || last.deviation() >= times_at_start * first.deviation();
-    };
-    const auto& first = course.first().species;
-    return std::equal(first.begin(), first.end(), course.last().species.begin(), is_made);
+    for (std::size_t s = 0; s < course.last().species.size(); ++s) {
+        const Spread &first = course.first().species[s], &last = course.last().species[s];
+        const bool is_made = last.is_even(course.last().largest[s]) ||
+                             last.deviation() >= times_at_start * first.deviation();
+        if (!is_made) return false;
+    }
+    return true;
 }
 
 }  // namespace cascade

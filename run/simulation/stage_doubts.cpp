@@ -155,13 +155,16 @@ std::optional<std::string> find_chequerboard(const StageView& view, bool flicker
     const Links* links = here.model ? &here.model->spread().links : nullptr;
     const StageTime& time = view.stage().time;
     const auto alternates = [&](const Field& field) {
+        const auto k = static_cast<std::size_t>(&field - species.data());
+        const StageCourse& course = view.state().course;
+        const double once = course.empty() ? 0 : course.last().largest[k];
         if (alternating_part(field, here.counted(), links) < chequerboard_threshold) return false;
         // What has died away is rounding, or errors within the solver's tolerance, of which the
         // fastest waves may well be left.
         const FieldMoments values = moments(field, here.counted());
         const double errors =
             time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;
-        return values.deviation > std::max(least_deviation, errors);
+        return values.deviation > std::max(remaining_part * once, errors);
     };
     const auto found = std::find_if(species.begin(), species.end(), alternates);
     if (found == species.end()) return std::nullopt;

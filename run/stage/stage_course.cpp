@@ -45,18 +45,13 @@ Spread spread_of_rows(const Field& field, const Mask* inside, std::int64_t every
 
 /// As Spread::is_even() of every n-th row. The root mean square, which takes less time to find, is
 /// at most the largest magnitude.
-bool is_even(const Field& field, const Mask* inside, std::int64_t every_row) {
+bool is_even(const Field& field, const Mask* inside, std::int64_t every_row, double once) {
     if (every_row == 1) {
         const FieldMoments all = moments(field, inside);
-        if (all.deviation < std::max(even_deviation * all.root_mean_square, least_deviation))
+        if (all.deviation < std::max(even_deviation * all.root_mean_square, remaining_part * once))
             return true;
     }
-    return spread_of_rows(field, inside, every_row).is_even();
-}
-
-bool are_even(std::span<const Spread> spreads) {
-    return std::all_of(spreads.begin(), spreads.end(),
-                       [](const Spread& spread) { return spread.is_even(); });
+    return spread_of_rows(field, inside, every_row).is_even(once);
 }
 
 double range(const Spread& spread) { return spread.largest - spread.smallest; }
@@ -83,16 +78,20 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
     const PlaneLayout& layout = species[0].layout();
     const std::int64_t every_row =
         std::max<std::int64_t>(1, layout.width * layout.row_count() / most_cells_seen);
-    Moment moment{step, age, {}, false};
-    for (const Field& field : species)
-        moment.species.push_back(spread_of_rows(field, inside, every_row));
-    moment.is_even = are_even(moment.species);
+    Moment moment{step, age, {}, true, {}};
+    for (std::size_t k = 0; k < species.size(); ++k) {
+        const Spread& spread =
+            moment.species.emplace_back(spread_of_rows(species[k], inside, every_row));
+        const double before = moments_.empty() ? 0 : last().largest[k];
+        moment.largest.push_back(std::max(before, spread.magnitude()));
+        moment.is_even = moment.is_even && spread.is_even(moment.largest[k]);
+    }
     // A small feature may lie between the rows.
     for (std::int64_t rows = every_row; moment.is_even && rows > 1;) {
         rows = std::max<std::int64_t>(1, rows / 16);
-        moment.is_even = std::all_of(species.begin(), species.end(), [&](const Field& field) {
-            return is_even(field, inside, rows);
-        });
+        for (std::size_t k = 0; k < species.size(); ++k) {
+            moment.is_even = moment.is_even && is_even(species[k], inside, rows, moment.largest[k]);
+        }
     }
     moments_.push_back(std::move(moment));
 }
@@ -160,7 +159,7 @@ Trend StageCourse::trend() const {
     bool grows = true, fades = true, differs = false;
     for (std::size_t k = 0; k < last().species.size(); ++k) {
         const Spread& now = last().species[k];
-        if (now.is_even()) continue;
+        if (now.is_even(last().largest[k])) continue;
         differs = true;
         grows = grows && is_growing(k);
         fades = fades && now.deviation() <= small_rest * largest_seen(k, &Spread::magnitude) &&

@@ -17,6 +17,7 @@ struct Moment {
     double age = 0;               ///< Its time, or its steps if the time varies by cell.
     std::vector<Spread> species;  ///< Over some of the rows if there are many cells.
     bool is_even = false;         ///< All species are even over all cells.
+    std::vector<double> largest;  ///< By species: the largest magnitude so far.
 };
 
 /// How the pattern of a stage changes at its end.

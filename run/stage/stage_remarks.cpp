@@ -34,7 +34,7 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
     const Moment& since = course.even_since();
     bool is_the_same = true;
     for (const Spread& spread : course.last().species)
-        is_the_same = is_the_same && spread.squares == 0;
+        is_the_same = is_the_same && spread.is_one_number();
     bool parameters_are = true;
     for (const ItemId item : system.quantities.ids()) {
         parameters_are = parameters_are && (system.is_species(item) || stage.uniform[item]);
@@ -47,7 +47,10 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
     }
     const std::string step = with_commas(since.step);
     if (since.step == course.first().step) {
-        return fmt::format("ended even ({}): nothing has grown", values);
+        return fmt::format("ended even ({}): {}nothing has grown", values,
+                           is_the_same ? ""
+                                       : "its cells differ by less than a 100,000th of their "
+                                         "values, and ");
     }
     if (course.greatest_contrast() >= contrast_of_a_pattern) {
         return fmt::format("died out: it is even since step {} or before ({})", step, values);

@@ -29,6 +29,13 @@ TEST(Outlook, SaysHowMuchMoreDiffusionWouldDo) {
         << words;
 }
 
+TEST(Outlook, NamesFlatStatesInSmallUnits) {
+    const std::string words = outlook_of(
+        "system s { S: 1e-18; u: S + random(0, 1e-21); v: S / 2; u' = lap(u) + S - u; v' = lap(v) + u - "
+        "2 * v }\nstage a: s { }");
+    EXPECT_NE(words.find("flat state u = 1e-18, v = 5e-19"), std::string::npos) << words;
+}
+
 TEST(Outlook, SaysThatWavesDoNotFitTheDomain) {
     const std::string words =
         outlook_of("domain { grid: 5, 5 }\nstage s: brusselator { " + noise + " }");

@@ -88,9 +88,17 @@ TEST(Spread, RoundingAndWhatDiesAwayAreEven) {
     EXPECT_TRUE(of({}).is_even());
     EXPECT_TRUE(of({3, 3}).is_even());
     EXPECT_TRUE(of({1, 1 + 9e-8}).is_even());
-    EXPECT_TRUE(of({1e-38, 5e-38}).is_even());
     EXPECT_FALSE(of({1, 1.0001}).is_even());
-    EXPECT_FALSE(of({1e-9, 2e-9}).is_even());
+    EXPECT_TRUE(of({1e-13, 5e-13}).is_even(1));
+    EXPECT_FALSE(of({1e-11, 5e-11}).is_even(1));
+}
+
+TEST(Spread, NoUnitIsTooSmall) {
+    for (const double unit : {1e-9, 1e-18, 1e-38, 1e-100}) {
+        EXPECT_FALSE(of({unit, 2 * unit}).is_even()) << unit;
+        EXPECT_TRUE(of({unit, (1 + 9e-8) * unit}).is_even()) << unit;
+        EXPECT_FALSE(of({unit, (1 + 9e-8) * unit}).is_one_number()) << unit;
+    }
 }
 
 }  // namespace
