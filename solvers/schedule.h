@@ -66,6 +66,8 @@ struct Schedule {
     double tolerance = 0;
     double largest_step = std::numeric_limits<double>::infinity();  ///< Limit of such steps,
     std::function<double(double t)> longest_step = {};  ///< and of one that begins at t.
+    /// Where rates jump, the step after one that ends at t begins a rounding error later.
+    std::function<double(double t)> time_after = {};
     int error_order = 1;  ///< The power of the step that the error is proportional to.
     /// With a tolerance: the passes of a step whose error is estimated, if not all steps are.
     const StepProblem* judged = nullptr;

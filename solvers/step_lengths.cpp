@@ -1,6 +1,7 @@
 // Tries steps and judges them by their errors.
 #include "solvers/step_lengths.h"
 
+#include "core/floating_point.h"
 #include "solvers/spoiled_step.h"
 
 #include <algorithm>
@@ -65,9 +66,22 @@ bool StepLengths::take_judged_step(StageOutcome& outcome) {
     ++clock_.step;
     clock_.time.clock.begin_at(clock_.step);
     stepper_.accept();
+    pass_jump();
     clock_.time.control = control_.state();
     if (!clock_.is_over()) choose();
     return true;
+}
+
+/// Where rates and sides jump, the next step begins with the values after the jump.
+void StepLengths::pass_jump() {
+    if (!schedule_.time_after) return;
+    const double t = clock_.now(), after = schedule_.time_after(t);
+    if (!(after > t)) return;
+    clock_.time.clock.base_time = after;
+    stepper_.forget_rates();
+    const FlushDenormals environment;
+    const SpeciesLoan loan(stepper_.planes(), species_);
+    stepper_.problem().fill_halos(species_, {clock_.step, after});
 }
 
 double StepLengths::wanted_step() const {

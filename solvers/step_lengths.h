@@ -30,6 +30,7 @@ public:
     bool take_judged_step(StageOutcome& outcome);
 
 private:
+    void pass_jump();
     double wanted_step() const;
     double least_step() const;
     bool fail_after(CopyRoles before, StageOutcome& outcome);

@@ -173,12 +173,14 @@ struct StepProblem {
     }
     /// Fills the halos of all species for the moment of `sides`, where neighbours are read beyond
     /// the sides. Must run inside a FlushDenormals.
-    void fill_halos(std::span<Field> species) const {
+    void fill_halos(std::span<Field> species) const { fill_halos(species, sides_moment); }
+    /// The same for another moment.
+    void fill_halos(std::span<Field> species, SideMoment moment) const {
         if (!has_halo()) return;
         const SpeciesPlanes present = planes_of(species);
         const Patch everywhere{{0, PlaneLayout(grid).row_count()}};
         for (std::size_t s = 0; s < species.size(); ++s) {
-            species[s].fill_halo(sides_of(SpeciesId(s), sides_moment, present, everywhere));
+            species[s].fill_halo(sides_of(SpeciesId(s), moment, present, everywhere));
         }
     }
 };

@@ -1,4 +1,4 @@
-// Marks parts bottom-up, then takes the largest ones that depend on time alone.
+// Marks parts bottom-up, then takes the largest ones that depend on time and places alone.
 #include "lang/calculus/time_parts.h"
 
 #include "lang/calculus/algebra.h"
@@ -11,53 +11,112 @@ namespace {
 
 /// Facts about a part of a formula.
 struct TimeFacts {
-    bool is_of_time = false;  ///< It reads only constants and `t`,
-    bool reads_time = false;  ///< and `t` is among them.
+    bool is_of_time = false;    ///< It reads only constants and `t`;
+    bool is_of_places = false;  ///< it reads only those and places;
+    bool reads_time = false;    ///< `t` is among them;
+    bool reads_places = false;  ///< places are.
+    bool is_separable = true;   ///< Sums and products of what reads one of both.
+
+    bool reads_both() const { return reads_time && reads_places; }
 };
+
+/// Does a sum, product or quotient leave `t` and places apart?
+bool keeps_apart(const Node& node, const IdVector<NodeId, TimeFacts>& before) {
+    const auto reads_both = [&](std::size_t operand) {
+        return before[node.reads()[operand]].reads_both();
+    };
+    switch (node.function) {
+        case Function::negate:
+        case Function::add:
+        case Function::subtract: return true;
+        case Function::multiply: return !reads_both(0) || !reads_both(1);
+        case Function::divide: return !reads_both(1);
+        default: return false;
+    }
+}
+
+TimeFacts facts_of_leaf(const Node& node, const Program& program, std::uint32_t stage) {
+    if (node.type != ValueType::number) return {};
+    const bool differs = differs_by_cell(node, false, program, stage);
+    if (node.is(Builtin::t)) return {!differs, !differs, true, false, true};
+    if (node.is<Builtin>()) return {false, !node.is(Builtin::step), false, true, true};
+    const auto* const item = node.as<ItemId>();
+    const bool is_kept = node.is<double>() || node.is<StageItem>() ||
+                         (item != nullptr && !program.system_of(stage).is_species(*item));
+    return {is_kept && !differs, is_kept, false, differs, true};
+}
 
 TimeFacts time_facts_of(const Node& node, const IdVector<NodeId, TimeFacts>& before,
                         const Program& program, std::uint32_t stage) {
-    const bool is_time = node.is(Builtin::t);
-    if (!node.is<Call>()) {
-        const bool is_constant = (node.is<double>() || node.is<ItemId>() || node.is<StageItem>()) &&
-                                 node.type == ValueType::number;
-        const bool is_same = !differs_by_cell(node, false, program, stage);
-        return {is_same && (is_time || is_constant), is_time};
-    }
+    if (!node.is<Call>()) return facts_of_leaf(node, program, stage);
     const Function function = node.function;
-    TimeFacts kind{!info(function).is_aggregate && !is_random(function) &&
-                       !varies_by_cell(function) && !differentiates(function) &&
-                       node.type == ValueType::number,
-                   false};
+    const bool is_shape = info(function).kind == FunctionKind::shape;
+    const bool is_number = node.type == ValueType::number;
+    TimeFacts facts{is_number && !info(function).is_aggregate && !is_random(function) &&
+                        !varies_by_cell(function) && !differentiates(function),
+                    is_number && (is_elementary(function) || is_shape), false, is_shape, true};
+    bool is_apart = true;
     for (const NodeId operand : node.reads()) {
-        kind.is_of_time = kind.is_of_time && before[operand].is_of_time;
-        kind.reads_time = kind.reads_time || before[operand].reads_time;
+        const TimeFacts& of = before[operand];
+        facts.is_of_time = facts.is_of_time && of.is_of_time;
+        facts.is_of_places = facts.is_of_places && of.is_of_places;
+        facts.reads_time = facts.reads_time || of.reads_time;
+        facts.reads_places = facts.reads_places || of.reads_places;
+        is_apart = is_apart && of.is_separable;
     }
-    return kind;
+    facts.is_separable = !facts.reads_both() || (is_apart && keeps_apart(node, before));
+    return facts;
 }
+
+/// Parts that were found, each once.
+class Found {
+public:
+    void add(NodeId id) {
+        if (std::find(ids_.begin(), ids_.end(), id) == ids_.end()) ids_.push_back(id);
+    }
+    std::vector<Formula> formulas(const Algebra& algebra) const {
+        std::vector<Formula> formulas;
+        for (const NodeId id : ids_) formulas.push_back(algebra.formula(id));
+        return formulas;
+    }
+
+private:
+    std::vector<NodeId> ids_;
+};
 
 }  // namespace
 
-std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage) {
+TimeParts parts_of_time(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     FlatRates rates(system, FieldSpace::of(program, system));
-    IdVector<NodeId, TimeFacts> kinds;
-    std::vector<NodeId> found;
-    const auto note = [&](NodeId id) {
-        const bool is_wanted = kinds[id].is_of_time && kinds[id].reads_time;
-        if (is_wanted && std::find(found.begin(), found.end(), id) == found.end())
-            found.push_back(id);
+    std::vector<NodeId> roots;
+    for (const ItemId item : system.species()) roots.push_back(rates.rate(item));
+    const auto add_sides = [&](const SideSettings& sides) {
+        for (const SideSetting& side : sides) {
+            if (!side.value.nodes.empty()) roots.push_back(rates.flattening.add(side.value));
+        }
     };
-    for (const NodeId id : ids_below<NodeId>(rates.count)) {
+    for (const SideSettings& sides : program.stages[stage].sides) add_sides(sides);
+    for (const DefinitionSides& each : program.stages[stage].definition_sides)
+        add_sides(each.sides);
+
+    IdVector<NodeId, TimeFacts> facts;
+    Found of_time, of_places;
+    const auto note = [&](NodeId id, bool is_within_time, bool is_within_places) {
+        const TimeFacts& of = facts[id];
+        if (!of.reads_time) return;
+        if (of.is_of_time && !is_within_time) of_time.add(id);
+        if (of.is_of_places && !of.is_separable && !is_within_places) of_places.add(id);
+    };
+    for (const NodeId id : ids_below<NodeId>(rates.algebra.size())) {
         const Node& node = rates.algebra[id];
-        kinds.push_back(time_facts_of(node, kinds, program, stage));
-        if (!node.is<Call>() || kinds[id].is_of_time) continue;
-        for (const NodeId operand : node.reads()) note(operand);
+        facts.push_back(time_facts_of(node, facts, program, stage));
+        if (!node.is<Call>()) continue;
+        const bool is_of_time = facts[id].is_of_time, is_of_places = facts[id].is_of_places;
+        for (const NodeId operand : node.reads()) note(operand, is_of_time, is_of_places);
     }
-    for (const ItemId item : system.species()) note(rates.rate(item));
-    std::vector<Formula> parts;
-    for (const NodeId id : found) parts.push_back(rates.algebra.formula(id));
-    return parts;
+    for (const NodeId root : roots) note(root, false, false);
+    return {of_time.formulas(rates.algebra), of_places.formulas(rates.algebra)};
 }
 
 }  // namespace cascade

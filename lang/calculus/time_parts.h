@@ -1,4 +1,5 @@
-// The parts of a system's rates that depend on time alone.
+// The parts of a stage's rates and of the rules at its sides that change by themselves, whatever
+// the species do.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,9 +9,16 @@
 
 namespace cascade {
 
-/// The largest parts of a stage's rates that read `t` and otherwise only constants. They are the
-/// same in all cells and independent of the species. In u' = exp(-(t - 50)^2) * sx - u this is the
-/// exponential.
-std::vector<Formula> parts_of_time(const Program& program, std::uint32_t stage);
+struct TimeParts {
+    /// The largest parts that read `t` and otherwise only constants. They are the same in all
+    /// cells. In u' = exp(-(t - 50)^2) * sx - u this is the exponential.
+    std::vector<Formula> of_time;
+    /// The largest parts that read `t` and places and are no sums and products of parts that read
+    /// one of both: what moves, such as exp(-(x - 5 * t)^2).
+    std::vector<Formula> of_places;
+};
+
+/// Of the rates of a stage, and of its sides, borders and sides of definitions.
+TimeParts parts_of_time(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

@@ -2,6 +2,7 @@
 #include "run/simulation/stage_tools.h"
 
 #include "run/domain/field_values.h"
+#include "run/simulation/values_over_time.h"
 #include "run/stage/bound_diffusion.h"
 #include "run/stage/plan_runner.h"
 
@@ -43,22 +44,6 @@ StepProblem bind_steps(const StageView& view, const Scheme& scheme, const Compil
     return problem;
 }
 
-std::vector<double> values_over_time(const StageView& view, const Formula& formula,
-                                     double duration) {
-    const Grid one{1, 1, Boundary::periodic};
-    PlanRunner runner(plan_view(view.program(), formula, view.number()),
-                      view.environment().kernels->interpreted_on(one));
-    Team alone(1);
-    BindingContext context = view.context();
-    context.grid = one;
-    std::vector<double> values;
-    for (std::size_t n = 0; n <= Forcing::intervals; ++n) {
-        context.t = duration * static_cast<double>(n) / static_cast<double>(Forcing::intervals);
-        values.push_back(runner.run(context, alone)[0].number_at(0, 0));
-    }
-    return values;
-}
-
 }  // namespace
 
 StageTools stage_tools(const StageView& view, Compile steps) {
@@ -70,8 +55,9 @@ StageTools stage_tools(const StageView& view, Compile steps) {
     tools.numbers = [view](std::span<const Formula* const> formulas) {
         return numbers_of(view, formulas);
     };
-    tools.over_time = [view](const Formula& formula, double duration) {
-        return values_over_time(view, formula, duration);
+    tools.at_time = [view](const Formula& formula) { return values_at(view, formula); };
+    tools.motion = [view](const Formula& formula, double duration) {
+        return motion_over(view, formula, duration);
     };
     tools.condition_holds = [view, condition = NumberSource()]() mutable {
         if (!condition) {

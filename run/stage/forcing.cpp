@@ -1,10 +1,11 @@
 // Samples the parts that depend on time alone, and computes for each sample how long they stay
-// close to it.
+// close to it, and where they jump.
 #include "run/stage/forcing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace cascade {
 
@@ -14,33 +15,122 @@ namespace {
 constexpr double most_of_range = 0.3;
 /// No step is longer than this part of the time.
 constexpr std::size_t farthest = Forcing::intervals / 4;
+/// A change within an interval may be a jump if it is at least this part of the range, and this
+/// many times those of the intervals beside it.
+constexpr double least_jump = 1e-3, steeper = 4;
+/// Steps end this part of the duration before a jump, which rounding cannot bridge.
+constexpr double before_jump = 1e-13;
 
 }  // namespace
 
-Forcing::Forcing(const std::vector<std::vector<double>>& values, double duration)
-    : interval_(duration / static_cast<double>(intervals)) {
-    for (const std::vector<double>& part : values) {
-        const auto [low, high] = std::minmax_element(part.begin(), part.end());
-        const double most = most_of_range * (*high - *low);
-        if (!(most > 0) || !std::isfinite(most)) continue;
-        if (reach_.empty()) reach_.assign(intervals, farthest);
-        for (std::size_t n = 0; n < intervals; ++n) {
-            std::size_t& reach = reach_[n];
-            const std::size_t end = std::min(reach, intervals - n);
-            std::size_t passed = 1;
-            while (passed < end && std::abs(part[n + passed + 1] - part[n]) <= most &&
-                   std::abs(part[n + passed] - part[n]) <= most) {
-                ++passed;
-            }
-            reach = passed;
+void Forcing::begin_reach() {
+    if (reach_.empty()) reach_.assign(intervals, farthest);
+}
+
+void Forcing::add(const std::vector<double>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const double most = most_of_range * (*high - *low);
+    if (!(most > 0) || !std::isfinite(most)) return;
+    begin_reach();
+    for (std::size_t n = 0; n < intervals; ++n) {
+        std::size_t& reach = reach_[n];
+        const std::size_t end = std::min(reach, intervals - n);
+        std::size_t passed = 1;
+        while (passed < end && std::abs(values[n + passed + 1] - values[n]) <= most &&
+               std::abs(values[n + passed] - values[n]) <= most) {
+            ++passed;
         }
+        reach = passed;
     }
 }
+
+void Forcing::add_motion(std::span<const double> changes) {
+    if (std::none_of(changes.begin(), changes.end(), [](double each) { return each > 0; })) return;
+    begin_reach();
+    constexpr double part =
+        static_cast<double>(intervals_of_motion) / static_cast<double>(intervals);
+    const auto change_in = [&](std::size_t n) {
+        const std::size_t k = n * changes.size() / intervals;
+        return part * std::max(changes[k], changes[std::min(k + 1, changes.size() - 1)]);
+    };
+    double sum = 0;  // Of the intervals from `n` to `end`.
+    for (std::size_t n = 0, end = 0; n < intervals; ++n) {
+        if (end <= n) {
+            end = n;
+            sum = 0;
+        }
+        while (end < intervals && sum + change_in(end) <= most_of_range) sum += change_in(end++);
+        reach_[n] = std::clamp<std::size_t>(end - n, 1, reach_[n]);
+        if (end > n) sum -= change_in(n);
+    }
+}
+
+void Forcing::add_jumps(const std::vector<Jump>& jumps) {
+    jumps_.insert(jumps_.end(), jumps.begin(), jumps.end());
+    std::sort(jumps_.begin(), jumps_.end(),
+              [](const Jump& a, const Jump& b) { return a.after < b.after; });
+}
+
+double Forcing::slack() const { return before_jump * interval_ * static_cast<double>(intervals); }
 
 double Forcing::longest_step(double t) const {
     if (reach_.empty()) return std::numeric_limits<double>::infinity();
     const auto n = static_cast<std::size_t>(std::clamp(t / interval_, 0.0, double{intervals - 1}));
-    return static_cast<double>(reach_[n]) * interval_;
+    const double longest = static_cast<double>(reach_[n]) * interval_;
+    const auto next = std::find_if(jumps_.begin(), jumps_.end(),
+                                   [&](const Jump& jump) { return jump.before - 2 * slack() > t; });
+    return next == jumps_.end() ? longest : std::min(longest, next->before - slack() - t);
+}
+
+double Forcing::time_after(double t) const {
+    for (const Jump& jump : jumps_) {
+        if (jump.before - 2 * slack() <= t && t < jump.after) t = jump.after;
+    }
+    return t;
+}
+
+std::vector<double> values_over(double duration, const ValueAt& at) {
+    std::vector<double> values;
+    for (std::size_t n = 0; n <= Forcing::intervals; ++n) {
+        values.push_back(
+            at(duration * static_cast<double>(n) / static_cast<double>(Forcing::intervals)));
+    }
+    return values;
+}
+
+std::vector<Jump> find_jumps(const std::vector<double>& values, double duration,
+                             const ValueAt& at) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const double least = least_jump * (*high - *low);
+    std::vector<Jump> jumps;
+    if (!(least > 0) || !std::isfinite(least)) return jumps;
+    const std::size_t last = values.size() - 1;
+    const auto change = [&](std::size_t n) { return std::abs(values[n + 1] - values[n]); };
+    const auto time_of = [&](std::size_t n) {
+        return duration * static_cast<double>(n) / static_cast<double>(last);
+    };
+    for (std::size_t n = 0; n < last; ++n) {
+        const double beside = std::max(n > 0 ? change(n - 1) : 0, n + 1 < last ? change(n + 1) : 0);
+        const double whole = change(n);
+        if (!(whole > std::max(least, steeper * beside))) continue;
+        Jump jump{time_of(n), time_of(n + 1)};
+        double a = values[n], b = values[n + 1];
+        // What is steep and no jump becomes small before its ends meet.
+        while (2 * std::abs(b - a) > whole) {
+            const double middle = std::midpoint(jump.before, jump.after);
+            if (!(middle > jump.before && middle < jump.after)) break;
+            const double there = at(middle);
+            if (std::abs(there - a) > std::abs(b - there)) {
+                jump.after = middle;
+                b = there;
+            } else {
+                jump.before = middle;
+                a = there;
+            }
+        }
+        if (2 * std::abs(b - a) > whole) jumps.push_back(jump);
+    }
+    return jumps;
 }
 
 }  // namespace cascade

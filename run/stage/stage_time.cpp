@@ -97,11 +97,16 @@ bool StageTimer::chooses_by_error() const {
 
 Forcing StageTimer::forcing(const Program& program, std::uint32_t stage) const {
     if (!std::isfinite(duration_) || duration_ <= 0) return {};
-    std::vector<std::vector<double>> values;
-    for (const Formula& part : parts_of_time(program, stage)) {
-        values.push_back(tools_.over_time(part, duration_));
+    Forcing forcing(duration_);
+    const TimeParts parts = parts_of_time(program, stage);
+    for (const Formula& part : parts.of_time) {
+        const ValueAt at = tools_.at_time(part);
+        const std::vector<double> values = values_over(duration_, at);
+        forcing.add(values);
+        forcing.add_jumps(find_jumps(values, duration_, at));
     }
-    return Forcing(values, duration_);
+    for (const Formula& part : parts.of_places) forcing.add_motion(tools_.motion(part, duration_));
+    return forcing;
 }
 
 void StageTimer::set_first_step() {
@@ -279,6 +284,7 @@ Schedule StageTimer::schedule(std::int64_t last_step, std::int64_t interval) {
         schedule.tolerance = stage_.time.step_tolerance();
         schedule.largest_step = stage_.time.largest_step.value_or(schedule.largest_step);
         schedule.longest_step = [this](double t) { return forcing_.longest_step(t); };
+        schedule.time_after = [this](double t) { return forcing_.time_after(t); };
         schedule.judges_all = judges_all_steps(stage_);
         schedule.error_order = order_of_estimate(stage_.time.solver);
     }

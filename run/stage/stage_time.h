@@ -29,8 +29,10 @@ struct StageTools {
     /// Makes a function that computes formulas that are the same in all cells, to be called
     /// repeatedly.
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
-    /// The values of a formula of constants and `t` alone, at n / Forcing::intervals of a duration.
-    std::function<std::vector<double>(const Formula&, double duration)> over_time;
+    /// The values of a formula of constants and `t` alone.
+    std::function<ValueAt(const Formula&)> at_time;
+    /// For a formula that also reads places: what Forcing::add_motion() takes.
+    std::function<std::vector<double>(const Formula&, double duration)> motion;
     /// Does the condition of the stage's `until` hold?
     std::function<bool()> condition_holds;
     /// Bounds the eigenvalues by a power iteration, if there is no bound by rule.
