@@ -79,7 +79,10 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
         auto grown = run_on_coarser_grids(here, states_, view_.number(), *control_);
         if (!grown || *grown == StageEnd::cancelled) return grown;
     }
-    if (state_.steps == 0) undefined_.look_at_start(view_, *control_);
+    if (state_.steps == 0) {
+        undefined_.look_at_start(view_, *control_);
+        lost_.look(view_, *control_);
+    }
     invariants_ = find_step_invariants(view_);
     const StepProblem& problem = timer_.problem();
     if (here.tilings) tilings_.emplace(*here.tilings, problem, kernels_.identity());
@@ -170,6 +173,8 @@ void StageRun::look_for_doubts() {
         state_.course = {};
     }
     undefined_.look_at_end(view_, *control_);
+    lost_.look(view_, *control_);
+    if (lost_.are_told()) state_.course = {};
 }
 
 /// Adds the steps taken to the account of times.

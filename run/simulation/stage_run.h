@@ -4,6 +4,7 @@
 
 #include "core/result.h"
 #include "core/run_control.h"
+#include "run/simulation/lost_products.h"
 #include "run/simulation/running_stage.h"
 #include "run/simulation/stage_view.h"
 #include "run/simulation/undefined_values.h"
@@ -49,6 +50,7 @@ private:
     StageState& state_;
     const Keeping& keeping_;
     StepKernels kernels_;
+    LostProducts lost_;
     UndefinedValues undefined_;
     RunControl* control_ = nullptr;  ///< For the present call.
     StageTimer timer_;
