@@ -7,6 +7,7 @@
 #include "run/simulation/environment.h"
 #include "run/simulation/finer_run.h"
 #include "run/simulation/finer_view.h"
+#include "run/simulation/pinned_fronts.h"
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_run.h"
 #include "run/simulation/stage_start.h"
@@ -170,7 +171,8 @@ std::string Simulation::remark_on(std::uint32_t k) const {
     const Environment& here = view.environment();
     const std::string remark = describe_end(view.stage(), view.system(), view.state(),
                                             k == here.script->final_stage(), here.counted());
-    if (!remark.empty() || !has_stood_still(view)) return remark;
+    if (!remark.empty()) return remark;
+    if (!has_stood_still(view)) return find_pinned_fronts(view).value_or("");
     return fmt::format(
         "stage '{}' ended as it began: its rates are 0 in all cells{}", view.stage().name,
         here.grid.height == 1 && !here.model ? "; on a line derivatives along y are 0" : "");
