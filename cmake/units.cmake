@@ -15,7 +15,7 @@ list(TRANSFORM units_of_one_file PREPEND ${PROJECT_SOURCE_DIR}/)
 list(TRANSFORM units_of_one_file APPEND .cpp)
 
 # Headers whose templates each unit that uses them compiles again: their users are put into the same units.
-set(heavy_headers "nlohmann/json\\.hpp|json_fields\\.h|glb_file\\.h")
+set(heavy_headers "nlohmann/json\\.hpp|json_fields\\.h|glb_file\\.h|mesh/gltf_")
 
 # The precompiled header for each level of optimisation, as g++ asks for.
 set(common_headers <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <numbers>

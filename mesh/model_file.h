@@ -37,8 +37,8 @@ Result<PolygonSoup> read_off(std::string_view bytes);
 Result<PolygonSoup> read_obj(std::string_view bytes);
 /// STL, text or binary (mesh/stl_file.cpp).
 Result<PolygonSoup> read_stl(std::string_view bytes);
-/// glTF as text or binary by tinygltf (mesh/gltf_file.cpp): all meshes of the scene, transformed by
-/// its nodes. `files` reads external buffers.
+/// glTF 2.0 as text or binary by tinygltf (mesh/gltf_file.cpp): all meshes of the scene as
+/// mesh/gltf_scene.h says. `files` reads external buffers.
 Result<PolygonSoup> read_gltf(std::string_view bytes,
                               const GrantedFiles& files = GrantedFiles::none());
 

@@ -20,7 +20,7 @@ list(APPEND CASCADE_WITHOUT
   core/plane_memory core/read_file core/temporary_file core/transform_planner
   ir/tiered_backend
   atlas/flatten atlas/join_charts atlas/make_charts atlas/unwrap
-  mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_file mesh/half_edges mesh/isotropic_remesh
+  mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_.* mesh/half_edges mesh/isotropic_remesh
   mesh/simplify mesh/subdivide
   surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute

@@ -1,0 +1,29 @@
+// Copies of a glTF node's mesh, by the extension EXT_mesh_gpu_instancing.
+#pragma once
+
+#include "core/result.h"
+#include "mesh/gltf_matrix.h"
+#include "mesh/gltf_model.h"
+#include "mesh/gltf_numbers.h"
+
+#include <optional>
+
+namespace cascade {
+
+class GltfInstances {
+public:
+    /// `is_there` is false if the node has none. Fails on attributes of different lengths, on those
+    /// beyond the data, and if no attribute takes bytes of the file.
+    static Result<GltfInstances> of(const tinygltf::Model& model, const tinygltf::Node& node);
+
+    bool is_there() const { return count_.has_value(); }
+    std::size_t count() const { return count_.value_or(0); }
+    /// Where a copy is, in the coordinates of the node.
+    GltfMatrix matrix(std::size_t copy) const;
+
+private:
+    std::optional<std::size_t> count_;
+    std::optional<GltfNumbers> translation_, rotation_, scale_;
+};
+
+}  // namespace cascade

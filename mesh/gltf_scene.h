@@ -1,0 +1,15 @@
+// The triangles of a glTF file's scene.
+#pragma once
+
+#include "core/result.h"
+#include "mesh/gltf_model.h"
+#include "mesh/polygon_soup.h"
+
+namespace cascade {
+
+/// All meshes of the scene where its nodes, their copies and the joints of skins place them, in the
+/// shape that the default weights of their morph targets give. `bytes` is the size of the file with
+/// its buffers; it limits how often a file may use its data.
+Result<PolygonSoup> read_gltf_scene(const tinygltf::Model& model, std::size_t bytes);
+
+}  // namespace cascade
