@@ -36,12 +36,13 @@ bool has_triangles(const InstancedModel& model) {
     return (model.body && !model.body->triangles.empty()) || model.copies.triangle_count() > 0;
 }
 
-/// Where the coordinates of body and copies begin.
-Result<Vector3d> origin_of(const InstancedModel& model) {
+/// Where the coordinates of body, copies and, if these are merged, their points begin.
+Result<Vector3d> origin_of(const InstancedModel& model, std::vector<Vector3d> points = {}) {
     CHECK(has_triangles(model), "there is a body or a copy");
     const std::vector<Placement>& placements = model.copies.placements;
-    std::vector<Vector3d> points;
-    if (model.body) points = model.body->points;
+    if (model.body) {
+        points.insert(points.end(), model.body->points.begin(), model.body->points.end());
+    }
     Vector3d low = points.empty() ? placements[0].place : points[0], high = low;
     const auto reach = [&](Vector3d p) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -222,10 +223,10 @@ Result<MergedCopies> merge_copies(const Instances& copies) {
 }
 
 Result<std::string> encode_merged_glb(const InstancedModel& model) {
-    const Result<Vector3d> origin = origin_of(model);
-    if (!origin) return tl::unexpected(origin.error());
     const Result<MergedCopies> merged = merge_copies(model.copies);
     if (!merged) return tl::unexpected(merged.error());
+    const Result<Vector3d> origin = origin_of(model, merged->points);
+    if (!origin) return tl::unexpected(origin.error());
     GlbFile file(*origin);
     add_body(model, file);
     if (!merged->triangles.empty()) add_merged(*merged, file);

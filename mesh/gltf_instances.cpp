@@ -1,5 +1,5 @@
-// Each attribute is an accessor with an element for each copy; other attributes, such as colours,
-// have names that begin with an underscore.
+// Each attribute is an accessor with an element for each copy; attributes of other meanings have
+// names that begin with an underscore.
 #include "mesh/gltf_instances.h"
 
 #include "core/quaternion.h"
@@ -47,6 +47,8 @@ Result<GltfInstances> GltfInstances::of(const tinygltf::Model& model, const tiny
         !read("ROTATION", 4, instances.rotation_) || !read("SCALE", 3, instances.scale_)) {
         return wrong();
     }
+    const tinygltf::Value& colour = attributes.Get("_COLOR_0");
+    if (colour.IsInt()) instances.colour_ = GltfNumbers::of(model, colour.GetNumberAsInt());
     // Without any of the three there is nothing to tell the copies apart.
     if (!instances.count_) instances.count_ = 1;
     else if (!has_bytes && *instances.count_ > 0) return wrong();
@@ -61,6 +63,11 @@ GltfMatrix GltfInstances::matrix(std::size_t copy) const {
         turn = {q.x, q.y, q.z, q.w};
     }
     return matrix_of_parts(element_of(translation_, copy), turn, element_of(scale_, copy));
+}
+
+std::optional<std::array<double, 3>> GltfInstances::light(std::size_t copy) const {
+    if (!colour_ || colour_->components() < 3 || copy >= colour_->count()) return {};
+    return std::array{colour_->at(copy, 0), colour_->at(copy, 1), colour_->at(copy, 2)};
 }
 
 }  // namespace cascade

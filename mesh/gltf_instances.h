@@ -6,6 +6,7 @@
 #include "mesh/gltf_model.h"
 #include "mesh/gltf_numbers.h"
 
+#include <array>
 #include <optional>
 
 namespace cascade {
@@ -20,10 +21,13 @@ public:
     std::size_t count() const { return count_.value_or(0); }
     /// Where a copy is, in the coordinates of the node.
     GltfMatrix matrix(std::size_t copy) const;
+    /// The light by which the attribute `_COLOR_0` multiplies a copy's colour, as three.js and
+    /// Babylon.js do; nothing without one.
+    std::optional<std::array<double, 3>> light(std::size_t copy) const;
 
 private:
     std::optional<std::size_t> count_;
-    std::optional<GltfNumbers> translation_, rotation_, scale_;
+    std::optional<GltfNumbers> translation_, rotation_, scale_, colour_;
 };
 
 }  // namespace cascade

@@ -6,6 +6,7 @@
 #include "mesh/gltf_model.h"
 #include "mesh/gltf_numbers.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,11 +14,13 @@
 
 namespace cascade {
 
-/// Where a mesh is placed, and in which shape.
+/// Where a mesh is placed, and in which shape and light.
 struct GltfPlacing {
     const GltfMatrix& matrix;               ///< Of its node; skinned points ignore it.
     const std::vector<GltfMatrix>* joints;  ///< Of its skin; null if there is none.
     std::span<const double> weights;        ///< Of its morph targets; others have none.
+    /// Multiplies the colours of a copy.
+    std::optional<std::array<double, 3>> light = {};
 };
 
 /// An attribute of a primitive with its morph targets.

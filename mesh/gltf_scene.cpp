@@ -18,6 +18,8 @@ namespace cascade {
 
 namespace {
 
+constexpr std::size_t steps_of_copy = 8;  ///< Numbers that are read and matrices.
+
 /// Limits derived from the file's size, with an allowance for small files: a small file can use the
 /// same mesh or list the same triangles any number of times. A copy takes a few bytes and may have
 /// thousands of triangles.
@@ -32,7 +34,6 @@ struct SceneBounds {
         constexpr std::size_t copied_triangles = std::size_t{1} << 24;  // As many as are merged.
         points = std::max(points, std::min(3 * copied_triangles, points + 64 * bytes));
         corners = std::max(corners, std::min(3 * copied_triangles, corners + 192 * bytes));
-        steps += 16 * points;
     }
 };
 
@@ -118,8 +119,10 @@ private:
         }
         if (!copies->is_there()) return add_mesh(*mesh, {matrix, nullptr, weights});
         for (std::size_t k = 0; k < copies->count(); ++k) {
+            if (auto good = take_steps(steps_of_copy); !good) return good;
             const GltfMatrix placed = product(matrix, copies->matrix(k));
-            if (auto added = add_mesh(*mesh, {placed, nullptr, weights}); !added) return added;
+            const GltfPlacing placing{placed, nullptr, weights, copies->light(k)};
+            if (auto added = add_mesh(*mesh, placing); !added) return added;
         }
         return {};
     }
@@ -255,14 +258,18 @@ private:
         const std::optional<MorphedAttribute>& colours = *morphed;
         const std::size_t count = soup_.points.size() - first;
         const bool has_colours = colours && colours->count() == count;
-        any_colour_ = any_colour_ || has_colours;
+        any_colour_ = any_colour_ || has_colours || placing.light;
         if (has_colours) {
             if (auto good = take_steps(colours->parts() - 1, count); !good) return good;
         }
+        const tinygltf::Material* const material = part_of(model_.materials, primitive.material);
         for (std::size_t c = 0; c < 3; ++c) {
+            double factor = placing.light ? (*placing.light)[c] : 1;
+            if (material && material->pbrMetallicRoughness.baseColorFactor.size() > c)
+                factor *= material->pbrMetallicRoughness.baseColorFactor[c];
             for (std::size_t k = 0; k < count; ++k) {
-                colours_[c].values.push_back(has_colours ? static_cast<float>(colours->at(k, c))
-                                                         : 1.0F);
+                colours_[c].values.push_back(
+                    static_cast<float>(factor * (has_colours ? colours->at(k, c) : 1)));
             }
         }
         return {};
