@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "core/file.h"
 #include "core/printable.h"
+#include "mesh/text_words.h"
 
 #include <fmt/format.h>
 
@@ -77,6 +78,8 @@ Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view en
                                      const GrantedFiles& files) {
     const Format* const format = format_of(ending);
     CHECK(format != nullptr, "the ending of a model is checked before its file is read");
+    // A binary STL file begins with anything.
+    if (ending != "stl" && is_utf16(bytes)) return utf16_failure();
     return format->read(bytes, files);
 }
 

@@ -26,8 +26,9 @@ std::string joined_lines(std::string_view bytes) {
     std::string text(bytes);
     for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
         const std::size_t end = text.find_first_not_of('\r', at + 1);
-        if (end != std::string::npos && text[end] == '\n')
-            text.replace(at, end + 1 - at, end + 1 - at, ' ');
+        if (end == std::string::npos) break;
+        const std::size_t after = text[end] == '\n' ? end + 1 : end;
+        if (after > at + 1) text.replace(at, after - at, after - at, ' ');
     }
     return text;
 }

@@ -69,9 +69,13 @@ private:
     bool read_head() {
         Words words = lines_.next();
         if (words.empty()) return false;
-        if (const auto extras = extras_of(words.front())) {
+        const std::size_t end = words.front().find("OFF");
+        const std::size_t size = end == std::string_view::npos ? words.front().size() : end + 3;
+        if (const auto extras = extras_of(words.front().substr(0, size))) {
             extras_ = *extras;
-            words.erase(words.begin());
+            // The first count may follow without a blank.
+            words.front().remove_prefix(size);
+            if (words.front().empty()) words.erase(words.begin());
             if (words.empty()) words = lines_.next();
         }
         if (words.size() < 2) return false;

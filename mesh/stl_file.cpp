@@ -1,5 +1,5 @@
 // Reads STL files (3D Systems, "StereoLithography Interface Specification", 1989), text or binary.
-// A file is binary if its size matches its number of triangles.
+// A file is binary if its size matches its number of triangles, or if it is longer and no text.
 #include "mesh/model_file.h"
 #include "mesh/point_table.h"
 #include "mesh/text_words.h"
@@ -107,16 +107,23 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
 Result<PolygonSoup> read_stl(std::string_view bytes) {
     const bool has_head = bytes.size() >= head_size;
     const std::size_t count = has_head ? word_at(bytes, head_size - 4) : 0;
-    if (has_head && bytes.size() == head_size + count * triangle_size)
-        return read_binary(bytes, count);
-    if (is_word(bytes.substr(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()), 5),
-                "solid")) {
-        return read_text(bytes);
-    }
+    const std::size_t wanted = head_size + count * triangle_size;
+    // A text has no byte of 0, and a number of triangles has one.
+    const bool has_number = has_head && bytes.substr(head_size - 4, 4).find('\0') != bytes.npos;
+    if (has_head && bytes.size() == wanted) return read_binary(bytes, count);
+    // Some programs write something of their own after the triangles. As long as triangles, it
+    // rather means that the number is wrong.
+    const bool is_longer = bytes.size() > wanted;
+    const bool has_more = is_longer && (bytes.size() - wanted) % triangle_size == 0;
+    if (has_number && count > 0 && is_longer && !has_more) return read_binary(bytes, count);
+    if (is_utf16(bytes)) return utf16_failure();
+    const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+    if (!has_number && is_word(bytes.substr(first, 5), "solid")) return read_text(bytes);
     if (!has_head) return failure("this is no STL file that can be read");
     return failure(fmt::format("the STL file is {} bytes long, but its {} triangles take {}",
-                               bytes.size(), count, head_size + count * triangle_size),
-                   "it may be truncated");
+                               bytes.size(), count, wanted),
+                   is_longer ? "the number of triangles, in bytes 81 to 84, is too small"
+                             : "it may be truncated");
 }
 
 }  // namespace cascade

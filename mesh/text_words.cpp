@@ -41,13 +41,31 @@ std::optional<double> number_in(std::string_view word) {
     return is_negative ? -size : size;
 }
 
+bool is_utf16(std::string_view text) {
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return true;
+    if (text.size() < 4) return false;
+    const auto is_zero = [&](std::size_t k) { return text[k] == 0; };
+    return is_zero(0) == is_zero(2) && is_zero(1) == is_zero(3) && is_zero(0) != is_zero(1);
+}
+
+tl::unexpected<Failure> utf16_failure() {
+    return failure("the file is text of 16 bits (UTF-16), and only text of bytes is read",
+                   "save it as UTF-8");
+}
+
+LineReader::LineReader(std::string_view text) : text_(text) {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    if (text.starts_with(mark)) at_ = mark.size();
+}
+
 const std::vector<std::string_view>& LineReader::next() {
     words_.clear();
     while (words_.empty() && at_ < text_.size()) {
-        const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+        const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
         std::string_view line = text_.substr(at_, end - at_);
         line = line.substr(0, line.find('#'));
-        at_ = std::min(end + 1, text_.size());
+        const bool has_both = text_.substr(end, 2) == "\r\n";
+        at_ = std::min(end + (has_both ? 2 : 1), text_.size());
         ++number_;
         words_ = words_of(line);
     }

@@ -1,6 +1,8 @@
 // Lines of a text file, their words, and numbers in words.
 #pragma once
 
+#include "core/result.h"
+
 #include <charconv>
 #include <cstdint>
 #include <optional>
@@ -26,10 +28,18 @@ std::optional<Integer> whole_number_in(std::string_view word) {
     return value;
 }
 
-/// Iterates over the lines of a text that have words. A '#' starts a comment.
+/// Whether a text is UTF-16 of either byte order, in which all Latin letters have a byte of 0.
+bool is_utf16(std::string_view text);
+
+/// Of a model in such a text.
+tl::unexpected<Failure> utf16_failure();
+
+/// Iterates over the lines of a text that have words. A '#' starts a comment. Lines end with a line
+/// feed, a carriage return, or both.
 class LineReader {
 public:
-    explicit LineReader(std::string_view text) : text_(text) {}
+    /// A mark of UTF-8 at the beginning is skipped.
+    explicit LineReader(std::string_view text);
 
     /// The words of the next line; none at the end.
     const std::vector<std::string_view>& next();

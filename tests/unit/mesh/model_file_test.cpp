@@ -158,6 +158,84 @@ TEST(ModelFile, AnOffFileAndAnStlFile) {
     EXPECT_EQ(stl->polygon_count(), 1u);
 }
 
+TEST(ModelFile, OffCountsRightAfterTheWord) {
+    const std::string rest = " 1 0\n0 0 0 1 1\n1 0 0 1 1\n0 1 0 1 1\n3 0 1 2\n";
+    for (const char* head : {"OFF3", "OFF 3", "OFF\n3", "STOFF3", "3"}) {
+        EXPECT_EQ(fault_of(read_off(head + rest)), "read") << head;
+    }
+    for (const char* head : {"OFFx3", "4OFF3", "OFF3x", "OFF-3", "OF3"}) {
+        EXPECT_EQ(fault_of(read_off(head + rest)), "this is no OFF file of text") << head;
+    }
+}
+
+TEST(ModelFile, StlFilesWithMoreThanTheirTriangles) {
+    const auto binary = [](std::string head, std::uint32_t count, std::size_t triangles) {
+        head.resize(80, ' ');
+        head += bytes_of(count);
+        for (std::size_t k = 0; k < triangles; ++k) {
+            const float z = static_cast<float>(k);
+            for (const float number : {0.F, 0.F, 1.F, 0.F, 0.F, z, 1.F, 0.F, z, 0.F, 1.F, z})
+                head += bytes_of(number);
+            head += std::string(2, '\0');
+        }
+        return head;
+    };
+    for (const char* head : {"", "solid of bytes", " Solid"}) {
+        for (const std::size_t more : {0, 1, 12, 120}) {
+            const auto soup = read_stl(binary(head, 2, 2) + std::string(more, 'x'));
+            ASSERT_TRUE(soup) << head << more << fault_of(soup);
+            EXPECT_EQ(soup->polygon_count(), 2u);
+        }
+        // A number that is too small, or not yet written.
+        for (const std::uint32_t count : {0u, 1u}) {
+            const auto soup = read_stl(binary(head, count, 3));
+            ASSERT_FALSE(soup);
+            EXPECT_THAT(soup.error().message, HasSubstr("the STL file is 234 bytes long, but its"));
+            EXPECT_THAT(soup.error().hint, HasSubstr("is too small"));
+        }
+        EXPECT_EQ(read_stl(binary(head, 4, 3)).error().hint, "it may be truncated");
+    }
+}
+
+TEST(ModelFile, LinesEndInEveryWay) {
+    for (const char* end : {"\n", "\r\n", "\r", "\r\r\n"}) {
+        const auto with_ends = [&](std::string text) {
+            std::string all;
+            for (const char c : text) all += c == '\n' ? std::string(end) : std::string(1, c);
+            return all;
+        };
+        const auto obj = read_obj(with_ends("# all\nv 0 0 0\nv 1 0 0\nv 0 \\\n1 0\nf 1 2 3\n"));
+        ASSERT_TRUE(obj) << fault_of(obj);
+        EXPECT_EQ(obj->points.size(), 3u);
+        EXPECT_EQ(obj->polygon_count(), 1u);
+        const auto off = read_off(with_ends("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2"));
+        EXPECT_EQ(fault_of(off), "read");
+        EXPECT_EQ(fault_of(read_stl(
+                      with_ends("solid a\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                                "endloop\nendsolid\n"))),
+                  "read");
+    }
+    EXPECT_EQ(fault_of(read_obj("v 0 0 0\r\nv 1 0 0\r\nv 0 x 0\r\n")),
+              "line 3 of the OBJ file is not the place of a point");
+    EXPECT_EQ(fault_of(read_obj("v 0 0 0\rv 1 0 0\rv 0 x 0\r")),
+              "line 3 of the OBJ file is not the place of a point");
+}
+
+TEST(ModelFile, TextOfOtherUnits) {
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_EQ(fault_of(read_model_bytes("\xef\xbb\xbf" + text, "obj")), "read");
+    for (const char* ending : {"obj", "off", "ply", "stl", "gltf"}) {
+        std::string little, big;
+        for (const char c : text + text + text) {
+            little += {c, '\0'};
+            big += {'\0', c};
+        }
+        for (const std::string& bytes : {little, big, "\xff\xfe" + little, "\xfe\xff" + big}) {
+            EXPECT_THAT(fault_of(read_model_bytes(bytes, ending)), HasSubstr("(UTF-16)")) << ending;
+        }
+    }
+}
+
 TEST(ModelFile, AGltfFileIsPlacedByItsNodes) {
     for (const char* indices : {R"("indices":1,)", ""}) {
         const auto soup = read_gltf(gltf_text(indices));
