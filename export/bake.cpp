@@ -26,6 +26,11 @@ namespace {
 constexpr std::int64_t rows_of_band = 16;  ///< Texels; a thread's unit of work.
 constexpr double most_covered_area = 64;   ///< Beyond it, the texture repeats all over the model.
 
+tl::unexpected<Failure> no_area() {
+    return failure("the model's texture coordinates have no area in the texture",
+                   "--unwrap makes new ones");
+}
+
 /// Working memory of one thread, allocated in advance.
 struct Scratch {
     std::unique_ptr<SamplePainter> painter;
@@ -76,8 +81,7 @@ public:
             overlap.shared += own.overlap.shared;
         }
         if (covered == 0 && !cancel) {
-            return failure("the model's texture coordinates have no area in the texture",
-                           "give the model texture coordinates, or a larger texture");
+            return no_area();
         }
         return finish(covered, overlap);
     }
@@ -323,11 +327,12 @@ private:
 
 }  // namespace
 
-Result<void> check_bakeable(const SurfaceMesh& mesh) {
+Result<void> check_bakeable(const SurfaceMesh& mesh, double samples) {
     if (mesh.texture.empty()) {
         return failure("the model has no texture coordinates to paint by", "--unwrap makes some");
     }
     const double covered = TextureLayout(mesh, 1, 1).covered_area();
+    if (covered * samples < 1) return no_area();
     if (covered <= most_covered_area) return {};
     return failure(
         fmt::format("the model's texture coordinates cover the texture {:.0f} times over", covered),
@@ -351,7 +356,9 @@ Result<Bake> bake(const SurfaceMesh& mesh, const MakeSamplePainter& painter,
     CHECK(is_side(options.width) && is_side(options.height) && options.samples >= 1 &&
               options.samples <= 8,
           "the size of a texture is checked where it is given");
-    if (auto good = check_bakeable(mesh); !good) return tl::unexpected(good.error());
+    const double samples =
+        static_cast<double>(options.width * options.height) * (options.samples * options.samples);
+    if (auto good = check_bakeable(mesh, samples); !good) return tl::unexpected(good.error());
     return enough_memory_for(
         [&]() -> Result<Bake> { return TextureBaker(mesh, painter, options).run(team, cancel); },
         fmt::format("there is not enough memory for a texture of {} × {}", options.width,

@@ -27,14 +27,17 @@ struct Bake : MaterialMaps {
     std::vector<std::string> warnings;  ///< A sentence each.
 };
 
-/// Checks that the model has texture coordinates suitable for baking. Fails, with a hint, if it has
-/// none, or if they cover the texture many times, as those for repeating textures do.
-Result<void> check_bakeable(const SurfaceMesh& mesh);
+/// Checks that the model has texture coordinates suitable for baking maps of this many samples, or
+/// the largest ones. Fails, with a hint, if it has none, if they cover less than a sample, or if
+/// they cover the texture many times, as those for repeating textures do.
+inline constexpr double most_samples =
+    4.0 * BakeOptions::largest_texture * BakeOptions::largest_texture;
+Result<void> check_bakeable(const SurfaceMesh& mesh, double samples = most_samples);
 
 /// Paints every texel with the mean, in linear light, over its samples on the surface, and
 /// extrapolates to all others. Texture coordinates outside of 0 … 1 repeat the picture. Heights
 /// that are not finite are replaced from their surroundings. The same on any number of threads.
-/// Fails as check_bakeable does, if the texture coordinates have no area, and if memory is short;
+/// Fails as check_bakeable does, if no sample is on the surface, and if memory is short;
 /// undefined if `cancel` became true.
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);

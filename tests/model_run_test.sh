@@ -136,6 +136,16 @@ says err "100.0 % of the texture belongs to several parts of the model, over whi
 says err "--unwrap gives each a place of its own"
 run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 --unwrap -o tiles.glb
 grep -q "several parts" err && fail "coordinates of ours overlap"
+# Coordinates in one point, or in less than a sample, are found before the first step.
+sed 's/iterations: [0-9]*/iterations: 100000000/' spots.cascade > long.cascade
+cmp -s long.cascade spots.cascade && fail "no script of many steps"
+for spot in 0 0.0001; do
+    sed "s/^vt 2 0/vt $spot 0/; s/^vt 2 1/vt $spot $spot/; s/^vt 0 1/vt 0 $spot/" tiles.obj > spot.obj
+    run 3 run long.cascade --mesh spot.obj --cells 300 --bake 64 -o spot.glb
+    says err "the model's texture coordinates have no area in the texture"
+    says err "--unwrap makes new ones"
+    run 0 run -q spots.cascade --mesh spot.obj --cells 300 --bake 64 --unwrap -o spot.glb
+done
 
 # Levels of detail: files of their own, and all of them in the first GLB file.
 run 0 $model --lods 3 -o lods.glb -o lods.ply

@@ -124,7 +124,10 @@ Result<std::unique_ptr<LiveRun>> Runner::play_session() {
 Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
     const ModelFileOptions& files = request_.model_files;
     if (!needs_texture(mesh, files)) {
-        return files.has_maps() ? check_bakeable(mesh) : Result<void>();
+        if (!files.has_maps()) return {};
+        BakeOptions usual;
+        const double side = static_cast<double>(usual.samples * files.bake);
+        return check_bakeable(mesh, files.bake > 0 ? side * side : most_samples);
     }
     if (control_.report) {
         Progress progress;

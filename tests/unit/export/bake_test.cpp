@@ -370,7 +370,13 @@ TEST(Bake, RefusesWhatCannotBePainted) {
     mesh.texture.clear();
     EXPECT_THAT(message(), HasSubstr("no texture coordinates to paint by: --unwrap"));
     mesh.texture.assign(mesh.triangles.size(), {});
+    EXPECT_THAT(message(), HasSubstr("have no area in the texture: --unwrap makes new ones"));
+    mesh.texture = texture;
+    for (auto& corners : mesh.texture) {
+        for (TexturePlace& place : corners) place = {place[0] * 0.01F, place[1] * 0.01F};
+    }
     EXPECT_THAT(message(), HasSubstr("have no area in the texture"));
+    EXPECT_TRUE(check_bakeable(mesh));  // Larger maps have samples there.
     mesh.texture = texture;
     for (auto& corners : mesh.texture) {
         for (TexturePlace& place : corners) place = {place[0] * 9, place[1] * 9};
