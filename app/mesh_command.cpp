@@ -5,6 +5,7 @@
 #include "core/enough_memory.h"
 #include "run/domain/describe_model.h"
 #include "run/pictures/model_files.h"
+#include "run/pictures/plain_model.h"
 
 #include <atomic>
 #include <optional>
@@ -57,8 +58,10 @@ private:
         }
         if (options_.mesh_output.empty() || cancel_) return {};
         auto done = write_plain_model(options_.mesh_output, mesh);
-        if (done) lines.push_back("written to " + options_.mesh_output.string());
-        return done;
+        if (!done) return tl::unexpected(done.error());
+        lines.push_back("written to " + options_.mesh_output.string());
+        lines.insert(lines.end(), done->begin(), done->end());
+        return {};
     }
 
     const Options& options_;

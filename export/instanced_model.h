@@ -53,7 +53,7 @@ Result<MergedCopies> merge_copies(const Instances& copies);
 Result<std::string> encode_merged_glb(const InstancedModel& model);
 
 /// A Wavefront OBJ file, likewise: an object `body` and an object `copies`, with colours after the
-/// positions. Nine digits of the copies' coordinates are written.
+/// positions. Nine digits of the copies' coordinates are written, and more far from the origin.
 Result<std::string> encode_merged_obj(const InstancedModel& model);
 
 /// Writes a file of the extension .glb or .obj, atomically. OBJ files are always merged. Fails on

@@ -123,12 +123,13 @@ Result<std::string> encode_all(std::span<const ModelLevel> levels) {
 Result<std::vector<std::filesystem::path>> write_levels(const std::filesystem::path& path,
                                                         std::span<const ModelLevel> levels) {
     std::vector<std::filesystem::path> paths;
+    const Vector3d origin = origin_of_file(path, levels.front().mesh);
     for (std::size_t k = 0; k < levels.size(); ++k) {
         paths.push_back(path_of_level(path, k));
         const bool has_all = k == 0 && lower_ending(path) == ".glb";
         const Result<void> done =
             has_all ? write_encoded(path, [&] { return encode_all(levels); })
-                    : write_model(paths.back(), levels[k].mesh, levels[k].results());
+                    : write_model(paths.back(), levels[k].mesh, levels[k].results(), origin);
         if (!done) return tl::unexpected(done.error());
     }
     return paths;

@@ -15,11 +15,11 @@ namespace cascade {
 namespace {
 
 Result<std::string> encode(const std::string& ending, const SurfaceMesh& mesh,
-                           const PointResults& results) {
+                           const PointResults& results, Vector3d origin) {
     if (ending == ".ply") return encode_ply(mesh, results);
     if (ending == ".obj") return encode_obj(mesh, results);
     if (ending == ".vtp") return encode_vtp(mesh, results);
-    if (ending == ".stl") return encode_stl(mesh);
+    if (ending == ".stl") return encode_stl(mesh, origin);
     GlbLook look;
     look.colours = results.colours;
     return encode_glb(mesh, look);
@@ -33,8 +33,20 @@ bool is_model_ending(const std::filesystem::path& path) {
            ending == ".stl";
 }
 
+Vector3d origin_of_file(const std::filesystem::path& path, const SurfaceMesh& mesh) {
+    return lower_ending(path) == ".stl" ? stl_origin(mesh) : Vector3d{};
+}
+
+std::vector<std::string> remarks_of_origin(const std::filesystem::path& path, Vector3d origin) {
+    if (origin == Vector3d{}) return {};
+    return {
+        fmt::format("'{}' has the model moved by {}, {}, {}, to the origin: STL files hold "
+                    "binary32 numbers, which would blur its triangles where they are",
+                    path.filename().string(), -origin.x, -origin.y, -origin.z)};
+}
+
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
-                         const PointResults& results) {
+                         const PointResults& results, std::optional<Vector3d> origin) {
     CHECK(results.colours.empty() || results.colours.size() == mesh.points.size(),
           "there is a colour for each point");
     for (const Channel& channel : results.channels) {
@@ -46,7 +58,8 @@ Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& m
                         ".vtp or .stl",
                         path.string()));
     }
-    return write_encoded(path, [&] { return encode(lower_ending(path), mesh, results); });
+    const Vector3d begin = origin ? *origin : origin_of_file(path, mesh);
+    return write_encoded(path, [&] { return encode(lower_ending(path), mesh, results, begin); });
 }
 
 }  // namespace cascade

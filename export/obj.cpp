@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace cascade {
@@ -56,13 +59,35 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
     places_ += known.size();
 }
 
+namespace {
+
+/// Of coordinates, so that nine tell the places in the model apart, however far away it is.
+int digits_of(std::span<const Vector3d> points) {
+    constexpr int usual = 9, all = 17;
+    if (points.empty()) return usual;
+    Vector3d low = points[0], high = low;
+    for (const Vector3d& p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    double farthest = 0;
+    for (const double number : {low.x, low.y, low.z, high.x, high.y, high.z})
+        farthest = std::max(farthest, std::abs(number));
+    const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (!(size > 0) || !(farthest > size)) return usual;
+    return std::min(usual + static_cast<int>(std::log10(farthest / size)), all);
+}
+
+}  // namespace
+
 void ObjText::add(const MergedCopies& copies) {
     auto out = std::back_inserter(text_);
+    const int digits = digits_of(copies.points);
     for (std::size_t k = 0; k < copies.points.size(); ++k) {
         const Vector3d& place = copies.points[k];
         const Colour& colour = copies.colours[k];
-        fmt::format_to(out, "v {:.9g} {:.9g} {:.9g} {:.4g} {:.4g} {:.4g}\n", place.x, place.y,
-                       place.z, colour[0], colour[1], colour[2]);
+        fmt::format_to(out, "v {:.{}g} {:.{}g} {:.{}g} {:.4g} {:.4g} {:.4g}\n", place.x, digits,
+                       place.y, digits, place.z, digits, colour[0], colour[1], colour[2]);
     }
     for (const Vector3& normal : copies.normals) {
         fmt::format_to(out, "vn {:.4g} {:.4g} {:.4g}\n", normal.x, normal.y, normal.z);

@@ -14,7 +14,7 @@ public:
     /// Begins an object with a name.
     void begin(std::string_view name);
     void add(const SurfaceMesh& mesh, const PointResults& results);
-    /// With nine digits of coordinates.
+    /// With nine digits of coordinates, and more far from the origin.
     void add(const MergedCopies& copies);
 
     const std::string& text() const { return text_; }

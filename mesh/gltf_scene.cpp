@@ -283,8 +283,9 @@ private:
     PolygonSoup soup_;
     bool all_have_texture_ = true;
     bool any_colour_ = false;
-    std::array<PointAttribute, 3> colours_{PointAttribute{"red", {}}, PointAttribute{"green", {}},
-                                           PointAttribute{"blue", {}}};
+    std::array<PointAttribute, 3> colours_{PointAttribute{"red", {}, 1, true},
+                                           PointAttribute{"green", {}, 1, true},
+                                           PointAttribute{"blue", {}, 1, true}};
 };
 
 }  // namespace

@@ -221,7 +221,7 @@ private:
     void take_from_soup(const std::vector<std::uint32_t>& sources) {
         for (const std::uint32_t source : sources) mesh().points.push_back(soup_.points[source]);
         for (const PointAttribute& attribute : soup_.attributes) {
-            PointAttribute taken{attribute.name, {}};
+            PointAttribute taken = attribute.without_values();
             for (const std::uint32_t source : sources)
                 taken.values.push_back(attribute.values[source]);
             mesh().attributes.push_back(std::move(taken));

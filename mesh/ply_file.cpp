@@ -85,6 +85,16 @@ bool is_one_of(std::string_view name, std::initializer_list<std::string_view> na
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// The colour of all light in this type.
+float full_value(PlyNumber type) {
+    switch (type) {
+        case PlyNumber::uint16: return std::numeric_limits<std::uint16_t>::max();
+        case PlyNumber::float32:
+        case PlyNumber::float64: return 1;
+        default: return std::numeric_limits<std::uint8_t>::max();
+    }
+}
+
 PointColumns columns_of(const PlyElement& element) {
     PointColumns columns;
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -156,7 +166,8 @@ private:
             if (element.properties[k].is_list || is(columns_.place)) continue;
             if (has_point_texture_ && is(columns_.texture)) continue;
             attribute_columns_.push_back(k);
-            soup_.attributes.push_back({element.properties[k].name, {}});
+            soup_.attributes.push_back(
+                {element.properties[k].name, {}, full_value(element.properties[k].type)});
             soup_.attributes.back().values.reserve(element.count);
         }
     }

@@ -16,6 +16,12 @@ namespace cascade {
 struct PointAttribute {
     std::string name;
     std::vector<float> values;  ///< One per point.
+    // Of colours, which files have in different ways:
+    float full = 1;         ///< The value of all light: 255 if the file has bytes.
+    bool is_light = false;  ///< In proportion to light, not sRGB.
+
+    /// The same without values.
+    PointAttribute without_values() const { return {name, {}, full, is_light}; }
 };
 
 /// Texture coordinates, (0, 0) at the lower left and (1, 1) at the upper right.

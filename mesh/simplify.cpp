@@ -188,8 +188,7 @@ Result<Simplified> simplify(const SurfaceMesh& mesh, std::size_t triangles,
     for (std::uint32_t& point : result.merged) point = indices[point];
     result.mesh = surface_mesh(*edited, result.points);
     for (const PointAttribute& attribute : mesh.attributes) {
-        PointAttribute& kept =
-            result.mesh.attributes.emplace_back(PointAttribute{attribute.name, {}});
+        PointAttribute& kept = result.mesh.attributes.emplace_back(attribute.without_values());
         for (const std::uint32_t point : result.points) {
             kept.values.push_back(attribute.values[point]);
         }

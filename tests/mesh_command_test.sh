@@ -64,6 +64,80 @@ says out "made texture coordinates: "
 run 0 mesh new.ply --subdivide 1 -o fine.ply
 run 0 mesh fine.ply
 says out "texture coordinates: "
+# Colours and numbers of the file are kept where a format has them, and said to be left out where it has not.
+cat > coloured.ply <<'END'
+ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+property uchar red
+property uchar green
+property uchar blue
+property float u
+property float warmth
+element face 4
+property list uchar int vertex_indices
+end_header
+0 0 0 0 0 1 255 0 7 0.5 1
+1 0 0 0 0 1 1 2 3 0.25 2
+0 1 0 0 0 1 128 64 32 0.125 3
+0 0 1 0 0 1 0 200 254 1 -4
+3 0 2 1
+3 0 1 3
+3 1 2 3
+3 0 3 2
+END
+cat > colours.py <<'END'
+import subprocess, sys
+want = [(255, 0, 7), (1, 2, 3), (128, 64, 32), (0, 200, 254)]
+head, body = open(sys.argv[1], "rb").read().split(b"end_header\n", 1)
+names = [line.split()[-1].decode() for line in head.splitlines() if line.startswith(b"property") and b"list" not in line]
+import struct
+types = "".join({b"float": "f", b"uchar": "B", b"double": "d"}[line.split()[1]] for line in head.splitlines() if line.startswith(b"property") and b"list" not in line)
+step = struct.calcsize("<" + types)
+rows = [dict(zip(names, struct.unpack_from("<" + types, body, step * k))) for k in range(4)]
+assert [(r["red"], r["green"], r["blue"]) for r in rows] == want, rows
+for name, values in ("u_", [0.5, 0.25, 0.125, 1]), ("warmth", [1, 2, 3, -4]):
+    if "numbers" in sys.argv: assert [r[name] for r in rows] == values, rows
+assert not {"nx_", "red_"} & set(names), names
+END
+run 0 mesh coloured.ply -o kept.ply
+grep -q "without" out && fail "a PLY file holds everything"
+command -v python3 >/dev/null && { python3 colours.py kept.ply numbers || fail "colours and numbers of kept.ply"; }
+for ending in obj glb; do
+    run 0 mesh coloured.ply -o kept.$ending
+    says out "without u, warmth, which .$ending files cannot hold"
+    run 0 mesh kept.$ending -o again.ply
+    says out "attributes red, green, blue"
+    command -v python3 >/dev/null && { python3 colours.py again.ply || fail "colours of kept.$ending"; }
+done
+run 0 mesh coloured.ply -o kept.vtp
+grep -qa 'Name="warmth"' kept.vtp || fail "numbers in a .vtp"
+grep -qa 'Name="color"' kept.vtp || fail "colours in a .vtp"
+run 0 mesh coloured.ply -o kept.stl
+says out "without its colours, which .stl files cannot hold"
+says out "without u, warmth, which .stl files cannot hold"
+run 0 mesh new.ply -o kept.stl
+says out "without its texture coordinates, which .stl files cannot hold"
+run 0 mesh coloured.ply --subdivide 2 --simplify 20 -o fewer.ply
+run 0 mesh fewer.ply
+says out "attributes nx, ny, nz, red, green, blue, u_, warmth"
+printf 'COFF\n3 1 0\n0 0 0 255 0 7 255\n1 0 0 1 2 3 255\n0 1 0 128 64 32 255\n3 0 1 2\n' > colours.off
+run 0 mesh colours.off -o colours.obj
+grep -q "^v 1 0 0 0.00392157 0.00784314 0.0117647" colours.obj || fail "colours of an OFF file"
+# Far from the origin an STL file is moved, and says so.
+sed 's/^v \([01]\) \([01]\) /v 40300\1.0\1 -360490\2.7\2 /' cube.obj > far.obj
+run 0 mesh far.obj -o far.stl
+says out "'far.stl' has the model moved by -403000"
+run 0 mesh far.stl
+says out "8 points, 12 triangles, 1 connected component"
+run 0 mesh far.obj -o far.ply
+grep -q moved out && fail "a PLY file holds all digits"
 run 0 mesh cube.obj --simplify 50
 says out "not simplified: it has no more triangles than that"
 run 0 mesh round.ply --simplify 1

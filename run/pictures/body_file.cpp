@@ -24,7 +24,8 @@ Result<WrittenFiles> write_levels_of(const std::filesystem::path& path, const Su
     if (!all) return tl::unexpected(all.error());
     auto paths = write_levels(path, *all);
     if (!paths) return tl::unexpected(paths.error());
-    return WrittenFiles{*std::move(paths), {}};
+    return WrittenFiles{*std::move(paths),
+                        remarks_of_origin(path, origin_of_file(path, all->front().mesh))};
 }
 
 }  // namespace

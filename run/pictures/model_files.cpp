@@ -98,11 +98,6 @@ ModelFileWriter::ModelFileWriter(const ModelCells& model, const MeshTexture& tex
       texts_(std::move(texts)),
       team_(hardware_threads()) {}
 
-Result<void> write_plain_model(const std::filesystem::path& path, const SurfaceMesh& mesh) {
-    return enough_memory_for([&] { return write_model(path, mesh, {}); },
-                             "cannot write '" + path.string() + "': there is not enough memory");
-}
-
 ModelFileWriter::~ModelFileWriter() = default;
 
 const CellFilter& ModelFileWriter::filter() {
@@ -150,7 +145,8 @@ Result<WrittenFiles> ModelFileWriter::write_with_levels(const std::filesystem::p
     }
     auto paths = write_levels(path, levels_);
     if (!paths) return tl::unexpected(paths.error());
-    return WrittenFiles{*std::move(paths), {}};
+    return WrittenFiles{*std::move(paths),
+                        remarks_of_origin(path, origin_of_file(path, levels_.front().mesh))};
 }
 
 Result<void> ModelFileWriter::make_levels() {

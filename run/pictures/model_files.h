@@ -69,10 +69,6 @@ Result<MeshTexture> made_texture(const SurfaceMesh& mesh, std::int64_t side, Tea
 /// The mesh in the coordinates of the model's file, with this texture unless it is empty.
 SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture);
 
-/// Writes a mesh without colours to a .glb, .obj or .ply, as write_model() of export/ does. Fails
-/// if memory is short, too.
-Result<void> write_plain_model(const std::filesystem::path& path, const SurfaceMesh& mesh);
-
 /// How a model looked at moments of a run, the last one last.
 struct ModelGrowth {
     static constexpr std::size_t most = 64;  ///< Moments.

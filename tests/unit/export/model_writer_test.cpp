@@ -153,6 +153,39 @@ TEST(ModelWriter, GlbRefusesWhatBinary32DoesNotHold) {
     }
 }
 
+TEST(ModelWriter, StlFilesOfModelsFarAwayAreMoved) {
+    const SurfaceMesh ball = sphere_with_texture(12);
+    const auto moved = [&](Vector3d by, double scale) {
+        SurfaceMesh mesh = ball;
+        for (Vector3d& p : mesh.points) p = p * scale + by;
+        return mesh;
+    };
+    // Near enough: as it is.
+    for (const Vector3d by : {Vector3d{}, {3, 0, 0}, {40.1, -20, 7}}) {
+        EXPECT_EQ(stl_origin(moved(by, 1)), Vector3d{});
+    }
+    EXPECT_EQ(stl_origin(moved({4096, 0, 0}, 1e-9)).y, 0);
+    for (const Vector3d by : {Vector3d{403000, 3604900, 1000}, {0, 0, -1e9}, {1e5, 0, 0}}) {
+        for (const double scale : {0.05, 0.75}) {
+            const SurfaceMesh mesh = moved(by, scale);
+            const Vector3d origin = stl_origin(mesh);
+            EXPECT_LE(length(origin - by), 1e-6 * length(by));
+            const SurfaceMesh read = read_back(read_stl(encode_stl(mesh, origin)));
+            EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
+            EXPECT_EQ(facts_of(read).boundary_edges, 0U);
+            EXPECT_NEAR(read.total_area(), mesh.total_area(), 1e-5 * mesh.total_area());
+        }
+    }
+    // Exact numbers stay where they are.
+    SurfaceMesh square = flat_square(2);
+    for (Vector3d& p : square.points) p = p + Vector3d{1 << 20, 0, 0};
+    EXPECT_EQ(stl_origin(square), Vector3d{});
+    EXPECT_TRUE(remarks_of_origin("a.stl", {}).empty());
+    EXPECT_THAT(remarks_of_origin("x/a.stl", {1, -2, 0.5}).at(0),
+                HasSubstr("'a.stl' has the model moved by -1, 2, -0.5, to the origin"));
+    EXPECT_EQ(origin_of_file("a.ply", moved({1e6, 0, 0}, 0.05)), Vector3d{});
+}
+
 TEST(ModelWriter, WhatIsNoNumberHasAMeaning) {
     const SurfaceMesh mesh = flat_square(1);
     const float nan = -std::numeric_limits<float>::quiet_NaN();
