@@ -56,6 +56,34 @@ std::string gltf_with_buffer(std::string_view indices_accessor, std::string_view
            R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
 }
 
+/// A skinned node and one with copies: sparse places, a morph target, a second set of texture
+/// coordinates that are transformed.
+std::string rich_glb() {
+    constexpr std::string_view json =
+        R"({"asset":{"version":"2.0"},"extensionsRequired":["EXT_mesh_gpu_instancing"],"scene":0,)"
+        R"("scenes":[{"nodes":[0,1,2]}],"nodes":[{"mesh":0,"skin":0},{"children":[3]},{"mesh":0,)"
+        R"("weights":[1],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":5,)"
+        R"("SCALE":5,"_COLOR_0":5}}}},{"translation":[1,0,0]}],"skins":[{"joints":[3,1]}],)"
+        R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1,)"
+        R"("extensions":{"KHR_texture_transform":{"offset":[1,0],"scale":[2,2],"rotation":1}}}}}],)"
+        R"("meshes":[{"weights":[0.5],"primitives":[{"material":0,"indices":1,"attributes":)"
+        R"({"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3,"TEXCOORD_1":6},"targets":[{"POSITION":4}]}]}],)"
+        R"("buffers":[{"byteLength":68}],"bufferViews":[{"buffer":0,"byteLength":36},)"
+        R"({"buffer":0,"byteOffset":36,"byteLength":6},{"buffer":0,"byteOffset":44,"byteLength":12},)"
+        R"({"buffer":0,"byteOffset":56,"byteLength":12}],"accessors":[)"
+        R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,)"
+        R"("indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":0}}},)"
+        R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},)"
+        R"({"bufferView":2,"componentType":5121,"count":3,"type":"VEC4"},)"
+        R"({"bufferView":3,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"},)"
+        R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+        R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+        R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}]})";
+    std::string data = triangle_data() + std::string(14, '\0');
+    for (int point = 0; point < 3; ++point) data += std::string("\xff\0\0\0", 4);
+    return glb_file(json, data);
+}
+
 constexpr std::string_view text_ply = R"(ply
 format ascii 1.0
 comment a tetrahedron of polygons and a strip
@@ -162,7 +190,8 @@ std::vector<SmallModel> small_models() {
             {"STL text", "stl", std::string(text_stl)},
             {"STL binary", "stl", binary_stl()},
             {"glTF", "gltf", gltf_text()},
-            {"GLB", "glb", glb_file(gltf_with_buffer(R"("indices":1,)", ""), triangle_data())}};
+            {"GLB", "glb", glb_file(gltf_with_buffer(R"("indices":1,)", ""), triangle_data())},
+            {"GLB with a skin", "glb", rich_glb()}};
 }
 
 std::string small_torus_obj() {

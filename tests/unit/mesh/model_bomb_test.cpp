@@ -45,6 +45,20 @@ TEST(ModelBomb, WhatIsPlacedAgainAndAgainIsBoundedByTheFilesSize) {
                 HasSubstr("too many for its size"));
 }
 
+/// The same data are the places of copies, of which each node has 300.
+TEST(ModelBomb, CopiesAreBoundedByTheFilesSize) {
+    const std::string node =
+        R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}})";
+    const std::string primitive = R"({"attributes":{"POSITION":0}})";
+    EXPECT_EQ(outcome(with_nodes(node, primitive, "0")), "a model");
+    EXPECT_THAT(outcome(with_nodes(node, repeated(primitive, 40), "0")),
+                HasSubstr("too many for its size"));
+    std::string roots;
+    for (int k = 0; k < 100; ++k) roots += (k > 0 ? "," : "") + std::to_string(k);
+    EXPECT_THAT(outcome(with_nodes(repeated(node, 100), primitive, roots)),
+                HasSubstr("too many for its size"));
+}
+
 TEST(ModelBomb, ObjectsOfTwoBytesAreCounted) {
     const std::string nodes = repeated("{}", 400'000);
     EXPECT_THAT(outcome(with_nodes(nodes, "{}", "0")),
