@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 namespace cascade {
 
@@ -38,9 +39,24 @@ GltfTexture described_by(const Info& info) {
     return texture;
 }
 
+/// The texture of colours of older files, if the material has one.
+std::optional<GltfTexture> diffuse_texture(const tinygltf::Material& material) {
+    const auto found = material.extensions.find("KHR_materials_pbrSpecularGlossiness");
+    if (found == material.extensions.end() || !found->second.IsObject()) return {};
+    const tinygltf::Value& info = found->second.Get("diffuseTexture");
+    if (!info.IsObject()) return {};
+    tinygltf::TextureInfo read;
+    if (info.Get("texCoord").IsInt()) read.texCoord = info.Get("texCoord").GetNumberAsInt();
+    const tinygltf::Value& extensions = info.Get("extensions");
+    const char* const transform = "KHR_texture_transform";
+    if (extensions.IsObject()) read.extensions[transform] = extensions.Get(transform);
+    return described_by(read);
+}
+
 GltfTexture texture_of_material(const tinygltf::Material& material) {
     const auto& shine = material.pbrMetallicRoughness;
     if (shine.baseColorTexture.index >= 0) return described_by(shine.baseColorTexture);
+    if (const auto texture = diffuse_texture(material)) return *texture;
     if (material.normalTexture.index >= 0) return described_by(material.normalTexture);
     if (shine.metallicRoughnessTexture.index >= 0) {
         return described_by(shine.metallicRoughnessTexture);

@@ -48,6 +48,8 @@ for folder in $folders; do
 done
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]OpenMesh/' $folders |
     grep -vE '^mesh/(half_edges\.h|simplify\.cpp|subdivide\.cpp):')
+broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]tiny_gltf\.h' $folders |
+    grep -vE '^mesh/gltf_(model\.h|file\.cpp):')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]OpenEXR/' $folders |
     grep -v '^picture/exr\.cpp:')
 broken+=$(grep -rE --include='*.h' --include='*.cpp' 'include *[<"]openvdb/' $folders |

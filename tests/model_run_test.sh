@@ -136,6 +136,14 @@ says err "100.0 % of the texture belongs to several parts of the model, over whi
 says err "--unwrap gives each a place of its own"
 run 0 run spots.cascade --mesh tiles.obj --cells 300 --bake 64 --unwrap -o tiles.glb
 grep -q "several parts" err && fail "coordinates of ours overlap"
+# Far from the origin an STL file is moved, and its levels alike.
+sed 's/^v \([01]\) \([01]\) /v 40300\1.0\1 360490\2.7\2 /' square.obj > far.obj
+run 0 run spots.cascade --mesh far.obj --cells 300 -o far.stl --lods 2
+says err "'far.stl' has the model moved by -403000"
+run 0 mesh far.stl
+says out "1 boundary, Euler characteristic 1"
+run 0 run spots.cascade --mesh far.obj --cells 300 -o far.ply
+grep -q moved err && fail "a PLY file holds all digits"
 # Coordinates in one point, or in less than a sample, are found before the first step.
 sed 's/iterations: [0-9]*/iterations: 100000000/' spots.cascade > long.cascade
 cmp -s long.cascade spots.cascade && fail "no script of many steps"

@@ -130,6 +130,11 @@ TEST(GltfTexture, TheSetThatTheMaterialNames) {
     // Without a texture of colours, that of normals.
     file.json["materials"][0] = {{"normalTexture", {{"index", 0}, {"texCoord", 1}}}};
     expect_texture(file, {{0, 0}, {1, 1}, {0, 0.2}});
+    // Older files have the texture of colours in an extension.
+    file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+        {"diffuseTexture",
+         {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}}}};
+    expect_texture(file, {{0, 0}, {2, 0}, {0, 3}});
     file.primitive()["material"] = 9;
     expect_texture(file, {{0, 0}, {1, 0}, {0, 1}});
 }
