@@ -140,7 +140,7 @@ std::vector<ast::Word> SystemChecker::names_without_values(const Declaration& co
         for (const ast::Word& name : names_in(from)) {
             if (in_definitions) {
                 for (const Declaration* each : definitions_) {
-                    if (each->name == name.text) waiting.push_back(each);
+                    if (each && each->name == name.text) waiting.push_back(each);
                 }
             }
             const bool is_known =
@@ -170,7 +170,8 @@ bool SystemChecker::find_unknown(Declaration& constraint, bool in_definitions) {
     if (unknown.empty()) {
         for (const ast::Word& name : names_in(constraint)) {
             const auto other = std::ranges::find_if(definitions_, [&](const Declaration* each) {
-                return each->kind() == ast::StatementKind::constraint && each->name == name.text;
+                return each && each->kind() == ast::StatementKind::constraint &&
+                       each->name == name.text;
             });
             if (other == definitions_.end()) continue;
             if ((*other)->level == constraint.level) {

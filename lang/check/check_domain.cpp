@@ -165,7 +165,6 @@ void check_mask(Workspace& work, const ast::Script& script, const ast::Statement
     if (!has_one_value(work, script, statement)) return;
     Scope scope;
     scope.context = Context::mask;
-    scope.system = unknown_system;
     auto checked = check_number(work, script, statement.values[0], scope);
     if (!checked) return;
     work.draft->domain.mask = {std::move(checked->formula), span_of(script, statement.values[0])};

@@ -45,15 +45,22 @@ std::optional<ModelShape> shape_of(std::string_view word) {
     return word == word_of(ModelShape::implicit) ? ModelShape::implicit : shape_named(word);
 }
 
-/// The statement of a block that names a model; null if there is none.
-const ast::Statement* model_of(const ast::Script& script, const ast::Block& domain) {
+/// The statement of a block that names a surface; null if there is none. Another one, which is
+/// wrong, may come before it.
+const ast::Statement* model_surface_of(const ast::Script& script, const ast::Block& domain) {
     for (const ast::Statement& statement : domain.statements) {
-        if (statement.values.empty()) continue;
-        if (statement.name.text == "mesh") return &statement;
         if (statement.name.text == "surface" && is_model_surface(script, statement))
             return &statement;
     }
     return nullptr;
+}
+
+/// The statement of a block that names a model; null if there is none.
+const ast::Statement* model_of(const ast::Script& script, const ast::Block& domain) {
+    for (const ast::Statement& statement : domain.statements) {
+        if (statement.name.text == "mesh" && !statement.values.empty()) return &statement;
+    }
+    return model_surface_of(script, domain);
 }
 
 /// The statement of --mesh, which names a file or a shape; null if it was not given.
@@ -72,8 +79,7 @@ public:
             check_named(*option_);
         } else {
             const ast::Statement* mesh = find("mesh");
-            const ast::Statement* surface = find("surface");
-            if (surface != nullptr && !is_model_surface(script_, *surface)) surface = nullptr;
+            const ast::Statement* surface = model_surface_of(script_, domain_);
             if (mesh != nullptr && surface != nullptr) {
                 return report_twice(work_, surface->name.span, mesh->name.span,
                                     "a domain has a mesh or a surface, not both");

@@ -93,7 +93,8 @@ struct IndexValue {
 
 struct Scope {
     Context context = Context::value;
-    SystemId system;                     ///< The system whose names are read without a prefix.
+    /// The system whose names are read without a prefix; unknown where none has a meaning.
+    SystemId system = unknown_system;
     std::optional<std::uint32_t> stage;  ///< Empty inside a system.
     std::uint32_t last_stage = 0;        ///< In pictures: the last stage that can be read.
     std::string_view subject;            ///< In constants: the name of the value in messages.

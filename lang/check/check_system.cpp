@@ -37,7 +37,7 @@ void SystemChecker::run() {
 /// `u_t = …` is a definition in the language, but a rate on paper.
 void SystemChecker::report_no_rates() {
     const auto is_paper_rate = [&](const Declaration* each) {
-        return each->name.size() > 2 && each->name.ends_with("_t");
+        return each && each->name.size() > 2 && each->name.ends_with("_t");
     };
     const auto found = std::find_if(definitions_.begin(), definitions_.end(), is_paper_rate);
     if (found == definitions_.end()) {
@@ -152,7 +152,7 @@ void SystemChecker::report_families() {
 void SystemChecker::report_rate_of_definition(const Declaration& rate) {
     const auto definition =
         std::find_if(definitions_.begin(), definitions_.end(),
-                     [&](const Declaration* each) { return each->name == rate.name; });
+                     [&](const Declaration* each) { return each && each->name == rate.name; });
     if (definition != definitions_.end() && (*definition)->level >= rate.level) {
         work_.diagnostics.error((*definition)->span(),
                                 fmt::format("'{}' is a species and cannot be a definition",

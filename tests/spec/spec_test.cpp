@@ -6,7 +6,7 @@
 #include "lang/vocabulary/settings.h"
 #include "run/script/script.h"
 #include "support/same_meaning.h"
-#include "tests/spec/code_blocks.h"
+#include "tests/support/code_blocks.h"
 #include "tests/spec/sound_kernels.h"
 
 #include <gmock/gmock.h>

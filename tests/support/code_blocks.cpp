@@ -1,5 +1,5 @@
 // See code_blocks.h.
-#include "tests/spec/code_blocks.h"
+#include "tests/support/code_blocks.h"
 
 #include <algorithm>
 
