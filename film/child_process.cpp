@@ -1,14 +1,18 @@
 // posix_spawn() with a pipe for the input and an unnamed temporary file for errors, which cannot
-// fill up and block as a second pipe would.
+// fill up and block as a second pipe would. No call blocks: a program that hangs would not let this
+// one end.
 #include "film/child_process.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -47,6 +51,26 @@ std::string last_line(std::FILE* file) {
     return begin == std::string::npos ? text : text.substr(begin + 1);
 }
 
+/// Another end of a pipe, from which can be read what nobody has; none without /proc.
+Descriptor reader_of(const Descriptor& input) {
+    const std::string name = fmt::format("/proc/self/fd/{}", input.number());
+    return Descriptor(::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+}
+
+bool has_bytes(const Descriptor& reader) {
+    char byte = 0;
+    return reader.is_open() && ::read(reader.number(), &byte, 1) == 1;
+}
+
+/// The time of the processor that it has taken; nothing if it is gone.
+std::chrono::nanoseconds time_computed(pid_t process) {
+    clockid_t clock{};
+    timespec time{};
+    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+        return {};
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
 }  // namespace
 
 bool is_program(const std::filesystem::path& path) {
@@ -55,18 +79,20 @@ bool is_program(const std::filesystem::path& path) {
            ::access(path.c_str(), X_OK) == 0;
 }
 
-Result<std::unique_ptr<ChildProcess>> ChildProcess::start(
-    const std::filesystem::path& program, const std::vector<std::string>& arguments) {
+Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const std::filesystem::path& program,
+                                                          const std::vector<std::string>& arguments,
+                                                          Patience patience) {
     const std::string name = program.filename().string();
     const auto cannot = [&](int error) {
         return failure(fmt::format("{} cannot be started: {}", name, std::strerror(error)));
     };
-    std::unique_ptr<ChildProcess> child(new ChildProcess);
+    std::unique_ptr<ChildProcess> child(new ChildProcess(patience));
     child->errors_.reset(std::tmpfile());
     std::array<int, 2> ends{};
     if (!child->errors_ || ::pipe2(ends.data(), O_CLOEXEC) != 0) return cannot(errno);
     const Descriptor its_end(ends[0]);
     child->input_.emplace(ends[1]);
+    ::fcntl(ends[1], F_SETFL, O_NONBLOCK);
 
     Orders orders;
     posix_spawn_file_actions_adddup2(&orders.files, its_end.number(), STDIN_FILENO);
@@ -94,22 +120,69 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(
 
 ChildProcess::~ChildProcess() {
     if (process_ < 0) return;
-    ::kill(process_, SIGKILL);
+    give_up();
     (void)end();
 }
 
-bool ChildProcess::write(std::string_view bytes) { return write_all(*input_, bytes) == 0; }
+void ChildProcess::give_up() {
+    is_given_up_ = true;
+    ::kill(-process_, SIGKILL);
+}
+
+/// Is this program to end, and the other one not getting on?
+bool ChildProcess::is_hopeless() {
+    if (!patience_.is_over) {
+        begin_waiting();
+        return false;
+    }
+    const Clock::time_point now = Clock::now();
+    const std::chrono::nanoseconds computed = time_computed(process_);
+    if (computed != computed_) active_at_ = now;
+    computed_ = computed;
+    return now - std::max(active_at_, taken_at_) >= patience_.while_idle ||
+           now - taken_at_ >= patience_.while_busy;
+}
+
+bool ChildProcess::write(std::string_view bytes) {
+    begin_waiting();
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(input_->number(), bytes.data(), bytes.size());
+        if (written > 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+            begin_waiting();
+            continue;
+        }
+        if (errno == EINTR) continue;
+        has_refused_ = errno != EAGAIN || is_hopeless();
+        if (has_refused_) return false;
+        pollfd room{input_->number(), POLLOUT, 0};
+        ::poll(&room, 1, 100);
+    }
+    return true;
+}
 
 ChildProcess::End ChildProcess::end() {
+    const Descriptor rest = reader_of(*input_);
     input_.reset();
+    begin_waiting();
     int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    for (int milliseconds = 1;; milliseconds = std::min(2 * milliseconds, 50)) {
+        const pid_t ended = ::waitpid(process_, &status, is_given_up_ ? 0 : WNOHANG);
+        if (ended == process_ || (ended < 0 && errno != EINTR)) break;
+        if (!is_given_up_ && is_hopeless()) give_up();
+        else ::poll(nullptr, 0, milliseconds);
     }
     process_ = -1;
     End end;
-    end.is_good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    const bool has_read_all = !has_refused_ && !has_bytes(rest);
+    const bool is_success = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    end.is_good = is_success && has_read_all && !is_given_up_;
     end.last_words = last_line(errors_.get());
-    if (end.last_words.empty()) {
+    if (is_given_up_) {
+        end.last_words = "it did not get on, and was ended";
+    } else if (is_success && !has_read_all) {
+        end.last_words = "it ended before it had everything";
+    } else if (end.last_words.empty()) {
         end.last_words = WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
                                              : fmt::format("status {}", WEXITSTATUS(status));
     }

@@ -4,6 +4,8 @@
 #include "core/descriptor.h"
 #include "core/result.h"
 
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -18,24 +20,32 @@ namespace cascade {
 /// True for a file that may be started.
 bool is_program(const std::filesystem::path& path);
 
+/// How long a process is waited for once this program is to end. Until then it may take any time.
+struct Patience {
+    const std::atomic<bool>& is_over;     ///< Set when this program is to end.
+    std::chrono::seconds while_idle{5};   ///< It takes nothing and computes nothing.
+    std::chrono::seconds while_busy{60};  ///< It takes nothing.
+};
+
 /// Started without a shell, in a process group of its own: signals of the terminal do not reach it.
-/// What it prints is dropped but for its errors. Its destructor ends it.
+/// What it prints is dropped but for its errors. Its destructor ends it, and what it has started.
 class ChildProcess {
 public:
     struct End {
-        bool is_good = false;    ///< It ended by itself, with status 0.
+        bool is_good = false;    ///< It ended by itself, with status 0, and had read everything.
         std::string last_words;  ///< Its last line of errors; else how it ended.
     };
 
     static Result<std::unique_ptr<ChildProcess>> start(const std::filesystem::path& program,
-                                                       const std::vector<std::string>& arguments);
+                                                       const std::vector<std::string>& arguments,
+                                                       Patience patience);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     /// Writes to its standard input; false if it no longer reads.
     bool write(std::string_view bytes);
-    /// Closes its input and waits for its end.
+    /// Closes its input and waits for its end. If patience runs out, it is ended.
     End end();
 
 private:
@@ -43,8 +53,18 @@ private:
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
-    ChildProcess() = default;
+    using Clock = std::chrono::steady_clock;
 
+    explicit ChildProcess(Patience patience) : patience_(patience) {}
+    void begin_waiting() { taken_at_ = active_at_ = Clock::now(); }
+    bool is_hopeless();
+    void give_up();
+
+    Patience patience_;
+    Clock::time_point taken_at_, active_at_;  ///< When it has last taken bytes, or computed.
+    std::chrono::nanoseconds computed_{0};    ///< Time of the processor, at active_at_.
+    bool is_given_up_ = false;
+    bool has_refused_ = false;  ///< It has not taken what was written.
     pid_t process_ = -1;
     std::optional<Descriptor> input_;
     std::unique_ptr<std::FILE, CloseFile> errors_;

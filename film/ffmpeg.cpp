@@ -5,6 +5,7 @@
 #include "core/check.h"
 #include "core/growing_file.h"
 #include "film/child_process.h"
+#include "film/frames_in_film.h"
 
 #include <fmt/format.h>
 
@@ -70,12 +71,14 @@ std::int64_t even(std::int64_t side) { return side + side % 2; }
 
 class FfmpegWriter : public FilmWriter {
 public:
-    explicit FfmpegWriter(std::filesystem::path path) : path_(std::move(path)) {}
+    FfmpegWriter(std::filesystem::path path, Patience patience)
+        : path_(std::move(path)), patience_(patience) {}
 
     /// Without a file ffmpeg drops what it encodes.
     Result<void> begin(FilmFormat format, const FilmSettings& settings, const FilmFrame& first,
                        std::unique_ptr<GrowingFile> file) {
         if (auto found = find_ffmpeg(path_); !found) return found;
+        format_ = format;
         file_ = std::move(file);
         has_alpha_ = format == FilmFormat::webm && has_alpha(first);
         auto words = arguments({format, settings.frames_per_second, even(first.width),
@@ -83,7 +86,7 @@ public:
         if (!file_) words.insert(words.end(), {"-f", "null"});
         // "file:" keeps ffmpeg from reading a protocol or an option into a name.
         words.push_back(file_ ? "file:" + file_->temporary_path().string() : "-");
-        auto process = ChildProcess::start(program_named("ffmpeg"), words);
+        auto process = ChildProcess::start(program_named("ffmpeg"), words, patience_);
         if (!process) return tl::unexpected(process.error());
         process_ = *std::move(process);
         return {};
@@ -95,13 +98,19 @@ public:
             if (y < frame.height) row = colours_of(frame, y);
             bytes += row;
         }
+        ++frames_;
         if (process_->write(bytes)) return {};
         return outcome();
     }
 
     Result<void> finish() override {
         if (auto done = outcome(); !done) return done;
-        return file_ ? file_->complete() : Result<void>();
+        if (!file_) return {};
+        const auto held = frames_in_film(file_->temporary_path(), format_ == FilmFormat::webm);
+        if (!held) return failed("what it wrote is no whole film");
+        if (*held != frames_)
+            return failed(fmt::format("it wrote {} of {} frames", *held, frames_));
+        return file_->complete();
     }
 
 private:
@@ -126,13 +135,18 @@ private:
     /// What became of ffmpeg, which has got all that it will get.
     Result<void> outcome() {
         const ChildProcess::End end = process_->end();
-        if (end.is_good) return {};
-        return failure(fmt::format("ffmpeg could not write '{}': {}", path_.string(),
-                                   end.last_words),
+        return end.is_good ? Result<void>() : failed(end.last_words);
+    }
+
+    Result<void> failed(const std::string& why) const {
+        return failure(fmt::format("ffmpeg could not write '{}': {}", path_.string(), why),
                        "the endings .gif, .webp and .apng need no ffmpeg");
     }
 
     std::filesystem::path path_;
+    Patience patience_;
+    FilmFormat format_ = FilmFormat::mp4;
+    std::int64_t frames_ = 0;
     bool has_alpha_ = false;
     std::unique_ptr<GrowingFile> file_;
     std::unique_ptr<ChildProcess> process_;
@@ -149,8 +163,9 @@ Result<void> find_ffmpeg(const std::filesystem::path& film) {
 }
 
 Result<void> try_ffmpeg(const std::filesystem::path& film, FilmFormat format, std::int64_t width,
-                        std::int64_t height) {
-    FfmpegWriter writer(film);
+                        std::int64_t height, const std::atomic<bool>& cancel) {
+    // Nothing is lost if it ends at once.
+    FfmpegWriter writer(film, {cancel, std::chrono::seconds(0), std::chrono::seconds(0)});
     const FilmFrame first = film_frame(Image(width, height));
     if (auto begun = writer.begin(format, {}, first, nullptr); !begun) return begun;
     if (auto done = writer.add(first); !done) return done;
@@ -162,7 +177,7 @@ Result<std::unique_ptr<FilmWriter>> begin_ffmpeg(const std::filesystem::path& pa
                                                  const FilmFrame& first) {
     auto file = GrowingFile::create(path);
     if (!file) return tl::unexpected(file.error());
-    auto film = std::make_unique<FfmpegWriter>(path);
+    auto film = std::make_unique<FfmpegWriter>(path, Patience{*settings.cancel});
     if (auto begun = film->begin(format, settings, first, *std::move(file)); !begun) {
         return tl::unexpected(begun.error());
     }

@@ -75,11 +75,11 @@ Result<void> check_pace(const std::filesystem::path& path, double frames_per_sec
 }
 
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
-                             std::int64_t height) {
+                             std::int64_t height, const std::atomic<bool>& cancel) {
     const FormatOf& format = *format_of(path);
     if (auto fits = check_sides(path, format, width, height); !fits) return fits;
     if (!needs_ffmpeg(format.format)) return {};
-    return try_ffmpeg(path, format.format, width, height);
+    return try_ffmpeg(path, format.format, width, height, cancel);
 }
 
 Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path,

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "core/result.h"
+#include "core/run_control.h"
 #include "film/film_frame.h"
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -27,6 +29,8 @@ inline constexpr double fastest_gif = 50;
 struct FilmSettings {
     double frames_per_second = 10;  ///< slowest_film … fastest_film; of a GIF at most fastest_gif.
     PngTexts texts;                 ///< Written into APNG files.
+    /// Set when the program is to end: ffmpeg then has to get on.
+    const std::atomic<bool>* cancel = &never_cancelled;
 };
 
 /// A film that is being written. Frames have one size; each is on its way to the disk when add()
@@ -47,9 +51,11 @@ Result<void> check_film(const std::filesystem::path& path);
 /// Checks that players show this many frames in a second.
 Result<void> check_pace(const std::filesystem::path& path, double frames_per_second);
 
-/// Checks that the format holds frames of this size; lets ffmpeg encode one.
+/// Checks that the format holds frames of this size; lets ffmpeg encode one. Fails once `cancel` is
+/// set.
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
-                             std::int64_t height);
+                             std::int64_t height,
+                             const std::atomic<bool>& cancel = never_cancelled);
 
 /// Begins a film of frames of the size of the samples, of which there is at least one. A GIF has
 /// 256 colours, which are chosen for the samples: frames from all over the film, so that colours

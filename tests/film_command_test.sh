@@ -105,6 +105,42 @@ status=$?
 [ "$(gif_frames stopped.gif)" -ge 1 ] || fail "a stopped run has no film"
 [ "$(tail -c 1 stopped.gif)" = ';' ] || fail "the film of a stopped run has no end"
 
+# An encoder that hangs or lies: nothing waits for it once the program is to end, and no film is said to be written.
+mkdir -p bin
+stand_in() { printf '#!/bin/sh\n%s\n' "$1" >bin/ffmpeg && chmod 755 bin/ffmpeg; }
+with_stand_in() { PATH=$PWD/bin:$PATH timeout "$@" >out 2>err; }
+no_film() {
+    [ ! -e lie.mp4 ] || fail "$1: there is a film"
+    grep -q "^wrote" out && fail "$1: $(cat out)"
+    compgen -G '.cascade-*' >/dev/null && fail "$1 leaves a temporary file"
+}
+stand_in 'exec sleep 100'
+for how in "-s TERM 2:143" "-s INT 2:130" "60:124 --limit-time 1s"; do
+    read -r limit options <<<"${how#*:}"
+    with_stand_in --preserve-status ${how%%:*} "$CASCADE" run spots.cascade -o lie.mp4 $options
+    status=$?
+    [ "$status" = "$limit" ] || fail "an encoder that hangs ($how): status $status, $(cat err)"
+    grep -q "at the trial of ffmpeg; nothing has been written" err || fail "$how: $(cat err)"
+    no_film "an encoder that hangs"
+done
+# It hangs only when it has taken all frames; the run is saved all the same.
+stand_in 'case "$*" in *null*) cat >/dev/null ;; *) cat >/dev/null; sleep 100 ;; esac'
+with_stand_in --preserve-status -s TERM 3 "$CASCADE" run spots.cascade -o lie.mp4 --save kept
+grep -q "it did not get on, and was ended" err || fail "an encoder that hangs at the end: $(cat err)"
+grep -q "written all the same: kept" err || fail "an encoder that hangs at the end: $(cat err)"
+"$CASCADE" run --resume kept -q -o kept.png || fail "the run is not saved"
+no_film "an encoder that hangs at the end"
+for lie in 'exit 0' 'head -c 1000 >/dev/null' 'cat >/dev/null' 'for f; do :; done; cat >"${f#file:}"'; do
+    stand_in "case \"\$*\" in *null*) cat >/dev/null ;; *) $lie ;; esac"
+    with_stand_in 60 "$CASCADE" run spots.cascade -o lie.mp4
+    status=$?
+    [ "$status" = 3 ] || fail "an encoder that lies ($lie): status $status"
+    grep -q "ffmpeg could not write 'lie.mp4'" err || fail "$lie: $(cat err)"
+    no_film "$lie"
+done
+stand_in 'cat >/dev/null'
+with_stand_in 60 "$CASCADE" sweep spots.cascade -q --vary ka=1/80,1/40 --film lie.mp4 && fail "a sweep believes a lie"
+
 # With ffmpeg, if it is there.
 if command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null; then
     for ending in mp4 webm; do

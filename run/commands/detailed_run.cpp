@@ -82,7 +82,7 @@ Result<std::unique_ptr<DetailedRun>> DetailedRun::create(Script& script, const R
     auto fits =
         check_picture_size(finer, request.picture, coarse.memory() + made->simulation_->memory(),
                            request.simulation.memory_limit);
-    if (fits) fits = check_film_sizes(finer, request);
+    if (fits) fits = check_film_sizes(finer, request, control.cancel);
     if (!fits) return tl::unexpected(fits.error());
     return made;
 }

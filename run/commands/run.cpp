@@ -187,6 +187,8 @@ Result<RunReport> Runner::run() {
     }
     if (auto done = settle_in_detail(); !done) return tl::unexpected(done.error());
     if (!request_.resume.empty()) remark_on_resumed();
+    // First, as pictures may fail or be cut off.
+    const Result<void> saved = results().save();
     // Made once: that of a body may take longer than the steps.
     const Canvas canvas = [&] {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
@@ -206,7 +208,8 @@ Result<RunReport> Runner::run() {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
         report_.features = measure_shown(painter(), shown());
     }
-    if (auto written = results().write(canvas); !written) return tl::unexpected(written.error());
+    if (auto written = results().write(canvas, saved); !written)
+        return tl::unexpected(written.error());
     return std::move(report_);
 }
 

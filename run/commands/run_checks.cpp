@@ -137,11 +137,14 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
                                twice[1].what, twice->path.string()));
 }
 
-Result<void> check_film_sizes(const Script& script, const RunRequest& request) {
+Result<void> check_film_sizes(const Script& script, const RunRequest& request,
+                              const std::atomic<bool>& cancel) {
     const PictureSize size = picture_size(script, request.picture);
     for (const auto& output : request.outputs) {
         if (!is_film(output)) continue;
-        if (auto good = check_film_size(output, size.width, size.height); !good) return good;
+        if (auto good = check_film_size(output, size.width, size.height, cancel); !good) {
+            return good;
+        }
     }
     if (request.labels.empty() || has_room_for_caption(size.width, size.height)) return {};
     return failure(fmt::format("frames of {} × {} pixels have no room for a label", size.width,

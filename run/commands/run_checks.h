@@ -25,8 +25,9 @@ Result<void> check_request(Script& script, const RunRequest& request);
 Result<void> check_outputs(const Script& script, const RunRequest& request,
                            std::span<const std::filesystem::path> outputs);
 /// Checks that the formats of the films hold frames of the size that the run draws, and that these
-/// have room for labels.
-Result<void> check_film_sizes(const Script& script, const RunRequest& request);
+/// have room for labels. Fails once `cancel` is set.
+Result<void> check_film_sizes(const Script& script, const RunRequest& request,
+                              const std::atomic<bool>& cancel);
 
 /// Creates the folders, and tests them for writing. Those that are tried are removed again.
 enum class Folders { tried, made };

@@ -23,6 +23,7 @@ Result<void> RunResults::write_films(const Canvas& canvas) {
     std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(paths), is_film);
     FilmSettings settings;
     settings.texts = texts(painter.request());
+    settings.cancel = &control.cancel;
     FilmCrew crew(std::move(paths), std::move(settings));
     auto filmed = request.turntable > 0 ? film_turntable(crew, canvas)
                   : request.slices > 0  ? film_slices(crew)

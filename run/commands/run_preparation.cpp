@@ -185,7 +185,9 @@ Result<void> Runner::make_simulation() {
     }
     auto fits = check_picture_size(script_, request_.picture, simulation_->memory(),
                                    request_.simulation.memory_limit);
-    return fits ? check_film_sizes(script_, request_) : fits;
+    if (fits) fits = check_film_sizes(script_, request_, control_.cancel);
+    if (!fits && has_cancelled("the trial of ffmpeg")) return {};
+    return fits;
 }
 
 /// The finer cells of --detail.

@@ -270,10 +270,11 @@ Result<void> RunResults::write_log() {
     return written;
 }
 
-Result<void> RunResults::write_saved_run() {
+Result<void> RunResults::save() {
+    if (request.save.empty()) return {};
+    const TimeAccount::Scope spent(request.simulation.account, Spent::drawing);
     auto written = save_run(request.save, own.script, own.simulation);
     if (!written) return tl::unexpected(written.error());
-    report.written.push_back(request.save);
     return {};
 }
 
@@ -295,7 +296,7 @@ Result<void> RunResults::write_series() {
     return {};
 }
 
-Result<void> RunResults::write(const Canvas& canvas) {
+Result<void> RunResults::write(const Canvas& canvas, const Result<void>& saved) {
     const TimeAccount::Scope spent(request.simulation.account, Spent::drawing);
     // The run may have taken hours, so every output is written even if another one fails.
     std::optional<Failure> first;
@@ -310,7 +311,8 @@ Result<void> RunResults::write(const Canvas& canvas) {
     }
     if (!request.volume.empty()) attempt(write_volume());
     if (series) attempt(write_series());
-    if (!request.save.empty()) attempt(write_saved_run());
+    attempt(saved);
+    if (!request.save.empty() && saved) report.written.push_back(request.save);
     if (painter.fell_back() && control.warn) {
         control.warn(
             "where the picture names a stage that has not run, the default picture is "

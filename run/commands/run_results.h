@@ -37,9 +37,11 @@ struct RunResults {
     SeriesWriter* series;                                      ///< Null without --series.
     RunReport& report;                                         ///< Gets the paths of files.
 
-    /// Writes everything that was requested, pictures from the painter's last canvas. An output
-    /// that fails does not prevent the others; returns the first failure.
-    Result<void> write(const Canvas& canvas);
+    /// Saves the run, if that was requested.
+    Result<void> save();
+    /// Writes everything else that was requested, pictures from the painter's last canvas. An
+    /// output that fails does not prevent the others; returns the first failure, of `saved`, too.
+    Result<void> write(const Canvas& canvas, const Result<void>& saved);
     /// Writes only the log. There must be one.
     Result<void> write_log();
 
@@ -80,7 +82,6 @@ private:
                           const std::function<Result<FilmFrame>(std::size_t number)>& draw);
     void note_end_of_films(const FilmCrew& crew, std::size_t count);
     int drawing_threads() const;
-    Result<void> write_saved_run();
     Result<void> write_volume();
     Result<void> write_series();
     Result<void> write_picture(const std::filesystem::path& path, const Image& image);

@@ -151,7 +151,7 @@ Sweeper::Done Sweeper::plan() {
 }
 
 Result<void> Sweeper::prepare_folders() {
-    if (auto good = check_sweep_film(request_); !good) return good;
+    if (auto good = check_sweep_film(request_, control_.cancel); !good) return good;
     folder_ = request_.folder;
     if (folder_.empty()) folder_ = output_stem(script_) + "_sweep";
     if (auto made = make_folder(folder_ / "runs"); !made) return made;
@@ -378,7 +378,7 @@ tl::expected<SweepReport, SweepError> Sweeper::run() {
         ++report_.failed;
         if (report_.first_failure.empty()) report_.first_failure = result->remark;
     }
-    auto written = write_sweep(script_, request_, folder_, results_);
+    auto written = write_sweep(script_, request_, folder_, results_, control_.cancel);
     if (!written) return failed(written.error());
     report_.written = *std::move(written);
     if (stopped_by_) return tl::unexpected(std::move(*stopped_by_));

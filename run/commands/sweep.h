@@ -76,20 +76,21 @@ Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  bool has_mask);
 
 /// Writes sheet.png and features.csv into the folder, and the film, if there is one. Returns the
-/// files.
+/// files. `cancel` is for the film.
 Result<std::vector<std::filesystem::path>> write_sweep(
     const Script& script, const SweepRequest& request, const std::filesystem::path& folder,
-    const std::vector<std::optional<SweepResult>>& results);
+    const std::vector<std::optional<SweepResult>>& results, const std::atomic<bool>& cancel);
 
 /// Checks before the first run that the film can be written.
-Result<void> check_sweep_film(const SweepRequest& request);
+Result<void> check_sweep_film(const SweepRequest& request, const std::atomic<bool>& cancel);
 
 /// Writes a film that shows the end of each run, in their order, with its values in a corner and in
 /// the range of the sheet. Runs that failed or are missing are left out; fails if none is left.
+/// Once `cancel` is set, ffmpeg is not waited for unless it gets on.
 Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pace,
                         const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied, const PictureRequest& picture,
-                        bool has_mask);
+                        bool has_mask, const std::atomic<bool>& cancel = never_cancelled);
 
 /// A row for each run: the values varied, its features, its number of steps, its remark.
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,

@@ -87,7 +87,7 @@ Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
 Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pace,
                         const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied, const PictureRequest& picture,
-                        bool has_mask) {
+                        bool has_mask, const std::atomic<bool>& cancel) {
     const Palette* palette = find_palette(picture.palette);
     CHECK(palette, "the palette was checked before the first run");
     const ValueRange range = picture.range ? *picture.range : range_of_all(results);
@@ -107,7 +107,9 @@ Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pa
         }
         return film_frame(image);
     };
-    FilmCrew crew({path}, {});
+    FilmSettings settings;
+    settings.cancel = &cancel;
+    FilmCrew crew({path}, std::move(settings));
     const FilmPlan plan = film_plan(pace, runs.size(), crew.has_gif());
     Result<void> done = crew.begin(plan, draw);
     for (const std::size_t number : plan.frames) {
@@ -121,7 +123,7 @@ Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pa
     return {};
 }
 
-Result<void> check_sweep_film(const SweepRequest& request) {
+Result<void> check_sweep_film(const SweepRequest& request, const std::atomic<bool>& cancel) {
     const FilmRequest& pace = request.pace;
     const bool has_pace = pace.frames_per_second > 0 || pace.seconds > 0;
     if (request.film.empty()) {
@@ -132,12 +134,12 @@ Result<void> check_sweep_film(const SweepRequest& request) {
     if (auto good = check_writable(request.film); !good) return good;
     if (auto good = check_film(request.film); !good) return good;
     if (auto good = check_pace(request.film, pace.frames_per_second); !good) return good;
-    return check_film_size(request.film, request.tile_side, request.tile_side);
+    return check_film_size(request.film, request.tile_side, request.tile_side, cancel);
 }
 
 Result<std::vector<std::filesystem::path>> write_sweep(
     const Script& script, const SweepRequest& request, const std::filesystem::path& folder,
-    const std::vector<std::optional<SweepResult>>& results) {
+    const std::vector<std::optional<SweepResult>>& results, const std::atomic<bool>& cancel) {
     const auto sheet = folder / "sheet.png", table = folder / "features.csv";
     const PictureRequest& picture = request.picture;
     std::vector<std::string> varied;
@@ -148,7 +150,8 @@ Result<std::vector<std::filesystem::path>> write_sweep(
                                   picture.png_depth(), embed_sweep(script, picture, varied));
     if (done) done = write_file(table, sweep_table(results, request.varied));
     if (done && !request.film.empty()) {
-        done = film_sweep(request.film, request.pace, results, request.varied, picture, has_mask);
+        done = film_sweep(request.film, request.pace, results, request.varied, picture, has_mask,
+                          cancel);
         written.push_back(request.film);
     }
     if (!done) return tl::unexpected(done.error());

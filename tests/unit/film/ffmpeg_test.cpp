@@ -1,4 +1,5 @@
 // Films by ffmpeg, if it is there; and what is said if it is not there or fails.
+#include "film/frames_in_film.h"
 #include "film_fixture.h"
 
 #include <gmock/gmock.h>
@@ -137,6 +138,76 @@ TEST_F(Ffmpeg, HasTheLastWordWhereItFails) {
     EXPECT_THAT(failed->message, HasSubstr("Unknown encoder"));
     film->reset();
     EXPECT_EQ(files(), 1U) << "nothing but bin";
+}
+
+/// What becomes of a film of 40 frames of 60 kB.
+Result<void> filmed(const std::filesystem::path& path, const std::atomic<bool>& cancel) {
+    const std::vector<FilmFrame> frames(40, film_frame(Image(160, 128)));
+    FilmSettings settings;
+    settings.cancel = &cancel;
+    auto film = begin_film(path, settings, frames);
+    if (!film) return tl::unexpected(film.error());
+    for (const FilmFrame& frame : frames) {
+        if (auto added = (*film)->add(frame); !added) return added;
+    }
+    return (*film)->finish();
+}
+
+TEST_F(Ffmpeg, IsNotBelievedWhereItLies) {
+    const std::string last = "for file; do :; done; file=${file#file:}; ";
+    const auto said = [&](const std::string& program) {
+        make_program(last + program);
+        const SearchedFolders folders(path("bin").string() + ":/bin:/usr/bin");
+        const auto done = filmed(path("a.mp4"), never_cancelled);
+        EXPECT_EQ(files(), 1U) << program;
+        return done ? "done" : done.error().message;
+    };
+    const std::string too_early = "it ended before it had everything";
+    EXPECT_THAT(said("exit 0\n"), HasSubstr(too_early));
+    EXPECT_THAT(said("head -c 100000 >/dev/null; exit 0\n"), HasSubstr(too_early));
+    EXPECT_THAT(said("head -c 2457599 >/dev/null; exit 0\n"), HasSubstr(too_early)) << "a byte";
+    const std::string no_film = "what it wrote is no whole film";
+    EXPECT_THAT(said("cat >/dev/null; exit 0\n"), HasSubstr(no_film));
+    EXPECT_THAT(said("cat >/dev/null; echo GIF89a >\"$file\"; exit 0\n"), HasSubstr(no_film));
+    EXPECT_THAT(said("cat >/dev/null; rm \"$file\"; exit 0\n"), HasSubstr(no_film));
+    make_program("sleep 0.2; cat >/dev/null\n");
+    const SearchedFolders folders(path("bin").string() + ":/bin:/usr/bin");
+    EXPECT_TRUE(check_film_size(path("a.mp4"), 640, 480)) << "slow, but right";
+    make_program("exit 0\n");
+    EXPECT_FALSE(check_film_size(path("a.mp4"), 64, 48));
+}
+
+TEST_F(Ffmpeg, DoesNotOutliveTheEndOfTheProgram) {
+    std::atomic<bool> cancel = true;
+    for (const std::string program :
+         {"exec sleep 300\n", "sleep 300\n", "cat >/dev/null; sleep 300\n"}) {
+        make_program(program);
+        const SearchedFolders folders(path("bin").string() + ":/bin:/usr/bin");
+        const auto tried = check_film_size(path("a.mp4"), 640, 480, cancel);
+        ASSERT_FALSE(tried);
+        EXPECT_THAT(tried.error().message, HasSubstr("it did not get on, and was ended"));
+    }
+    const SearchedFolders folders(path("bin").string() + ":/bin:/usr/bin");
+    const auto done = filmed(path("a.mp4"), cancel);
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("it did not get on, and was ended"));
+    EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Ffmpeg, WritesAWholeFilmAlthoughTheProgramIsToEnd) {
+    if (!check_film(path("a.mp4"))) GTEST_SKIP() << "ffmpeg is not installed";
+    const std::atomic<bool> cancel = true;
+    for (const char* name : {"a.mp4", "a.webm"}) {
+        const auto done = filmed(path(name), cancel);
+        EXPECT_TRUE(done) << done.error().message;
+        EXPECT_EQ(frames_in_film(path(name), name == std::string("a.webm")), 40) << name;
+        const std::string whole = bytes(name);
+        for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{3}}) {
+            ASSERT_TRUE(write_file(path("cut"), whole.substr(0, size)));
+            EXPECT_FALSE(frames_in_film(path("cut"), name == std::string("a.webm")))
+                << name << ", " << size;
+        }
+    }
 }
 
 TEST_F(Ffmpeg, GetsNamesThatNoShellReads) {
