@@ -83,6 +83,10 @@ void FrameRecorder::record(const Canvas& canvas, const std::string& stage, std::
     }
 }
 
+bool FrameRecorder::shows_cells() const {
+    return std::ranges::any_of(frames_, [](const Frame& frame) { return frame.cells != nullptr; });
+}
+
 bool FrameRecorder::holds_starts_alone() const {
     return std::all_of(frames_.begin(), frames_.end(),
                        [](const Frame& frame) { return frame.step == 0; });
@@ -167,7 +171,7 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame, std::vector<Field> p
 /// As many as have room for a picture and what it is encoded from, in half of the free memory.
 int FrameRecorder::threads_for(const Painter& painter, int threads) const {
     // Pictures of surfaces, and smooth ones, are drawn by all threads together.
-    if (frames_.empty() || !painter.has_square_cells()) return 1;
+    if (frames_.empty() || !painter.has_square_cells() || shows_cells()) return 1;
     constexpr std::uint64_t bytes_of_pixel = 40;
     const auto [across, down] = painter.request().copies;
     const std::int64_t scale = painter.request().scale;
@@ -221,7 +225,9 @@ Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, i
 
 void FrameRecorder::draw_one(Painter& painter, std::size_t number, const Canvas& canvas,
                              Image& image) const {
-    image = painter.image(canvas, range(), std::move(image));
+    // Frames of a film have one size.
+    image = shows_cells() ? painter.image_beside_cells(canvas, range())
+                          : painter.image(canvas, range(), std::move(image));
     const std::string& label = frames_[number].label;
     if (!label.empty() && has_room_for_caption(image.width, image.height)) {
         draw_caption(image, label);
@@ -250,7 +256,7 @@ Result<std::vector<std::filesystem::path>> FrameRecorder::write(const std::files
                           PngEffort::fast);
     };
     const auto encode = [&](std::size_t number, const Canvas& canvas, Image& image) {
-        const auto painting = painter.painting(canvas, range());
+        const auto painting = shows_cells() ? std::nullopt : painter.painting(canvas, range());
         const bool is_grey = painting && painting->has_two_greys();
         if (is_grey && frames_[number].label.empty()) return encoded(*painting);
         draw_one(painter, number, canvas, image);

@@ -87,6 +87,8 @@ private:
                               const std::atomic<bool>& cancel, const UseCanvas& use);
     void draw_one(Painter& painter, std::size_t number, const Canvas& canvas, Image& image) const;
     int threads_for(const Painter& painter, int threads) const;
+    /// Is a frame of cells that crawl among them?
+    bool shows_cells() const;
     bool keep(const Field& field);
     bool keep_cells(const DrawnCells& cells, Frame& frame);
     bool keep_body(const SurfaceMesh& body, Frame& frame);

@@ -267,9 +267,8 @@ Image Painter::on_model(const Canvas& canvas, std::optional<ValueRange> range) {
     return drawer_->draw(look(canvas, range), options);
 }
 
-bool Painter::is_flat() const {
-    return !shows_cells_ && !shows_body_ && !model_ &&
-           (!script_->program->domain.surface || request_.flat);
+bool Painter::is_plane() const {
+    return !model_ && (!script_->program->domain.surface || request_.flat);
 }
 
 /// The body, and the values at its points. If its formula names a stage that has not run, it is
@@ -337,7 +336,7 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Imag
     if (canvas.cells) return with_cells(canvas, range);
     if (canvas.body) return of_body(canvas, range);
     if (model_) return on_model(canvas, range);
-    if (is_flat()) {
+    if (is_plane()) {
         Image copy = request_.size
                          ? smooth(canvas, range)
                          : enlarge(texture(canvas, range, std::move(earlier)), request_.scale);
@@ -351,6 +350,20 @@ Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Imag
     Team team(hardware_threads());
     return draw_on_surface(function_of(*domain.surface), flat, sides.x == Boundary::periodic,
                            sides.y == Boundary::periodic, options, team);
+}
+
+Image Painter::image_beside_cells(const Canvas& canvas, std::optional<ValueRange> range) {
+    if (canvas.cells || canvas.body || !is_plane()) return image(canvas, range);
+    const PlaneLayout& layout = canvas.fields[0].layout();
+    const auto longest = static_cast<double>(std::max(layout.width, layout.height));
+    DrawnCells nobody;
+    nobody.extent = {static_cast<double>(layout.width) / longest,
+                     static_cast<double>(layout.height) / longest, 0};
+    nobody.floor = std::make_shared<const Image>(request_.size ? smooth(canvas, range)
+                                                               : texture(canvas, range));
+    DrawOptions options = draw_options();
+    options.view.up = {0, 1, 0};
+    return draw_cells(nobody, {}, nullptr, nullptr, options);
 }
 
 std::optional<Painting> Painter::painting(const Canvas& canvas,

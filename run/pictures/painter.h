@@ -80,12 +80,15 @@ public:
     /// the surface if the domain has one. `range` overrides the automatic range. The image may be
     /// made in the memory of an earlier one.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}, Image earlier = {});
+    /// The same for a frame beside those of cells that crawl, and of their size: a plane, or a
+    /// slice, is the floor on which cells stand in other frames.
+    Image image_beside_cells(const Canvas& canvas, std::optional<ValueRange> range);
     /// What image() paints, if it does no more than that: there is a pixel for each cell, and no
     /// mask.
     std::optional<Painting> painting(const Canvas& canvas,
                                      std::optional<ValueRange> range = {}) const;
     /// True if the last canvas is seen as the plane it is, or as the texture of a surface.
-    bool is_flat() const;
+    bool is_flat() const { return !shows_cells_ && !shows_body_ && is_plane(); }
     /// True if each of its cells, moreover, becomes a square of pixels. Then image() may be called
     /// from several threads at once, and uses one.
     bool has_square_cells() const { return is_flat() && !request_.size; }
@@ -115,6 +118,8 @@ public:
 private:
     void look_at_domain(const Simulation& simulation);
     Canvas canvas_of_plane(const Simulation& simulation, std::int64_t texels, bool has_material);
+    /// True if fields are seen as planes.
+    bool is_plane() const;
     /// True if the image has one pixel for each cell and no others.
     bool has_pixel_per_cell(const Canvas& canvas) const;
     Image texture(const Canvas& canvas, std::optional<ValueRange> range, Image earlier = {}) const;
