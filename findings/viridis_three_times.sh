@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# "viridis" of three npm packages is three colour maps.
+#
+# Expected. Viridis is a published table of 256 colours (matplotlib's). Packages that offer it by name were expected
+# to hold that table, or to come within three levels of it by interpolation, so that a picture made with one can be
+# read back, or get a legend, with another.
+#
+# What happens. d3-scale-chromatic has the table. colormap and chroma-js keep nine colours each and draw straight
+# lines between them. Of 256 colours only 4 and 1 are those of the table; a channel is off by up to 18 and 17 levels
+# of 255. Whoever looks up a colour of theirs in the table, to get the value back that it stands for, is up to 5 and
+# 19 steps of 256 off: with chroma-js that is 7 % of the range.
+#
+# A way round: take one package for pictures and legends, or hand over the table itself, chroma.scale(list).
+#
+# Seen with d3-scale-chromatic 3.1.0, colormap 2.3.2, chroma-js 3.2.0 (npm), Node.js 20; chroma-js 3.1.2 is alike.
+set -eu
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  echo "this script needs Node.js and npm"
+  exit 2
+fi
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+cd "$dir"
+echo '{"private":true,"type":"module"}' > package.json
+npm install --silent --no-audit --no-fund --ignore-scripts d3-scale-chromatic@3.1.0 d3-color@3.1.0 colormap@2.3.2 \
+  chroma-js@3.2.0 ||
+  { echo "npm could not install the packages"; exit 2; }
+cat > try.js <<'EOF_JS'
+import { interpolateViridis } from 'd3-scale-chromatic';
+import { rgb } from 'd3-color';
+import colormap from 'colormap';
+import chroma from 'chroma-js';
+const steps = [...Array(256).keys()];
+const table = steps.map((i) => rgb(interpolateViridis(i / 255))).map((c) => [c.r, c.g, c.b]);
+const far = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
+const nearest = (c) => steps.reduce((best, i) => (far(table[i], c) < far(table[best], c) ? i : best), 0);
+console.log(`the table: ${table[0]} ... ${table[128]} ... ${table[255]}`);
+const others = {
+  colormap: colormap({ colormap: 'viridis', nshades: 256, format: 'rgba' }).map((c) => c.slice(0, 3)),
+  'chroma-js': steps.map((i) => chroma.scale('viridis')(i / 255).rgb()),
+};
+for (const [name, map] of Object.entries(others)) {
+  const same = steps.filter((i) => String(map[i]) === String(table[i])).length;
+  const off = steps.map((i) => Math.max(...map[i].map((x, k) => Math.abs(x - table[i][k]))));
+  const read = steps.map((i) => Math.abs(nearest(map[i]) - i));
+  const i = off.indexOf(Math.max(...off));
+  console.log(`${name}: ${same} of 256 the same; most off at ${i}, ${map[i]} for ${table[i]}; `
+    + `read back up to ${Math.max(...read)} steps off`);
+}
+EOF_JS
+node try.js | tee seen
+cat > expected <<'EOF_TXT'
+the table: 68,1,84 ... 33,145,140 ... 253,231,37
+colormap: 4 of 256 the same; most off at 239, 210,225,44 for 213,226,26; read back up to 5 steps off
+chroma-js: 1 of 256 the same; most off at 155, 32,153,139 for 36,170,131; read back up to 19 steps off
+EOF_TXT
+cmp -s seen expected || { echo "CHANGED: this was seen before:"; cat expected; exit 1; }
+echo "still so"
