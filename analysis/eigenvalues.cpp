@@ -1,4 +1,5 @@
-// Eigenvalues and eigenvectors, apart from the other decompositions: each takes a compiler process of 1 GiB.
+// Eigenvalues and eigenvectors, apart from the other decompositions: each takes a compiler process
+// of 1 GiB.
 #include "analysis/linear_algebra.h"
 
 #include <Eigen/Eigenvalues>

@@ -7,6 +7,7 @@
 #include "lang/syntax/token.h"
 #include "lang/syntax/unreadable_bytes.h"
 #include "lang/vocabulary/greek_letters.h"
+#include "lang/vocabulary/signs_elsewhere.h"
 
 #include <fmt/core.h>
 
@@ -125,28 +126,6 @@ private:
     std::size_t offset_ = 0;
     bool has_signs_of_papers_ = false;  ///< Among the tokens, besides operators and letters.
 };
-
-/// Units that stand directly after a number, with their size in metres or seconds.
-constexpr std::pair<std::string_view, double> units_of_papers[] = {
-    {"m", 1},    {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"µm", 1e-6}, {"nm", 1e-9},
-    {"km", 1e3}, {"s", 1},     {"ms", 1e-3}, {"min", 60},  {"h", 3600},
-};
-
-/// What to write instead of a command of LaTeX, or of a backslash alone.
-std::string hint_of_latex(std::string_view command) {
-    if (command.empty()) return "a line goes on inside ( ) and after an operator";
-    if (command == "partial")
-        return "this is LaTeX; write u' = … for \\partial u/\\partial t, dx(u) for \\partial u/\\partial x";
-    if (command == "nabla" || command == "Delta")
-        return "this is LaTeX; write lap(u), grad(u) or div(…)";
-    if (command == "frac") return "this is LaTeX; write a / b";
-    if (command == "cdot" || command == "times") return "this is LaTeX; write a * b";
-    if (command == "sqrt" || command == "exp" || command == "log" || command == "sin" ||
-        command == "cos" || command == "tanh") {
-        return fmt::format("this is LaTeX; write {}(u)", command);
-    }
-    return fmt::format("this is LaTeX; write {}", command);
-}
 
 bool Lexer::begins_operator(std::size_t offset) const {
     const std::string_view rest = text_.substr(offset);
@@ -305,12 +284,9 @@ void Lexer::read_number() {
         hint = fmt::format("write '{} * {}'", text_.substr(begin, number_end - begin), tail);
     }
     if (tail == "e" || tail == "E") hint = "an exponent has digits, as in 1e-3";
-    for (const auto& [unit, size] : units_of_papers) {
-        if (tail != unit) continue;
-        const std::string number(text_.substr(begin, number_end - begin));
-        hint = fmt::format("numbers have no units: write '{}' for {} {} in {}",
-                           fmt::format("{:g}", std::stod(number) * size), number, unit,
-                           unit.ends_with('m') ? "metres" : "seconds");
+    if (std::string advice = advice_about_unit(text_.substr(begin, number_end - begin), tail);
+        !advice.empty()) {
+        hint = std::move(advice);
     }
     if (const auto number = hint_of_other_number(text_.substr(begin, end - begin))) hint = *number;
     diagnostics_.error(span(begin, end),
@@ -436,7 +412,7 @@ void Lexer::read_other() {
     if (text_[begin] == '\\') {
         const std::size_t first = end;
         while (std::isalpha(static_cast<unsigned char>(at(end))) != 0) ++end;
-        hint = hint_of_latex(text_.substr(first, end - first));
+        hint = advice_about_latex(text_.substr(first, end - first));
     }
     const std::string_view run = text_.substr(begin, std::min<std::size_t>(end - begin, 16));
     diagnostics_.error(span(begin, end), fmt::format("'{}' has no meaning in the language", run),
