@@ -5,14 +5,20 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <new>
+#include <string_view>
 
 namespace cascade {
 namespace {
 
-[[noreturn]] void stop(const char* file) {
-    const char* reason = ::dlerror();
-    std::fprintf(stderr, "cascade: a library that it needs, %s, cannot be used: %s\n", file,
-                 reason ? reason : "unknown reason");
+std::string_view take_reason() {
+    const char* const reason = ::dlerror();
+    return reason ? reason : "unknown reason";
+}
+
+[[noreturn]] void stop(const char* file, std::string_view reason) {
+    std::fprintf(stderr, "cascade: a library that it needs, %s, cannot be used: %.*s\n", file,
+                 static_cast<int>(reason.size()), reason.data());
     std::abort();
 }
 
@@ -20,12 +26,18 @@ namespace {
 
 LateLibrary::LateLibrary(const char* file)
     : file_(file), handle_(::dlopen(file, RTLD_LAZY | RTLD_LOCAL)) {
-    if (!handle_) stop(file_);
+    if (handle_) return;
+    // The words of the loader where the system gives it no room.
+    const std::string_view reason = take_reason();
+    for (const char* words : {"failed to map segment", "annot allocate memory"}) {
+        if (reason.find(words) != std::string_view::npos) throw std::bad_alloc();
+    }
+    stop(file_, reason);
 }
 
 LateFunction LateLibrary::operator[](const char* name) const {
     void* const address = ::dlsym(handle_, name);
-    if (!address) stop(file_);
+    if (!address) stop(file_, take_reason());
     return {address};
 }
 

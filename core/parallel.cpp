@@ -8,8 +8,10 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <system_error>
+#include <exception>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #if defined(__linux__)
@@ -72,13 +74,25 @@ int hardware_threads() {
 
 namespace {
 
+/// Thrown at a barrier to which another thread will not come.
+struct Abandoned {};
+
 /// A reusable barrier. Each word that threads wait for has its own cache line.
 struct Meeting {
     alignas(64) std::atomic<std::uint32_t> count{0};  ///< Completed meetings.
+    std::atomic<bool> is_off{false};                  ///< Set before `count` says so.
     alignas(64) std::atomic<int> arrived{0};          ///< Threads waiting for the others.
 
+    /// Ends the waiting of the others, and their next meetings.
+    void call_off() {
+        is_off = true;
+        ++count;
+        count.notify_all();
+    }
+
     void arrive(int expected, int spins) {
-        const std::uint32_t current = count.load(std::memory_order_relaxed);
+        const std::uint32_t current = count.load(std::memory_order_acquire);
+        if (is_off) throw Abandoned();
         if (arrived.fetch_add(1, std::memory_order_acq_rel) + 1 == expected) {
             arrived.store(0, std::memory_order_relaxed);
             count.store(current + 1, std::memory_order_release);
@@ -86,6 +100,7 @@ struct Meeting {
         } else {
             wait_while(count, current, spins);
         }
+        if (is_off) throw Abandoned();
     }
 };
 
@@ -101,13 +116,27 @@ struct Team::State {
     int size = 1;
     int spins = 0;
     std::vector<std::thread> workers;
+    std::mutex of_error;
+    std::exception_ptr error;  ///< The first one of a run.
+
+    /// Does the work of a thread, and keeps what it throws.
+    void attempt(int index) noexcept {
+        try {
+            (*work)(index);
+        } catch (const Abandoned&) {  // The other thread has said why.
+        } catch (...) {
+            const std::lock_guard lock(of_error);
+            if (!error) error = std::current_exception();
+            barrier.call_off();
+        }
+    }
 
     void serve(int index) {
         const FlushDenormals environment;
         for (std::uint32_t seen = 0;; ++seen) {
             wait_while(task, seen, spins);
             if (!work) return;
-            if (index < active) (*work)(index);
+            if (index < active) attempt(index);
             end_of_run.arrive(size, spins);
         }
     }
@@ -126,8 +155,8 @@ Team::Team(int size) : state_(std::make_unique<State>()) {
     for (int index = 1; index < size; ++index) {
         try {
             state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
-        } catch (const std::system_error&) {
-            state_->size = index;  // Workers read it only when they are given work.
+        } catch (const std::exception&) {  // Of the system, or for want of memory.
+            state_->size = index;          // Workers read it only when they are given work.
             break;
         }
     }
@@ -151,8 +180,12 @@ void Team::run(const std::function<void(int index)>& work, int active) {
         return;
     }
     state_->start(&work);
-    work(0);
+    state_->attempt(0);
     state_->end_of_run.arrive(state_->size, state_->spins);
+    if (!state_->error) return;
+    state_->barrier.is_off = false;
+    state_->barrier.arrived = 0;
+    std::rethrow_exception(std::exchange(state_->error, nullptr));
 }
 
 void Team::barrier() {

@@ -4,7 +4,6 @@
 // its mesh and has a transformation. So a mesh is stored once, however many copies there are.
 #include "render/ray_caster.h"
 
-#include "core/check.h"
 #include "core/late_library.h"
 
 #include <embree3/rtcore.h>
@@ -56,8 +55,12 @@ namespace {
 /// that schedules Embree's tasks starts threads, and aborts if the system denies them.
 RTCDevice the_device() {
     // One instruction set for all processors; building on one thread gives one tree.
-    static const RTCDevice device = embree().new_device("isa=sse2,threads=1,set_affinity=0");
-    CHECK(device, "the ray tracer starts");
+    static const RTCDevice device = [] {
+        const RTCDevice made = embree().new_device("isa=sse2,threads=1,set_affinity=0");
+        // Nothing but memory and threads is asked of the system.
+        if (!made) throw std::bad_alloc();
+        return made;
+    }();
     return device;
 }
 
@@ -127,6 +130,18 @@ void finish(const TreePointer& tree) {
 struct RayCaster::Tree {
     TreePointer root = new_tree();
     std::vector<TreePointer> of_meshes;
+
+    Tree() = default;
+    Tree(const Tree&) = delete;
+    Tree& operator=(const Tree&) = delete;
+    /// Embree ends the program when it releases a tree that it had no memory to build: such trees
+    /// stay.
+    ~Tree() {
+        if (is_built) return;
+        (void)root.release();
+        for (TreePointer& tree : of_meshes) (void)tree.release();
+    }
+    bool is_built = false;
 };
 
 RayCaster::RayCaster(const Scene& scene) : scene_(scene), tree_(std::make_unique<Tree>()) {
@@ -144,6 +159,7 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), tree_(std::make_unique
     }
     if (scene.body()) attach_mesh(*scene.body(), tree_->root, count);
     finish(tree_->root);
+    tree_->is_built = true;
     RTCBounds box;
     embree().get_scene_bounds(tree_->root.get(), &box);
     around_ = {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -112,6 +113,31 @@ TEST(Team, WorksInFlushedArithmetic) {
     team.run([&](int index) { results[static_cast<std::size_t>(index)] = smallest * 0.5f; });
     for (const float result : results) EXPECT_EQ(result, 0.0f);
     EXPECT_GT(smallest * 0.5f, 0.0f);  // And the caller's own environment is back.
+}
+
+TEST(Team, HandsOnWhatAThreadThrows) {
+    Team team(4);
+    for (int thrower = 0; thrower < 4; ++thrower) {
+        for (const bool meets_before : {false, true}) {
+            std::atomic<int> ended{0};
+            const auto work = [&](int index) {
+                if (meets_before) team.barrier();
+                if (index == thrower) throw std::bad_alloc();
+                for (int k = 0; k < 3; ++k) team.barrier();
+                ++ended;
+            };
+            EXPECT_THROW(team.run(work), std::bad_alloc);
+            EXPECT_EQ(ended, 0) << "none passes a barrier without the others";
+        }
+        std::vector<int> passed(4, 0);
+        team.run([&](int index) {
+            for (int k = 0; k < 100; ++k) {
+                team.barrier();
+                ++passed[static_cast<std::size_t>(index)];
+            }
+        });
+        EXPECT_EQ(passed, std::vector<int>(4, 100)) << "the team works as before";
+    }
 }
 
 TEST(Team, SleepsBetweenRuns) {
