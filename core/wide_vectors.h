@@ -5,14 +5,10 @@
 
 /// Compiles a function several times and chooses by the processor when the program starts. Only for
 /// functions whose results do not depend on the width of vectors.
-// The thread sanitizer instruments the choice, which is made before it has started.
-#if defined(__has_feature)  // By clang, which has no such macro as __SANITIZE_THREAD__.
-#if __has_feature(thread_sanitizer)
-#define CASCADE_NO_WIDE_VECTORS
-#endif
-#endif
+// The thread sanitizer instruments the choice, which is made before it has started. Clang 19 does
+// not emit the inline functions that only such a function calls, such as constructors.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(CASCADE_NO_WIDE_VECTORS)
+    !defined(__clang__)
 #define WITH_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define WITH_WIDE_VECTORS

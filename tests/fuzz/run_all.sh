@@ -5,6 +5,7 @@
 # Failures: an input crash-…, timeout-… or oom-… in build/corpora, or a test and its seed.
 #
 #     FUZZERS="picture kept" tests/fuzz/run_all.sh 10    only these
+#     FRONT_END_RUNS=20000 …                         the front end takes this many inputs, however long that is
 #     SANITIZERS="thread" …                              only these presets; "" for none
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -33,11 +34,13 @@ if [ ${#fuzzers[@]} -gt 0 ]; then
         case $name in
             front_end | prompt) seeds+=("$scripts") options+=(-dict=tests/fuzz/cascade.dict) ;;
         esac
+        limit=-max_total_time=$seconds
+        [ "$name" = front_end ] && [ -n "${FRONT_END_RUNS-}" ] && limit=-runs=$FRONT_END_RUNS
         [ "$name" = model ] && options+=(-dict=tests/fuzz/models.dict)
         note "$name, $seconds s, $(find "$corpus" -type f | wc -l) inputs known"
         log=build/corpora/$name.log
         if build/fuzz/tests/fuzz/"$name"_fuzzer "${options[@]}" -print_funcs=0 -max_len=4096 \
-            -timeout=10 -malloc_limit_mb=256 -max_total_time="$seconds" -print_final_stats=1 \
+            -timeout=10 -malloc_limit_mb=256 "$limit" -print_final_stats=1 \
             -artifact_prefix=build/corpora/ "${seeds[@]}" >"$log" 2>&1; then
             grep -E 'number_of_executed_units|average_exec_per_sec' "$log"
         else
