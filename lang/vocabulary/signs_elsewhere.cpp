@@ -1,9 +1,9 @@
 // Tables of commands and units.
 #include "lang/vocabulary/signs_elsewhere.h"
 
-#include <fmt/format.h>
+#include "core/decimal.h"
 
-#include <charconv>
+#include <fmt/format.h>
 
 namespace cascade {
 
@@ -53,9 +53,9 @@ std::string advice_about_unit(std::string_view number, std::string_view unit) {
     for (const Unit& each : units) {
         if (each.name != unit) continue;
         double value = 0;
-        std::from_chars(number.data(), number.data() + number.size(), value);
-        return fmt::format("numbers have no units: write '{:g}' for {} {} in {}", value * each.size,
-                           number, unit, each.base);
+        from_decimal(number.data(), number.data() + number.size(), value);
+        return fmt::format("numbers have no units: write '{}' for {} {} in {}",
+                           fmt::format("{:g}", value * each.size), number, unit, each.base);
     }
     return "";
 }
