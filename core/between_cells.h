@@ -7,8 +7,8 @@
 // smooth extremum that would leave a plateau. So the slope may be as large as the smallest of the
 // three bends (second differences) in the cell and its neighbours if they have one sign; beside an
 // edge they have not (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
-// smooth extrema", J. Comput. Phys. 227, 2008). What would still leave the range of the four cells
-// around becomes its end: no value is below the least or above the largest of them.
+// smooth extrema", J. Comput. Phys. 227, 2008). Of cells with two values no curve leaves their
+// range.
 #pragma once
 
 #include <algorithm>
@@ -33,17 +33,23 @@ Number slope_in(Number a, Number b, Number c, Number d, Number e) {
     return std::clamp((before + after) / 2, -most, most);
 }
 
-/// The value at `part`, 0 … 1, of the way from the third of six cells to the fourth, in the range
-/// of the four in the middle. NaN if one of these is.
+/// The value at `part`, 0 … 1, of the way from the third of six cells to the fourth. NaN if one of
+/// the four in the middle is.
 template <typename Number>
 Number value_between(const std::array<Number, cells_between>& v, Number part) {
     const Number rise = v[3] - v[2];
     const Number first = slope_in(v[0], v[1], v[2], v[3], v[4]);
     const Number last = slope_in(v[1], v[2], v[3], v[4], v[5]);
-    const Number value =
-        v[2] +
-        part * (first + part * (3 * rise - 2 * first - last + part * (first + last - 2 * rise)));
-    return std::clamp(value, std::min(std::min(v[1], v[2]), std::min(v[3], v[4])),
+    return v[2] +
+           part * (first + part * (3 * rise - 2 * first - last + part * (first + last - 2 * rise)));
+}
+
+/// The same, but in the range of the four cells in the middle: a crest between two cells is cut at
+/// the higher of them. For values that go on, where a negative one may have no meaning; what is
+/// only looked at keeps its crests.
+template <typename Number>
+Number value_in_range(const std::array<Number, cells_between>& v, Number part) {
+    return std::clamp(value_between(v, part), std::min(std::min(v[1], v[2]), std::min(v[3], v[4])),
                       std::max(std::max(v[1], v[2]), std::max(v[3], v[4])));
 }
 

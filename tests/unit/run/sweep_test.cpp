@@ -213,7 +213,7 @@ TEST_F(SweepTest, NothingRunsWhereAScriptIsWrong) {
     ASSERT_FALSE(wrong);
     EXPECT_THAT(wrong.error().script->messages(false), HasSubstr("'q'"));
     shown.picture.show.clear();
-    shown.picture.palette = "gray";
+    shown.picture.palette = "gery";
     EXPECT_THAT(sweep(script, shown, control).error().failure.message, HasSubstr("palette"));
     EXPECT_THAT(sweep(script, request({"seed=1,x"}), control).error().failure.message,
                 HasSubstr("'x' is not a seed"));
