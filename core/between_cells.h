@@ -44,13 +44,4 @@ Number value_between(const std::array<Number, cells_between>& v, Number part) {
            part * (first + part * (3 * rise - 2 * first - last + part * (first + last - 2 * rise)));
 }
 
-/// The same, but in the range of the four cells in the middle: a crest between two cells is cut at
-/// the higher of them. For values that go on, where a negative one may have no meaning; what is
-/// only looked at keeps its crests.
-template <typename Number>
-Number value_in_range(const std::array<Number, cells_between>& v, Number part) {
-    return std::clamp(value_between(v, part), std::min(std::min(v[1], v[2]), std::min(v[3], v[4])),
-                      std::max(std::max(v[1], v[2]), std::max(v[3], v[4])));
-}
-
 }  // namespace cascade

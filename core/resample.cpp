@@ -151,7 +151,7 @@ void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& gri
             std::array<Number, cells_between> v{};
             for (std::size_t n = 0; n < v.size(); ++n)
                 v[n] = from[down.cells[n] * layout.stride + i];
-            line[static_cast<std::size_t>(i)] = value_in_range(v, down.part);
+            line[static_cast<std::size_t>(i)] = value_between(v, down.part);
         }
         for (std::int64_t i = 0; i < static_cast<std::int64_t>(columns.size()); ++i) {
             const Around<Number>& across = columns[static_cast<std::size_t>(i)];
@@ -159,7 +159,7 @@ void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& gri
             for (std::size_t n = 0; n < v.size(); ++n) {
                 v[n] = line[static_cast<std::size_t>(across.cells[n])];
             }
-            result.at(i, j, k) = value_in_range(v, across.part);
+            result.at(i, j, k) = value_between(v, across.part);
         }
     }
 }
@@ -184,7 +184,7 @@ Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t
             for (std::int64_t i = 0; i < grid.width; ++i) {
                 std::array<Number, cells_between> v{};
                 for (std::size_t n = 0; n < v.size(); ++n) v[n] = plane.at(i, j, deep.cells[n]);
-                between.at(i, j) = value_in_range(v, deep.part);
+                between.at(i, j) = value_between(v, deep.part);
             }
         }
         divide_slice(between.origin(), between.layout(), grid, columns, rows, result, k);

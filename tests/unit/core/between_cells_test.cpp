@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -89,22 +88,6 @@ TEST(BetweenCells, CurvesStayNearTheirCells) {
             EXPECT_LE(value, std::max(v[2], v[3]) + 0.3F * step);
         }
     }
-}
-
-TEST(BetweenCells, WhatGoesOnStaysInTheRangeOfTheCellsAround) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> number(0, 1);
-    for (int trial = 0; trial < 20000; ++trial) {
-        Cells v{};
-        for (float& value : v) value = std::pow(number(random), 8.0F);
-        const auto [least, largest] = std::minmax_element(v.begin() + 1, v.begin() + 5);
-        for (float part = 0; part <= 1; part += 0.0625F) {
-            const float value = value_in_range(v, part);
-            EXPECT_GE(value, *least);
-            EXPECT_LE(value, *largest);
-        }
-    }
-    EXPECT_TRUE(std::isnan(value_in_range<float>({0, NAN, 0, 1, 2, 0}, 0.5F)));
 }
 
 TEST(BetweenCells, NaNIsSeen) {

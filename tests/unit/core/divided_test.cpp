@@ -45,8 +45,7 @@ TEST(Divided, WavesKeepTheirPlaces) {
         const Plane<float> found = divided(plane, grid, times), wanted = plane_of(finer, wave);
         for (std::int64_t j = 0; j < finer.height; ++j) {
             for (std::int64_t i = 0; i < finer.width; ++i) {
-                // Crests of 12 and of 18 cells are cut by up to 0.034 and 0.015.
-                EXPECT_NEAR(found.at(i, j), wanted.at(i, j), 0.05) << times << ' ' << i << ' ' << j;
+                EXPECT_NEAR(found.at(i, j), wanted.at(i, j), 0.02) << times << ' ' << i << ' ' << j;
             }
         }
     }

