@@ -261,12 +261,12 @@ std::optional<std::string> Parser::unknown_option() const {
 std::string Parser::describe_unexpected(const std::string& program) {
     const std::string where = called(program);
     if (const auto option = unknown_option()) {
-        const std::string near = near_option(*option);
         const std::string setting = option->substr(0, option->find('=')).substr(2);
         if (option->starts_with("--") && is_setting_of(SettingBlock::stage, setting)) {
             return fmt::format("{}: there is no option --{}; write --set {}=…", where, setting,
                                setting);
         }
+        const std::string near = near_option(*option);
         return fmt::format("{}: there is no option {}{}", where, *option,
                            near.empty() ? "" : fmt::format("; did you mean {}?", near));
     }

@@ -31,9 +31,9 @@ public:
 
     int size() const;
 
-    /// Runs `work(index)` once on every thread and waits for all. If one throws, as where memory is
-    /// short, those that wait for it at a barrier leave, and the first exception is thrown here.
-    /// Not reentrant.
+    /// Runs `work(index)` once on every thread and waits for all. If a thread throws, for example
+    /// because memory is short, threads that wait at a barrier give up, and run() throws the first
+    /// exception. Not reentrant.
     void run(const std::function<void(int index)>& work);
 
     /// The same on threads 0 … active − 1 only. With active == 1 the others stay asleep.

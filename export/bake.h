@@ -27,11 +27,13 @@ struct Bake : MaterialMaps {
     std::vector<std::string> warnings;  ///< A sentence each.
 };
 
+/// Of the largest maps.
+inline constexpr double most_samples =
+    4.0 * BakeOptions::largest_texture * BakeOptions::largest_texture;
+
 /// Checks that the model has texture coordinates suitable for baking maps of this many samples, or
 /// the largest ones. Fails, with a hint, if it has none, if they cover less than a sample, or if
 /// they cover the texture many times, as those for repeating textures do.
-inline constexpr double most_samples =
-    4.0 * BakeOptions::largest_texture * BakeOptions::largest_texture;
 Result<void> check_bakeable(const SurfaceMesh& mesh, double samples = most_samples);
 
 /// Paints every texel with the mean, in linear light, over its samples on the surface, and

@@ -1,5 +1,5 @@
-// Both formats are boxes in boxes, each with its name and its length: ISO/IEC 14496-12 says those
-// of MP4, RFC 8794 (EBML) and RFC 9559 (Matroska) those of WebM.
+// Both formats nest boxes, each with a name and a length: ISO/IEC 14496-12 defines them for MP4,
+// RFC 8794 (EBML) and RFC 9559 (Matroska) for WebM.
 #include "film/frames_in_film.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// A value of an attribute is that of the mesh and what each morph target adds, by its weight.
+// Adds to each value of the mesh what its morph targets change, times their weights.
 #include "mesh/gltf_points.h"
 
 namespace cascade {

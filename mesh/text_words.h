@@ -31,7 +31,7 @@ std::optional<Integer> whole_number_in(std::string_view word) {
 /// Whether a text is UTF-16 of either byte order, in which all Latin letters have a byte of 0.
 bool is_utf16(std::string_view text);
 
-/// Of a model in such a text.
+/// Fails because a model file is text in UTF-16.
 tl::unexpected<Failure> utf16_failure();
 
 /// Iterates over the lines of a text that have words. A '#' starts a comment. Lines end with a line

@@ -12,24 +12,7 @@ fail() {
 
 fields='stage coat: turing_spots { iterations: 6; interval: 3'
 cells='stage skin: scales { founders: 5; r: 0.08; duration: 0.4; interval: 2'
-cat >octahedron.off <<'END'
-OFF
-6 8 12
-1 0 0
--1 0 0
-0 1 0
-0 -1 0
-0 0 1
-0 0 -1
-3 0 2 4
-3 2 1 4
-3 1 3 4
-3 3 0 4
-3 2 0 5
-3 1 2 5
-3 3 1 5
-3 0 3 5
-END
+cp "$SOURCE/tests/support/octahedron.off" .
 declare -A domains=(
     [line]='domain { grid: 12 }'
     [plane]='domain { grid: 12, 8 }'

@@ -37,24 +37,7 @@ domain { mesh: "ball.off"; cells: 2000 }
 system heat { u: if(z > 0.5, 1, 0); u' = 0.1 * lap(u) }
 stage grow: heat { iterations: 60 }
 SCRIPT
-cat >ball.off <<'MODEL'
-OFF
-6 8 0
-1 0 0
--1 0 0
-0 1 0
-0 -1 0
-0 0 1
-0 0 -1
-3 0 2 4
-3 2 1 4
-3 1 3 4
-3 3 0 4
-3 2 0 5
-3 1 2 5
-3 3 1 5
-3 0 3 5
-MODEL
+cp "$SOURCE/tests/support/octahedron.off" ball.off
 "$CASCADE" export sphere.cascade --html ball.html --set grow.iterations=80 >/dev/null || fail "the page of a model was not written"
 
 "$CASCADE" export - <dots.cascade >said || fail "a script of standard input was not exported"

@@ -18,7 +18,7 @@ struct TimeParts {
     std::vector<Formula> of_places;
 };
 
-/// Of the rates of a stage, and of its sides, borders and sides of definitions.
+/// Searches the rates of a stage, its sides and borders, and the sides of definitions.
 TimeParts parts_of_time(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

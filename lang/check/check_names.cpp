@@ -140,8 +140,9 @@ void report_unknown_own(Workspace& work, const Scope& scope, std::string_view na
     if (is_incomplete(work, scope.system)) return;
     const std::string names = list_names(quantity_names(system));
     std::string hint(advice_about(name, WordContext::value));
-    if (hint.empty()) hint = hint_of_subscript(name, readable_names(system, scope));
-    if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
+    const std::vector<std::string> readable = readable_names(system, scope);
+    if (hint.empty()) hint = hint_of_subscript(name, readable);
+    if (hint.empty()) hint = did_you_mean(work, name, readable);
     if (hint.empty() && scope.context == Context::rate)
         hint = fmt::format("add {}: 0.1, for example", name);
     if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);

@@ -80,8 +80,8 @@ public:
     /// the surface if the domain has one. `range` overrides the automatic range. The image may be
     /// made in the memory of an earlier one.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}, Image earlier = {});
-    /// The same for a frame beside those of cells that crawl, and of their size: a plane, or a
-    /// slice, is the floor on which cells stand in other frames.
+    /// image() for a film that also shows cells that crawl, in the size of those frames. A plane,
+    /// or a slice, is drawn as the floor on which the cells stand in them.
     Image image_beside_cells(const Canvas& canvas, std::optional<ValueRange> range);
     /// What image() paints, if it does no more than that: there is a pixel for each cell, and no
     /// mask.

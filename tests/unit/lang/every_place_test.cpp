@@ -50,7 +50,7 @@ std::vector<std::string> all_expressions() {
     return all;
 }
 
-/// Scripts in which # stands for the expression.
+/// Scripts with a # where the tested expression goes.
 std::vector<std::string> all_places() {
     const std::string fields =
         "fn f(x) = 2 * x\nsystem s { i: 1..2; u: x; w[i]: i; b = 2*u; u' = lap(u); w[i]' = w[i] }\n";

@@ -58,7 +58,7 @@ TEST(GltfSkin, WeightsAreSharedAndNeedNotHaveTheSumOne) {
     file.json["skins"][0]["joints"] = {2, 3};
     Json& attributes = file.primitive()["attributes"];
     attributes["JOINTS_0"] = file.add<std::uint8_t>("VEC4", {1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0});
-    // Fractions of 255 and of 65535; those of the last point lie in a second set, too.
+    // Weights are stored as fractions of 255 and of 65535. The last point also uses the second set.
     attributes["WEIGHTS_0"] =
         file.add<std::uint8_t>("VEC4", {255, 0, 0, 0, 51, 204, 0, 0, 51, 0, 0, 0}, true);
     attributes["JOINTS_1"] = file.add<std::uint16_t>("VEC4", {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0});
