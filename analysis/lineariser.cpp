@@ -279,10 +279,7 @@ Result<void> Lineariser::add_function(const Node& node, Part& part) {
         }
         return without_rule(node);
     }
-    const NodeId a = valued.operands[0], b = valued.operands[1], c = valued.operands[2];
-    part.value[0] = node.operand_count == 1   ? algebra_.call(node.function, {a})
-                    : node.operand_count == 2 ? algebra_.call(node.function, {a, b})
-                                              : algebra_.call(node.function, {a, b, c});
+    part.value[0] = algebra_.call_of(valued);
     for (std::size_t n = 0; n < node.operand_count; ++n) {
         const Slopes& inner = this->part(node, n).slopes;
         if (is_flat(inner)) continue;

@@ -21,35 +21,21 @@ public:
     /// 0 of a formula without nodes; empty if the value differs from cell to cell or changes.
     std::optional<double> value(const Formula& formula) {
         if (formula.nodes.empty()) return 0;
-        if (changes_in_time(program_, stage_, formula)) return std::nullopt;
-        IdVector<NodeId, NodeId> parts;
-        for (const Node& node : formula.nodes) {
-            const auto part = part_of(node, parts);
-            if (!part) return std::nullopt;
-            parts.push_back(*part);
+        const bool is_known = std::all_of(formula.nodes.begin(), formula.nodes.end(), is_plain);
+        if (!is_known || changes_in_time(program_, stage_, formula)) return std::nullopt;
+        const StartValue start = start_value(algebra_, program_, formula, starts_);
+        if (start.differs || start.is_unknown || !algebra_.is_number(start.scatter, 0)) {
+            return std::nullopt;
         }
-        const double* const number = algebra_[parts.back()].as<double>();
+        const double* const number = algebra_[start.value].as<double>();
         return number ? std::optional(*number) : std::nullopt;
     }
 
 private:
-    std::optional<NodeId> part_of(const Node& node, const IdVector<NodeId, NodeId>& parts) {
-        if (const auto* number = node.as<double>()) return algebra_.number(*number);
-        if (const auto* item = node.as<ItemId>()) {
-            const StartValue& start = starts_[*item];
-            if (start.differs || start.is_unknown || !algebra_.is_number(start.scatter, 0)) {
-                return std::nullopt;
-            }
-            return start.value;
-        }
-        if (!node.is<Call>() || !is_elementary(node.function)) return std::nullopt;
-        const auto operand = [&](std::size_t k) { return parts[node.operands[k]]; };
-        switch (node.operand_count) {
-            case 1: return algebra_.call(node.function, {operand(0)});
-            case 2: return algebra_.call(node.function, {operand(0), operand(1)});
-            case 3: return algebra_.call(node.function, {operand(0), operand(1), operand(2)});
-            default: return std::nullopt;
-        }
+    /// Other nodes, such as sums over the domain, have an estimate as their start.
+    static bool is_plain(const Node& node) {
+        const bool is_function = node.is<Call>() && is_elementary(node.function);
+        return is_function || node.is<double>() || node.is<ItemId>();
     }
 
     const Program& program_;

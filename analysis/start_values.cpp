@@ -32,13 +32,13 @@ public:
         return values;
     }
 
-private:
     StartValue of_formula(const Formula& formula, const IdVector<ItemId, StartValue>& items) {
         IdVector<NodeId, StartValue> parts;
         for (const Node& node : formula.nodes) parts.push_back(of_node(node, parts, items));
         return parts.empty() ? none_ : parts.back();
     }
 
+private:
     StartValue of_node(const Node& node, const IdVector<NodeId, StartValue>& parts,
                        const IdVector<ItemId, StartValue>& items) {
         if (const auto* number = node.as<double>()) return {algebra_.number(*number), none_.value};
@@ -117,7 +117,7 @@ private:
         if (!is_of_numbers) return result;  // A derivative of a flat state is 0.
         Node valued = node;
         for (std::size_t n = 0; n < node.operand_count; ++n) valued.operands[n] = of(n).value;
-        result.value = called(valued);
+        result.value = algebra_.call_of(valued);
         for (std::size_t n = 0; n < node.operand_count; ++n) {
             if (algebra_.is_number(of(n).scatter, 0)) continue;
             const auto partial = partial_derivative(algebra_, valued, n);
@@ -130,16 +130,6 @@ private:
                              algebra_.product(algebra_.magnitude(*partial), of(n).scatter));
         }
         return result;
-    }
-
-    NodeId called(const Node& node) {
-        switch (node.operand_count) {
-            case 1: return algebra_.call(node.function, {node.operands[0]});
-            case 2: return algebra_.call(node.function, {node.operands[0], node.operands[1]});
-            default:
-                return algebra_.call(node.function,
-                                     {node.operands[0], node.operands[1], node.operands[2]});
-        }
     }
 
     /// A uniform number in m ± s deviates by s / √3.
@@ -162,6 +152,11 @@ IdVector<ItemId, StartValue> start_values(Algebra& algebra, const Program& progr
     Starts starts(algebra, program);
     for (std::uint32_t earlier = 0; earlier < stage; ++earlier) starts.of_stage(earlier, {});
     return starts.of_stage(stage, varied);
+}
+
+StartValue start_value(Algebra& algebra, const Program& program, const Formula& formula,
+                       const IdVector<ItemId, StartValue>& starts) {
+    return Starts(algebra, program).of_formula(formula, starts);
 }
 
 }  // namespace cascade::analysis

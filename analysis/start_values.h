@@ -27,4 +27,8 @@ struct StartValue {
 IdVector<ItemId, StartValue> start_values(Algebra& algebra, const Program& program,
                                           std::uint32_t stage, std::span<const ItemId> varied);
 
+/// The start of a formula in the rates of a stage, from its start_values() in the same algebra.
+StartValue start_value(Algebra& algebra, const Program& program, const Formula& formula,
+                       const IdVector<ItemId, StartValue>& starts);
+
 }  // namespace cascade::analysis

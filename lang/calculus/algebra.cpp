@@ -4,6 +4,7 @@
 #include "lang/program/fold.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -51,6 +52,15 @@ std::optional<NodeId> Algebra::simpler(Function function, const Operands& operan
         default: break;
     }
     return std::nullopt;
+}
+
+NodeId Algebra::call_of(const Node& node) {
+    const auto [a, b, c] = std::array{node.operands[0], node.operands[1], node.operands[2]};
+    switch (node.operand_count) {
+        case 1: return call(node.function, {a});
+        case 2: return call(node.function, {a, b});
+        default: return call(node.function, {a, b, c});
+    }
 }
 
 NodeId Algebra::call(Function function, std::initializer_list<NodeId> operands, ValueType type) {

@@ -12,6 +12,8 @@ class Algebra : public ExpressionGraph {
 public:
     NodeId call(Function function, std::initializer_list<NodeId> operands,
                 ValueType type = ValueType::number) override;
+    /// The function of a node, applied to its one to three operands, which are nodes of this graph.
+    NodeId call_of(const Node& node);
 
     NodeId sum(NodeId a, NodeId b) { return call(Function::add, {a, b}); }
     NodeId difference(NodeId a, NodeId b) { return call(Function::subtract, {a, b}); }

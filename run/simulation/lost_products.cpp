@@ -1,6 +1,7 @@
 // Compares what rates lose with the values that they change.
 #include "run/simulation/lost_products.h"
 
+#include "core/counted_cells.h"
 #include "lang/calculus/magnitudes.h"
 #include "run/stage/stage_time.h"
 
@@ -26,19 +27,16 @@ constexpr double time_without_end = 10000;
 
 Magnitude magnitude_in(const Field& field, const Mask* counted) {
     return field.visit([&](const auto& plane) {
-        const PlaneLayout& layout = plane.layout();
         Magnitude size{INFINITY, 0, true};
-        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-            for (std::int64_t i = 0; i < layout.width; ++i) {
-                if (counted != nullptr && counted->row(row)[i] == 0) continue;
-                const double value = plane.row(row)[i];
-                if (!std::isfinite(value)) return Magnitude{};
-                size.least = std::min(size.least, std::abs(value));
-                size.most = std::max(size.most, std::abs(value));
-                size.is_positive = size.is_positive && value >= 0;
-            }
-        }
-        return size.least <= size.most ? size : Magnitude{};
+        bool is_finite = true;
+        for_each_counted(plane.layout(), counted, [&](std::int64_t row, std::int64_t i) {
+            const double value = plane.row(row)[i];
+            is_finite = is_finite && std::isfinite(value);
+            size.least = std::min(size.least, std::abs(value));
+            size.most = std::max(size.most, std::abs(value));
+            size.is_positive = size.is_positive && value >= 0;
+        });
+        return is_finite && size.least <= size.most ? size : Magnitude{};
     });
 }
 

@@ -1,6 +1,7 @@
 // Examines the species, a few more steps, and the rates.
 #include "run/simulation/stage_doubts.h"
 
+#include "core/counted_cells.h"
 #include "core/spread.h"
 #include "lang/program/nodes_of_rates.h"
 #include "run/simulation/stage_tools.h"
@@ -45,21 +46,17 @@ struct LostChange {
 LostChange lost_change(const Field& species, const Field& rates, double step, const Mask* counted,
                        const Mask* frozen) {
     const auto &value = species.plane(), &rate = rates.plane();
-    const PlaneLayout& layout = value.layout();
     const auto length = static_cast<float>(step);
     double cells = 0, moving = 0, lost = 0, sum = 0;
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            if (counted != nullptr && counted->row(row)[i] == 0) continue;
-            ++cells;
-            const float change = length * rate.row(row)[i];
-            if (change == 0 || (frozen != nullptr && frozen->row(row)[i] != 0)) continue;
-            ++moving;
-            if (value.row(row)[i] + change != value.row(row)[i]) continue;
-            ++lost;
-            sum += std::abs(double{rate.row(row)[i]});
-        }
-    }
+    for_each_counted(value.layout(), counted, [&](std::int64_t row, std::int64_t i) {
+        ++cells;
+        const float change = length * rate.row(row)[i];
+        if (change == 0 || (frozen != nullptr && frozen->row(row)[i] != 0)) return;
+        ++moving;
+        if (value.row(row)[i] + change != value.row(row)[i]) return;
+        ++lost;
+        sum += std::abs(double{rate.row(row)[i]});
+    });
     if (moving == 0) return {};
     return {lost / moving, sum / cells};
 }

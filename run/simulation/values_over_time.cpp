@@ -1,6 +1,7 @@
 // Runs the plan of a formula again and again, with another `t` each time.
 #include "run/simulation/values_over_time.h"
 
+#include "core/counted_cells.h"
 #include "run/stage/plan_runner.h"
 
 #include <algorithm>
@@ -14,16 +15,6 @@ namespace {
 constexpr std::int64_t fewest_moments = 16;
 /// What is evaluated for all moments takes a fraction of a second.
 constexpr std::int64_t most_cells_of_moments = std::int64_t{1} << 23;
-
-/// Calls `use(row, i)` for the cells that count.
-template <typename Use>
-void for_each_counted(const PlaneLayout& layout, const Mask* counted, Use use) {
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        for (std::int64_t i = 0; i < layout.width; ++i) {
-            if (counted == nullptr || counted->row(row)[i] != 0) use(row, i);
-        }
-    }
-}
 
 /// Of |a − b| over the cells; what is not finite counts as 0.
 double sum_of_changes(const Field& a, const Field& b, const Mask* counted) {

@@ -1,6 +1,7 @@
 // The first remark that applies is made: frozen, even, not ended by 'until', growing, fading.
 #include "run/stage/stage_remarks.h"
 
+#include "core/counted_cells.h"
 #include "core/with_commas.h"
 #include "run/stage/bound_kernel.h"
 
@@ -64,13 +65,10 @@ std::string describe_even(const Stage& stage, const System& system, const StageC
 /// The part of the cells in which a mask is 1.
 double part_of_ones(const Mask& mask, const Mask* inside) {
     double ones = 0, cells = 0;
-    for (std::int64_t row = 0; row < mask.layout().row_count(); ++row) {
-        for (std::int64_t i = 0; i < mask.layout().width; ++i) {
-            if (inside != nullptr && inside->row(row)[i] == 0) continue;
-            ++cells;
-            if (mask.row(row)[i] != 0) ++ones;
-        }
-    }
+    for_each_counted(mask.layout(), inside, [&](std::int64_t row, std::int64_t i) {
+        ++cells;
+        if (mask.row(row)[i] != 0) ++ones;
+    });
     return cells > 0 ? ones / cells : 0;
 }
 

@@ -1,0 +1,21 @@
+// The cells of a plane that count.
+#pragma once
+
+#include "core/plane.h"
+
+#include <cstdint>
+
+namespace cascade {
+
+/// Calls `use(row, i)` for the cells in which the mask `counted` is not 0, in order; for all cells
+/// without a mask.
+template <typename Use>
+void for_each_counted(const PlaneLayout& layout, const Mask* counted, const Use& use) {
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        for (std::int64_t i = 0; i < layout.width; ++i) {
+            if (counted == nullptr || counted->row(row)[i] != 0) use(row, i);
+        }
+    }
+}
+
+}  // namespace cascade
