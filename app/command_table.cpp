@@ -1,5 +1,7 @@
 // The table of commands.
+#include "app/command_options.h"
 #include "app/commands.h"
+#include "app/help.h"
 
 #include <array>
 
@@ -7,21 +9,35 @@ namespace cascade {
 
 std::span<const CommandEntry> command_table() {
     using enum AtPrompt;
-    static constexpr std::array<CommandEntry, 14> all = {{
-        {Command::run, "run", run_command, absent},
-        {Command::sweep, "sweep", sweep_command, of_script},
-        {Command::check, "check", check_command, of_script},
-        {Command::analyze, "analyze", analyze_command, of_script},
-        {Command::bench, "bench", bench_command, of_script},
-        {Command::compile, "compile", compile_command, of_script},
-        {Command::systems, "systems", systems_command, plain},
-        {Command::new_script, "new", new_command, absent},
-        {Command::palettes, "palettes", palettes_command, plain},
-        {Command::format, "fmt", format_command, absent},
-        {Command::mesh, "mesh", mesh_command, plain},
-        {Command::repl, "repl", repl_command, absent},
-        {Command::view, "view", view_command, absent},
-        {Command::export_page, "export", export_command, of_script},
+    static const std::array<CommandEntry, 14> all = {{
+        {Command::run, "run", run_command, absent, help::run, help::run_examples,
+         command_options::run},
+        {Command::sweep, "sweep", sweep_command, of_script, help::sweep, help::sweep_examples,
+         command_options::sweep},
+        {Command::check, "check", check_command, of_script, help::check, help::check_examples,
+         command_options::check},
+        {Command::analyze, "analyze", analyze_command, of_script, help::analyze,
+         help::analyze_examples, command_options::analyze},
+        {Command::bench, "bench", bench_command, of_script, help::bench, help::bench_examples,
+         command_options::bench},
+        {Command::compile, "compile", compile_command, of_script, help::compile,
+         help::compile_examples, command_options::compile},
+        {Command::systems, "systems", systems_command, plain, help::systems, help::systems_examples,
+         command_options::systems},
+        {Command::new_script, "new", new_command, absent, help::new_script,
+         help::new_script_examples, command_options::new_script},
+        {Command::palettes, "palettes", palettes_command, plain, help::palettes,
+         help::palettes_examples, command_options::palettes},
+        {Command::format, "fmt", format_command, absent, help::format, help::format_examples,
+         command_options::format},
+        {Command::mesh, "mesh", mesh_command, plain, help::mesh, help::mesh_examples,
+         command_options::mesh},
+        {Command::repl, "repl", repl_command, absent, help::repl, help::repl_examples,
+         command_options::repl},
+        {Command::export_page, "export", export_command, of_script, help::export_page,
+         help::export_page_examples, command_options::export_page},
+        {Command::view, "view", view_command, absent, help::view, help::view_examples,
+         command_options::view},
     }};
     return all;
 }

@@ -11,6 +11,10 @@
 #include <string>
 #include <string_view>
 
+namespace CLI {
+class App;
+}
+
 namespace cascade {
 
 int run_command(const Options& options, Console& console);
@@ -36,6 +40,9 @@ struct CommandEntry {
     std::string_view name;
     int (*action)(const Options& options, Console& console);
     AtPrompt at_prompt;
+    /// One sentence, and the end of the command's help.
+    std::string_view about, examples;
+    void (*add_options)(CLI::App& command, Options& options);
 };
 
 /// All commands of the program.

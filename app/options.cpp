@@ -4,7 +4,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/help.h"
-#include "app/option_groups.h"
+#include "app/option_values.h"
 #include "core/near_name.h"
 #include "lang/vocabulary/settings.h"
 
@@ -47,30 +47,13 @@ public:
 /// Everything of CLI11 in one struct, so that it is destroyed after parsing.
 struct Parser {
     CLI::App app;
-    CLI::App* run = nullptr;
-    CLI::App* sweep = nullptr;
-    CLI::App* check = nullptr;
-    CLI::App* analyze = nullptr;
-    CLI::App* bench = nullptr;
-    CLI::App* compile = nullptr;
-    CLI::App* systems = nullptr;
-    CLI::App* new_script = nullptr;
-    CLI::App* palettes = nullptr;
-    CLI::App* format = nullptr;
-    CLI::App* mesh = nullptr;
-    CLI::App* repl = nullptr;
-    CLI::App* view = nullptr;
-    CLI::App* export_page = nullptr;
     Options options;
     bool show_version = false;
 
-    explicit Parser(const std::string& program) : app(std::string(help::about), program) {
-        add_all();
-    }
-    void add_all();
+    /// Knows the options of those commands alone that are among the words.
+    Parser(const std::string& program, const std::vector<std::string>& words);
     /// --help of the chosen command, or of the program if there is none.
     std::string help();
-    CLI::App* command(const std::string& name, std::string_view about, std::string_view examples);
     CLI::App* chosen();
     /// The command as the user calls it, such as "cascade run".
     std::string called(const std::string& program) {
@@ -86,15 +69,6 @@ struct Parser {
     std::string describe_unexpected(const std::string& program);
 };
 
-CLI::App* Parser::command(const std::string& name, std::string_view about,
-                          std::string_view examples) {
-    CLI::App* sub = app.add_subcommand(name, std::string(about));
-    sub->footer(std::string(examples));
-    sub->group("Commands");
-    sub->set_help_flag();  // It is added last, so that it is listed last.
-    return sub;
-}
-
 std::string Parser::help() {
     std::string text = chosen() ? chosen()->help(app.get_name()) : app.help();
     // CLI11 leaves two empty lines between groups.
@@ -104,133 +78,24 @@ std::string Parser::help() {
     return text;
 }
 
-void Parser::add_all() {
-    namespace groups = option_groups;
+Parser::Parser(const std::string& program, const std::vector<std::string>& words)
+    : app(std::string(help::about), program) {
     app.formatter(std::make_shared<HelpFormatter>());
     app.option_defaults()->disable_flag_override();  // Else --fast=0 and --fast=3 are taken.
     app.set_help_flag("-h,--help", "This text; 'cascade COMMAND --help' describes a command");
     app.add_flag("-V,--version", show_version, "The version, and what it was built with");
     app.get_option("--help")->group("Options");
     app.footer(std::string(help::examples));
-
-    run = command("run", help::run, help::run_examples);
-    groups::add_script(*run, options,
-                       "A script, a picture that Cascade drew, or - for standard input");
-    groups::add_files(*run, options.run);
-    groups::add_picture_options(*run, options.picture);
-    groups::add_log(*run, options.run);
-    groups::add_overrides(*run, options.overrides);
-    groups::add_simulation(*run, options, "Threads; without it all cores");
-    groups::add_stop(*run, options);
-    groups::add_timing(*run, options);
-    groups::add_quiet(*run, options);
-    groups::add_limits(*run, options);
-    groups::add_dump(*run, options);
-
-    sweep = command("sweep", help::sweep, help::sweep_examples);
-    groups::add_script(*sweep, options, "A script, or a picture that Cascade drew");
-    groups::add_sweep(*sweep, options);
-    groups::add_shown(*sweep, options.picture);
-    groups::add_overrides(*sweep, options.overrides);
-    groups::add_simulation(*sweep, options,
-                           "Runs at once, each on one thread; without it as many\n"
-                           "as there are cores");
-    groups::add_quiet(*sweep, options);
-    groups::add_limits(*sweep, options);
-
-    check = command("check", help::check, help::check_examples);
-    check->add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
-        ->type_name("");
-    groups::add_overrides(*check, options.overrides);
-    groups::add_dump(*check, options);
-
-    analyze = command("analyze", help::analyze, help::analyze_examples);
-    groups::add_script(*analyze, options, "A script, or a picture that Cascade drew");
-    groups::add_analyze(*analyze, options);
-    groups::add_overrides(*analyze, options.overrides);
-
-    bench = command("bench", help::bench, help::bench_examples);
-    bench->add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
-        ->type_name("");
-    groups::add_bench(*bench, options);
-    groups::add_overrides(*bench, options.overrides);
-    groups::add_simulation(*bench, options, "At most N threads; without it all cores");
-    groups::add_quiet(*bench, options);
-    groups::add_limits(*bench, options);
-
-    compile = command("compile", help::compile, help::compile_examples);
-    groups::add_script(*compile, options, "A script");
-    groups::add_compile(*compile, options);
-    groups::add_overrides(*compile, options.overrides);
-
-    systems = command("systems", help::systems, help::systems_examples);
-    systems
-        ->add_option("WORDS", options.words,
-                     "The name of a system, or words that its description has; before it a\n"
-                     "script whose systems are shown instead of the library's")
-        ->type_name("");
-
-    new_script = command("new", help::new_script, help::new_script_examples);
-    new_script
-        ->add_option_function<std::string>(
-            "SYSTEM", [&](const std::string& name) { options.words.push_back(name); },
-            "A system of the library")
-        ->type_name("");
-    new_script
-        ->add_option_function<std::string>(
-            "-o,--output", [&](const std::string& path) { options.new_script = path; },
-            "The script, a new file; without it standard output")
-        ->type_name("FILE")
-        ->group("Output");
-
-    palettes = command("palettes", help::palettes, help::palettes_examples);
-    palettes
-        ->add_option("WORDS", options.words,
-                     "Names of palettes, or colours of one's own in quotes; without them all")
-        ->type_name("");
-    palettes
-        ->add_option_function<std::string>(
-            "-o,--output", [&](const std::string& path) { options.sheet = path; },
-            "A sheet of them, .png, .svg or .pdf")
-        ->type_name("FILE")
-        ->group("Output");
-
-    format = command("fmt", help::format, help::format_examples);
-    format->add_option("SCRIPTS", options.scripts, "Scripts, or - for standard input")
-        ->type_name("");
-    format->add_flag("--check", options.check_only,
-                     "Write nothing; name the scripts that would change, with status 1");
-    auto* const ascii = format->add_flag_callback(
-        "--ascii", [&] { options.notation = ScriptNotation::ascii; },
-        "Spell everything in ASCII: u' = D*lap(u) + u^2*v");
-    format
-        ->add_flag_callback(
-            "--unicode", [&] { options.notation = ScriptNotation::papers; },
-            "Spell everything as papers do: ∂u/∂t = D∇²u + u²v")
-        ->excludes(ascii);
-
-    mesh = command("mesh", help::mesh, help::mesh_examples);
-    groups::add_mesh(*mesh, options);
-
-    repl = command("repl", help::repl, help::repl_examples);
-    groups::add_script(*repl, options, "A script to begin with (may be left out)");
-    groups::add_simulation(*repl, options, "Threads; without it all cores");
-    groups::add_stop(*repl, options);
-    groups::add_quiet(*repl, options);
-
-    export_page = command("export", help::export_page, help::export_page_examples);
-    groups::add_script(*export_page, options, "A script");
-    groups::add_export(*export_page, options);
-    groups::add_overrides(*export_page, options.overrides);
-    view = command("view", help::view, help::view_examples);
-    groups::add_script(*view, options, "A script; without it the page offers the library");
-    view->add_flag("--no-browser", options.no_browser, "Print the address and open nothing");
-    groups::add_overrides(*view, options.overrides);
-    groups::add_simulation(*view, options, "Threads; without it all cores");
-
-    for (CLI::App* sub : {run, sweep, check, analyze, bench, compile, systems, new_script, palettes,
-                          format, mesh, repl, view, export_page}) {
-        sub->set_help_flag("-h,--help", "This text")->group("More");
+    for (const CommandEntry& entry : command_table()) {
+        const std::string name(entry.name);
+        CLI::App* const command = app.add_subcommand(name, std::string(entry.about));
+        command->footer(std::string(entry.examples));
+        command->group("Commands");
+        command->set_help_flag();  // It is added last, so that it is listed last.
+        // The options of all commands take longer to add than the program takes to start.
+        if (std::find(words.begin(), words.end(), name) == words.end()) continue;
+        entry.add_options(*command, options);
+        command->set_help_flag("-h,--help", "This text")->group("More");
     }
 }
 
@@ -273,7 +138,7 @@ std::string Parser::describe_unexpected(const std::string& program) {
     const std::vector<std::string> left = app.remaining(true);
     const std::string word = left.empty() ? "" : left.front();
     if (chosen()) {
-        const bool is_output = chosen() == run && output_kind(word);
+        const bool is_output = chosen()->get_name() == "run" && output_kind(word);
         return fmt::format("{}: '{}' is one argument too many{}", where, word,
                            is_output ? fmt::format("; did you mean -o {}?", word) : "");
     }
@@ -359,7 +224,7 @@ PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
 
 std::variant<Options, Leave> parse_options(const std::string& program,
                                            const std::vector<std::string>& arguments) {
-    Parser parser(program);
+    Parser parser(program, arguments);
     try {
         std::vector<std::string> words = without_terminator(arguments);
         std::reverse(words.begin(), words.end());  // CLI11 takes the arguments in reverse order.

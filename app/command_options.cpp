@@ -1,0 +1,142 @@
+// Which arguments and options each command takes.
+#include "app/command_options.h"
+
+#include "app/option_groups.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace cascade::command_options {
+
+namespace groups = option_groups;
+
+void run(CLI::App& command, Options& options) {
+    groups::add_script(command, options,
+                       "A script, a picture that Cascade drew, or - for standard input");
+    groups::add_files(command, options.run);
+    groups::add_picture_options(command, options.picture);
+    groups::add_log(command, options.run);
+    groups::add_overrides(command, options.overrides);
+    groups::add_simulation(command, options, "Threads; without it all cores");
+    groups::add_stop(command, options);
+    groups::add_timing(command, options);
+    groups::add_quiet(command, options);
+    groups::add_limits(command, options);
+    groups::add_dump(command, options);
+}
+
+void sweep(CLI::App& command, Options& options) {
+    groups::add_script(command, options, "A script, or a picture that Cascade drew");
+    groups::add_sweep(command, options);
+    groups::add_shown(command, options.picture);
+    groups::add_overrides(command, options.overrides);
+    groups::add_simulation(command, options,
+                           "Runs at once, each on one thread; without it as many\n"
+                           "as there are cores");
+    groups::add_quiet(command, options);
+    groups::add_limits(command, options);
+}
+
+void check(CLI::App& command, Options& options) {
+    command.add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
+        ->type_name("");
+    groups::add_overrides(command, options.overrides);
+    groups::add_dump(command, options);
+}
+
+void analyze(CLI::App& command, Options& options) {
+    groups::add_script(command, options, "A script, or a picture that Cascade drew");
+    groups::add_analyze(command, options);
+    groups::add_overrides(command, options.overrides);
+}
+
+void bench(CLI::App& command, Options& options) {
+    command.add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
+        ->type_name("");
+    groups::add_bench(command, options);
+    groups::add_overrides(command, options.overrides);
+    groups::add_simulation(command, options, "At most N threads; without it all cores");
+    groups::add_quiet(command, options);
+    groups::add_limits(command, options);
+}
+
+void compile(CLI::App& command, Options& options) {
+    groups::add_script(command, options, "A script");
+    groups::add_compile(command, options);
+    groups::add_overrides(command, options.overrides);
+}
+
+void systems(CLI::App& command, Options& options) {
+    command
+        .add_option("WORDS", options.words,
+                    "The name of a system, or words that its description has; before it a\n"
+                    "script whose systems are shown instead of the library's")
+        ->type_name("");
+}
+
+void new_script(CLI::App& command, Options& options) {
+    command
+        .add_option_function<std::string>(
+            "SYSTEM", [&](const std::string& name) { options.words.push_back(name); },
+            "A system of the library")
+        ->type_name("");
+    command
+        .add_option_function<std::string>(
+            "-o,--output", [&](const std::string& path) { options.new_script = path; },
+            "The script, a new file; without it standard output")
+        ->type_name("FILE")
+        ->group("Output");
+}
+
+void palettes(CLI::App& command, Options& options) {
+    command
+        .add_option("WORDS", options.words,
+                    "Names of palettes, or colours of one's own in quotes; without them all")
+        ->type_name("");
+    command
+        .add_option_function<std::string>(
+            "-o,--output", [&](const std::string& path) { options.sheet = path; },
+            "A sheet of them, .png, .svg or .pdf")
+        ->type_name("FILE")
+        ->group("Output");
+}
+
+void format(CLI::App& command, Options& options) {
+    command.add_option("SCRIPTS", options.scripts, "Scripts, or - for standard input")
+        ->type_name("");
+    command.add_flag("--check", options.check_only,
+                     "Write nothing; name the scripts that would change, with status 1");
+    auto* const ascii = command.add_flag_callback(
+        "--ascii", [&] { options.notation = ScriptNotation::ascii; },
+        "Spell everything in ASCII: u' = D*lap(u) + u^2*v");
+    command
+        .add_flag_callback(
+            "--unicode", [&] { options.notation = ScriptNotation::papers; },
+            "Spell everything as papers do: ∂u/∂t = D∇²u + u²v")
+        ->excludes(ascii);
+}
+
+void mesh(CLI::App& command, Options& options) { groups::add_mesh(command, options); }
+
+void repl(CLI::App& command, Options& options) {
+    groups::add_script(command, options, "A script to begin with (may be left out)");
+    groups::add_simulation(command, options, "Threads; without it all cores");
+    groups::add_stop(command, options);
+    groups::add_quiet(command, options);
+}
+
+void export_page(CLI::App& command, Options& options) {
+    groups::add_script(command, options, "A script");
+    groups::add_export(command, options);
+    groups::add_overrides(command, options.overrides);
+}
+
+void view(CLI::App& command, Options& options) {
+    groups::add_script(command, options, "A script; without it the page offers the library");
+    command.add_flag("--no-browser", options.no_browser, "Print the address and open nothing");
+    groups::add_overrides(command, options.overrides);
+    groups::add_simulation(command, options, "Threads; without it all cores");
+}
+
+}  // namespace cascade::command_options
