@@ -13,8 +13,8 @@ count() { grep -c "$1" calls || true; }
 rm -rf ./* && mkdir -p bin elsewhere
 rooms=$(sed -nE 's#^([a-z/]+):.*#\1#p' "$SOURCE/cmake/rooms.txt")
 mkdir -p tree/{app,include,page,cmake}
-for room in $rooms; do mkdir -p "tree/$room"; done
-cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{setup.sh,packages.txt,rooms.txt} tree/cmake/
+for room in $rooms; do mkdir -p "tree/$room" && touch "tree/$room/source.cpp"; done
+cp "$SOURCE/cascade" tree/ && cp "$SOURCE"/cmake/{fresh.sh,bring_up_to_date.sh,setup.sh,packages.txt,rooms.txt} tree/cmake/
 touch tree/CMakeLists.txt tree/core/a.cpp
 
 calls=$PWD/calls
@@ -101,8 +101,8 @@ touch tree/core/a.cpp
 launch
 [ "$(count 'cmake --build')" = 1 ] || fail "a changed file is built"
 [ "$(count apt-get)" = 0 ] || fail "packages are there"
-for room in $rooms; do
-    touch "tree/$room" && launch
+for room in $rooms; do  # An edit in place, by an editor that keeps the time of modification.
+    echo "// $room" >>"tree/$room/source.cpp" && touch -d 2001-01-01 "tree/$room/source.cpp" && launch
     [ "$(count 'cmake --build')" = 1 ] || fail "what has changed in $room is built"
 done
 touch tree/core/b.cpp && launch
@@ -124,10 +124,3 @@ touch tree/core/a.cpp
 for _ in 1 2 3; do tree/cascade >/dev/null 2>&1 & done
 wait
 [ "$(count 'cmake --build')" = 1 ] || fail "calls at the same time build once"
-
-: >calls
-begin=$(date +%s%N)
-for _ in 1 2 3 4 5 6 7 8 9 10; do tree/cascade >/dev/null; done
-took=$((($(date +%s%N) - begin) / 10000000))
-[ "$took" -lt 300 ] || fail "a call without a build takes $took ms"
-echo "launcher: $took ms a call"

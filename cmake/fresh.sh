@@ -1,0 +1,29 @@
+# Shell functions that tell whether the program must be built. Every start of `cascade` runs them, so they are plain sh and start one
+# process. Source this file with `root` set to the top folder of the source tree.
+
+build=$root/build/release
+
+# list_sources: prints what the program is built from, relative to `root`. A build notes it in build/release/built before it begins.
+list_sources() {
+    printf 'include page cmake CMakeLists.txt '
+    sed -n 's/^\([a-z][a-z]*\).*/\1/p' "$root/cmake/rooms.txt" | sort -u | tr '\n' ' '
+    echo
+}
+
+# is_fresh: true if no source has changed since the last build began. Folders count, too: they change when a file is added or removed. The
+# time of status change is compared, since a copy may keep an old time of modification.
+is_fresh() {
+    [ -x "$build/cascade" ] && [ -s "$build/built" ] || return 1
+    read -r sources <"$build/built"
+    # A library that Cascade can do without, and has been installed since.
+    [ ! -e /usr/include/openvdb/openvdb.h ] || sources="$sources /usr/include/openvdb/openvdb.h"
+    changed=$(CDPATH= cd -- "$root" && exec find $sources -cnewer build/release/built -print -quit 2>/dev/null) && [ -z "$changed" ]
+}
+
+# Pages that `cascade export` writes carry an engine, which takes other packages and another compiler. It is built when the first page is
+# written.
+needs_engine() { [ "${1-}" = export ]; }
+is_engine_fresh() { [ "$build/engine.wasm" -nt "$build/built" ]; }
+
+# is_ready ARGUMENT…: true if the program can run with these arguments.
+is_ready() { is_fresh && { ! needs_engine "$@" || is_engine_fresh; }; }
