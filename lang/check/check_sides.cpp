@@ -109,12 +109,14 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
     }
     if (work.program.domain.model) {
         // The boundary of a model has no flux.
-        for (const SideSettings& sides : stage.sides) {
+        const auto ignore = [&](const SideSettings& sides) {
             for (const SideSetting& side : sides) {
                 if (!takes_value(side.kind)) continue;
                 work.diagnostics.warning(side.span, "a model has no sides: this is ignored");
             }
-        }
+        };
+        for (const SideSettings& sides : stage.sides) ignore(sides);
+        for (const DefinitionSides& each : stage.definition_sides) ignore(each.sides);
         stage.definition_sides.clear();
         return stage.sides.clear();
     }

@@ -25,6 +25,7 @@ std::string_view reason_against(Function function) {
         case Function::symmetric:
             return "tensor(a1, a2, theta) has a meaning there, with theta along(grad(v)) or "
                    "along(axis(0, 1, 0))";
+        case Function::convolve: return "it works on grids; lap(e) reaches the cells beside one";
         case Function::curl: return "it needs columns and rows, which a model does not have";
         default: return "a model has no second derivatives by name; lap(e) has a meaning there";
     }

@@ -145,7 +145,7 @@ void Reader::expect(const std::string& words) {
 
 bool Reader::expect_message(const std::string& words) {
     static const std::regex form(
-        R"((error|warning|note)(?: (?:(<[^>]+>):)?(?:(\d+):)?(\d+))?: (.+))");
+        R"((error|warning|note)(?: (?:(<[^>]+>|[a-z_]+\.cascade):)?(?:(\d+):)?(\d+))?: (.+))");
     std::smatch parts;
     if (!std::regex_match(words, parts, form)) return false;
     Message message{parts[1], parts[2], 0, 0, parts[5]};
