@@ -80,12 +80,14 @@ public:
     std::string policy;
     std::optional<Admission> admission;
     std::set<Connection*> connections;  ///< Of the server's thread.
+    std::uint64_t last_connection = 0;  ///< Likewise.
 
 private:
     Result<void> open_doors();
     void accept(tcp::acceptor& door);
     void run();
     void close_all();
+    bool make_room();
 
     std::mutex pages_mutex_;
     std::map<PageId, PageLine> pages_;
@@ -102,7 +104,10 @@ private:
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(Server& server, tcp::socket socket)
-        : server_(server), stream_(std::move(socket)), patience_(stream_.get_executor()) {
+        : number(++server.last_connection),
+          server_(server),
+          stream_(std::move(socket)),
+          patience_(stream_.get_executor()) {
         server_.connections.insert(this);
     }
     ~Connection() { server_.connections.erase(this); }
@@ -113,7 +118,11 @@ public:
     /// Sends what waits for the page, if nothing is being sent.
     void send_waiting();
     void say_goodbye();
+    /// May it be closed to make room? A page is at home here, and what is closed leaves soon.
+    bool is_stranger() const { return page_ == 0 && !is_closed_; }
+    const std::uint64_t number;  ///< In order of their arrival.
     void close() {
+        is_closed_ = true;
         patience_.cancel();
         stream_.next_layer().close();
     }
@@ -134,6 +143,7 @@ private:
     std::optional<http::request_parser<http::empty_body>> parser_;
     http::response<http::span_body<const char>> response_;
     PageId page_ = 0;  ///< 0 before it is one.
+    bool is_closed_ = false;
     std::shared_ptr<Outbox> outbox_;
     std::optional<Outgoing> sending_;
 };
@@ -350,13 +360,26 @@ void Server::accept(tcp::acceptor& door) {
         if (is_closing_) return;
         // Descriptors may have run out: the thread would spin until one is free.
         if (error) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        if (!error && connections.size() < limits.connections) {
+        if (!error && make_room()) {
             close_on_exec(socket);
             socket.set_option(tcp::no_delay(true), error);
             std::make_shared<Connection>(*this, std::move(socket))->read_request();
         }
         accept(door);
     });
+}
+
+/// Closes the connection that has been here longest without becoming a page, so that idle strangers
+/// do not lock pages out. False if there is none.
+bool Server::make_room() {
+    if (connections.size() < limits.connections) return true;
+    Connection* oldest = nullptr;
+    for (Connection* each : connections) {
+        if (!each->is_stranger()) continue;
+        if (oldest == nullptr || each->number < oldest->number) oldest = each;
+    }
+    if (oldest != nullptr) oldest->close();
+    return oldest != nullptr;
 }
 
 void Server::run() {

@@ -313,7 +313,14 @@ TEST_F(LocalServerTest, BoundsConnectionsAndPages) {
         client->send(get);
         EXPECT_THAT(client->read_until("let x;"), StartsWith("HTTP/1.1 200 OK\r\n"));
     }
+    // Who has waited longest without being a page makes room, so that idle strangers lock out
+    // nobody.
     RawClient fifth(server_->port());
+    fifth.send(get);
+    EXPECT_THAT(fifth.read_until("let x;"), StartsWith("HTTP/1.1 200 OK\r\n"));
+    EXPECT_EQ(third.read_all(), "");
+    RawClient sixth(server_->port()), seventh(server_->port());
+    EXPECT_EQ(fourth.read_all(), "");
     EXPECT_EQ(fifth.read_all(), "");
 }
 
