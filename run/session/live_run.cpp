@@ -78,6 +78,15 @@ bool has_not_finite(const Field& values, const Tissue& tissue) {
     return false;
 }
 
+std::size_t texts_of(const SessionLog& log) {
+    std::size_t bytes = log.text.size();
+    for (const auto& logged : log.changes) {
+        const auto* const text = std::get_if<SetText>(&logged->change);
+        if (text != nullptr) bytes += text->text.size();
+    }
+    return bytes;
+}
+
 }  // namespace
 
 Script with_number(const Script& script, const SetNumber& number) {
@@ -196,8 +205,16 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::play(const SessionLog& log,
     auto run = begin(load_script(log.name, log.text, folder, log.overrides), options, control);
     if (!run) return run;
     Accepted<void> done;
+    std::size_t played = 0, told = 0;
     for (const auto& logged : log.changes) {
         if (control.cancel) return refuse("stopped");
+        const std::size_t percent = 100 * played++ / log.changes.size();
+        if (control.report && percent > told) {
+            told = percent;
+            Progress progress;
+            progress.doing = fmt::format("playing the session: {} % of its changes", percent);
+            control.report(progress);
+        }
         done = (*run)->run_to(logged->at, control);
         const bool needs_values = is_of_script(logged->change);
         if (done) {
@@ -392,6 +409,12 @@ void LiveRun::add_to_log(const Change& change, RunPlace at) {
 }
 
 Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool joins_last) {
+    if (const auto* text = std::get_if<SetText>(&change)) {
+        if (texts_of(log_) + text->text.size() > most_texts) {
+            return refuse("the log of this session is full of texts",
+                          "save the script, and begin a session with it");
+        }
+    }
     const bool is_remembered = !joins_last || past_.empty();
     std::optional<Moment> before;
     // Parts of a stroke come many times a second, and need no copy of all values.
@@ -499,11 +522,18 @@ void LiveRun::remember(Moment moment) {
 }
 
 void LiveRun::forget_old_values() {
-    std::size_t bytes = 0;
+    std::size_t bytes = 0, other = 0;
     for (std::vector<Moment>* moments : {&past_, &future_}) {
-        for (auto moment = moments->rbegin(); moment != moments->rend(); ++moment) {
-            if (moment->values) bytes += moment->values->bytes();
-            if (bytes > undo_memory_) moment->values.reset();
+        for (std::size_t k = moments->size(); k-- > 0;) {
+            Moment& moment = (*moments)[k];
+            if (moment.values) bytes += moment.values->bytes();
+            if (bytes > undo_memory_) moment.values.reset();
+            // Texts and logs cannot be grown again: without them the moment is gone.
+            other += moment.text.size() + moment.log.text.size() +
+                     moment.log.changes.size() * sizeof moment.log.changes[0];
+            if (other <= undo_texts_) continue;
+            moments->erase(moments->begin(), moments->begin() + static_cast<std::ptrdiff_t>(k + 1));
+            break;
         }
     }
 }

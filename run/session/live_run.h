@@ -111,8 +111,15 @@ public:
     /// All that was done, up to the present place.
     SessionLog log() const;
 
-    /// The most bytes of values that are kept for undo(); older moments are grown again.
-    void set_undo_memory(std::size_t bytes) { undo_memory_ = bytes; }
+    /// The most bytes of values that are kept for undo(), and of texts with logs. Older values are
+    /// grown again; moments with older texts are forgotten.
+    void set_undo_memory(std::size_t values, std::size_t texts = most_texts) {
+        undo_memory_ = values;
+        undo_texts_ = texts;
+    }
+
+    /// Texts that undo() and the log hold, in bytes; with more texts a change is refused.
+    static constexpr std::size_t most_texts = std::size_t{256} << 20;
 
 private:
     /// A moment to which undo() or redo() leads.
@@ -153,7 +160,7 @@ private:
     std::vector<PaintedNames> painted_;  ///< By stage.
     SessionLog log_;                     ///< Its end is not kept up to date.
     std::vector<Moment> past_, future_;
-    std::size_t undo_memory_ = std::size_t{256} << 20;
+    std::size_t undo_memory_ = std::size_t{256} << 20, undo_texts_ = most_texts;
 };
 
 }  // namespace cascade

@@ -215,6 +215,20 @@ TEST_F(LiveRunTest, UndoGivesTheValuesBackToTheBit) {
     }
 }
 
+TEST_F(LiveRunTest, ForgetsMomentsWithOldTexts) {
+    const auto run = begun(coupled_stages);
+    const std::string text = run->script().text;
+    run->set_undo_memory(std::size_t{1} << 20, 10 * text.size());
+    for (int k = 0; k < 20; ++k) apply(*run, SetText{text + "\n# " + std::to_string(k)});
+    int undone = 0;
+    while (run->can_undo()) {
+        ASSERT_TRUE(run->undo(control_));
+        ++undone;
+    }
+    EXPECT_GT(undone, 1);
+    EXPECT_LT(undone, 5);
+}
+
 TEST_F(LiveRunTest, PartsOfOneStrokeAreUndoneTogether) {
     const auto run = begun(coupled_stages);
     apply(*run, Paint{"u", "u + 1"});
