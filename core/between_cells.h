@@ -8,7 +8,7 @@
 // three bends (second differences) in the cell and its neighbours if they have one sign; beside an
 // edge they have not (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
 // smooth extrema", J. Comput. Phys. 227, 2008). Of cells with two values no curve leaves their
-// range.
+// range. The functions are always inlined, so that compilers make vectors of loops that call them.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline constexpr std::size_t cells_between = 6;
 
 /// The slope in the middle one of five cells, per cell.
 template <typename Number>
-Number slope_in(Number a, Number b, Number c, Number d, Number e) {
+[[gnu::always_inline]] inline Number slope_in(Number a, Number b, Number c, Number d, Number e) {
     const Number before = c - b, after = d - c;
     const Number bend = after - before, left = before - (b - a), right = e - d - after;
     const Number least = std::min(bend, std::min(left, right));
@@ -33,15 +33,23 @@ Number slope_in(Number a, Number b, Number c, Number d, Number e) {
     return std::clamp((before + after) / 2, -most, most);
 }
 
+/// The value at `part`, 0 … 1, of the way from a cell to the next one, whose slopes are `first` and
+/// `last`.
+template <typename Number>
+[[gnu::always_inline]] inline Number value_on_curve(Number from, Number to, Number first,
+                                                    Number last, Number part) {
+    const Number rise = to - from;
+    return from +
+           part * (first + part * (3 * rise - 2 * first - last + part * (first + last - 2 * rise)));
+}
+
 /// The value at `part`, 0 … 1, of the way from the third of six cells to the fourth. NaN if one of
 /// the four in the middle is.
 template <typename Number>
-Number value_between(const std::array<Number, cells_between>& v, Number part) {
-    const Number rise = v[3] - v[2];
-    const Number first = slope_in(v[0], v[1], v[2], v[3], v[4]);
-    const Number last = slope_in(v[1], v[2], v[3], v[4], v[5]);
-    return v[2] +
-           part * (first + part * (3 * rise - 2 * first - last + part * (first + last - 2 * rise)));
+[[gnu::always_inline]] inline Number value_between(const std::array<Number, cells_between>& v,
+                                                   Number part) {
+    return value_on_curve(v[2], v[3], slope_in(v[0], v[1], v[2], v[3], v[4]),
+                          slope_in(v[1], v[2], v[3], v[4], v[5]), part);
 }
 
 }  // namespace cascade

@@ -16,6 +16,9 @@ namespace cascade {
 /// The colour (sRGB) for the values of all channels at a place. Must be thread-safe and not throw.
 using PlaceColour = std::function<Colour(std::span<const float> values, const SurfacePlace& place)>;
 
+/// The same for many places, if the colours depend on the values alone. All are shown().
+using ValueColours = std::function<void(std::span<const float> values, std::span<Colour> colours)>;
+
 /// Values to paint and their mapping to colours. All that it refers to must outlive it.
 struct PaintedCells {
     std::size_t channels = 1;
@@ -25,7 +28,8 @@ struct PaintedCells {
     /// One per cell: its height above the surface, in the unit of the mesh. Empty: no heights.
     std::span<const float> heights;
     MaterialCells material = {};
-    bool displaces = false;  ///< In pictures heights move the surface.
+    bool displaces = false;     ///< In pictures heights move the surface.
+    ValueColours colours = {};  ///< Faster for many places; may be left out.
 };
 
 /// Paints places. Not thread-safe.

@@ -3,6 +3,7 @@
 
 #include "core/between_cells.h"
 #include "core/check.h"
+#include "core/wide_vectors.h"
 #include "export/channels.h"
 #include "export/fill_gaps.h"
 #include "export/map_texels.h"
@@ -23,6 +24,7 @@ struct SamplePlace {
     std::int64_t before = 0;  ///< The cell whose middle is before the sample; may be −1.
     float part = 0;           ///< Of the way to the next one.
 };
+
 SamplePlace place_of_sample(std::int64_t sample, std::int64_t samples, std::int64_t cells) {
     const double place = (static_cast<double>(sample) + 0.5) * static_cast<double>(cells) /
                              static_cast<double>(samples) -
@@ -31,78 +33,94 @@ SamplePlace place_of_sample(std::int64_t sample, std::int64_t samples, std::int6
     return {static_cast<std::int64_t>(before), static_cast<float>(place - before)};
 }
 
-/// The values of a plane's cells, those of one cell after the other: the channels of colours, the
-/// parts of the material that are there, and the height.
+/// The values between rows of cells.
+WITH_WIDE_VECTORS void blend_rows(const std::array<const float*, cells_between>& rows, float part,
+                                  float* values, std::size_t count) {
+    const auto [a, b, c, d, e, f] = rows;
+    for (std::size_t k = 0; k < count; ++k) {
+        values[k] = value_between<float>({a[k], b[k], c[k], d[k], e[k], f[k]}, part);
+    }
+}
+
+/// The slopes in cells of a line, which begins two cells before them.
+WITH_WIDE_VECTORS void find_slopes(const float* line, float* slopes, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+        slopes[k] = slope_in(line[k], line[k + 1], line[k + 2], line[k + 3], line[k + 4]);
+    }
+}
+
+/// The values of samples between cells with these values and slopes.
+WITH_WIDE_VECTORS void blend_columns(const float* cells, const float* slopes,
+                                     const std::int32_t* before, const float* parts,
+                                     float* __restrict values, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto cell = before[k];
+        values[k] =
+            value_on_curve(cells[cell], cells[cell + 1], slopes[cell], slopes[cell + 1], parts[k]);
+    }
+}
+
+/// The values of a plane's cells: the channels of colours, the parts of the material that are
+/// there, and the height if there is one. Gives those of samples, a row of them at a time.
 class CellValues {
 public:
     CellValues(const FlatCells& cells, const PaintedCells& painted)
-        : cells_(cells), channels_(painted.channels) {
+        : cells_(cells), channels_(painted.channels), has_heights_(!painted.heights.empty()) {
         for (std::size_t k = 0; k < material_parts; ++k) {
             if (!painted.material[k].empty()) parts_.push_back(static_cast<MaterialPart>(k));
         }
-        values_.resize(cells.count() * size());
         for (std::size_t c = 0; c < channels_; ++c) {
-            put(c, [&](std::size_t cell) { return painted.values[cell * channels_ + c]; });
+            add([&](std::size_t cell) { return painted.values[cell * channels_ + c]; });
         }
-        for (std::size_t k = 0; k < parts_.size(); ++k) {
-            put(channels_ + k, [&](std::size_t cell) { return painted.material[parts_[k]][cell]; });
+        for (const MaterialPart part : parts_) {
+            add([&](std::size_t cell) { return painted.material[part][cell]; });
         }
-        if (!painted.heights.empty()) {
-            put(size() - 1, [&](std::size_t cell) { return painted.heights[cell]; });
-        }
+        if (has_heights_) add([&](std::size_t cell) { return painted.heights[cell]; });
         for (std::size_t k = 0; k < size(); ++k) fill(k);
     }
 
-    std::size_t size() const { return channels_ + parts_.size() + 1; }
+    std::size_t size() const { return values_.size(); }
     std::span<const MaterialPart> parts() const { return parts_; }
 
-    /// The values of all columns at a place between rows.
-    void row_at(const SamplePlace& down, std::span<float> line) const {
+    /// Value k of all columns at a place between rows; `line` has `margin` more cells at both ends.
+    void row_at(std::size_t k, const SamplePlace& down, std::span<float> line) const {
         std::array<const float*, cells_between> rows{};
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            const std::int64_t row = cells_.row(down.before + static_cast<std::int64_t>(k) - 2);
-            rows[k] = &values_[static_cast<std::size_t>(row * cells_.columns) * size()];
+        for (std::size_t n = 0; n < rows.size(); ++n) {
+            const std::int64_t row = cells_.row(down.before + static_cast<std::int64_t>(n) - 2);
+            rows[n] = &values_[k][static_cast<std::size_t>(row * cells_.columns)];
         }
-        blend(rows, down.part, line);
-    }
-
-    /// The values at a place between columns of a line.
-    void at(std::span<const float> line, const SamplePlace& across, std::span<float> values) const {
-        std::array<const float*, cells_between> columns{};
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            const std::int64_t column =
-                cells_.column(across.before + static_cast<std::int64_t>(k) - 2);
-            columns[k] = &line[static_cast<std::size_t>(column) * size()];
+        const auto columns = static_cast<std::size_t>(cells_.columns);
+        float* const first = &line[margin];
+        blend_rows(rows, down.part, first, columns);
+        for (std::int64_t beyond = 1; beyond <= margin; ++beyond) {
+            *(first - beyond) = first[cells_.column(-beyond)];
+            first[cells_.columns - 1 + beyond] = first[cells_.column(cells_.columns - 1 + beyond)];
         }
-        blend(columns, across.part, values);
     }
+    static constexpr std::int64_t margin = cells_between / 2;
 
 private:
-    static void blend(const std::array<const float*, cells_between>& v, float part,
-                      std::span<float> values) {
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            values[k] =
-                value_between<float>({v[0][k], v[1][k], v[2][k], v[3][k], v[4][k], v[5][k]}, part);
-        }
+    template <typename Take>
+    void add(const Take& take) {
+        values_.emplace_back(cells_.count());
+        put(values_.size() - 1, take);
     }
 
     template <typename Take>
     void put(std::size_t k, const Take& take) {
-        for (std::size_t cell = 0; cell < cells_.count(); ++cell) {
-            values_[cell * size() + k] = take(cell);
-        }
+        for (std::size_t cell = 0; cell < cells_.count(); ++cell) values_[k][cell] = take(cell);
     }
 
     /// Replaces value k where it does not count: outside of the domain, though opacity is 0 there,
     /// and where a height is not finite.
     void fill(std::size_t k) {
-        const bool is_height = k + 1 == size();
+        const bool is_height = has_heights_ && k + 1 == size();
         const bool is_opacity =
             k >= channels_ && !is_height && parts_[k - channels_] == MaterialPart::opacity;
         PartialTexture texture(cells_.columns, cells_.rows);
         bool has_gap = false;
         for (std::size_t cell = 0; cell < cells_.count(); ++cell) {
-            const float value = values_[cell * size() + k];
+            const float value = values_[k][cell];
             const bool counts =
                 (is_opacity || cells_.is_inside(cell)) && (!is_height || std::isfinite(value));
             texture.texels[cell][0] = counts ? value : 0;
@@ -116,8 +134,9 @@ private:
 
     const FlatCells& cells_;
     std::size_t channels_;
+    bool has_heights_;
     std::vector<MaterialPart> parts_;
-    std::vector<float> values_;
+    std::vector<std::vector<float>> values_;  ///< Of the cells, one value after the other.
 };
 
 class PlaneBaker {
@@ -130,6 +149,11 @@ public:
         };
         samples_ = std::max({std::int64_t{2}, cells_of_texel(cells.columns, size[0]),
                              cells_of_texel(cells.rows, size[1])});
+        for (std::int64_t i = 0; i < size[0] * samples_; ++i) {
+            const auto [before, part] = place_of_sample(i, size[0] * samples_, cells.columns);
+            before_.push_back(static_cast<std::int32_t>(before + 1));
+            parts_.push_back(part);
+        }
         const auto image = [size](bool is_there) {
             return is_there ? Image(size[0], size[1]) : Image();
         };
@@ -164,27 +188,30 @@ private:
     public:
         explicit RowPainter(PlaneBaker& baker)
             : baker_(baker),
-              line_(static_cast<std::size_t>(baker.cells_.columns) * baker.values_.size()),
-              here_(baker.values_.size()),
-              sums_(static_cast<std::size_t>(baker.maps_.colour.width)) {}
+              line_(static_cast<std::size_t>(baker.cells_.columns + 2 * CellValues::margin)),
+              slopes_(line_.size() - (cells_between - 2)),
+              values_(baker.values_.size(), std::vector<float>(baker.before_.size())),
+              colours_(baker.before_.size()),
+              sums_(static_cast<std::size_t>(baker.maps_.colour.width)) {
+            if (baker.painted_.channels > 1) {
+                by_sample_.resize(colours_.size() * baker.painted_.channels);
+            }
+        }
 
         void paint(std::int64_t y) {
-            const std::int64_t samples = baker_.samples_;
-            const Image& colour = baker_.maps_.colour;
             std::fill(sums_.begin(), sums_.end(), Sum());
-            for (std::int64_t j = y * samples; j < (y + 1) * samples; ++j) {
-                baker_.values_.row_at(
-                    place_of_sample(j, colour.height * samples, baker_.cells_.rows), line_);
-                for (std::int64_t i = 0; i < colour.width * samples; ++i) {
-                    baker_.values_.at(
-                        line_, place_of_sample(i, colour.width * samples, baker_.cells_.columns),
-                        here_);
-                    add(sums_[static_cast<std::size_t>(i / samples)]);
-                }
+            for (std::int64_t j = y * baker_.samples_; j < (y + 1) * baker_.samples_; ++j) {
+                find_values(j);
+                find_colours();
+                add();
             }
-            for (std::int64_t x = 0; x < colour.width; ++x) {
-                baker_.store(x, y, sums_[static_cast<std::size_t>(x)]);
+            const auto all = static_cast<float>(baker_.samples_ * baker_.samples_);
+            Colour* const row = &baker_.maps_.colour.at(0, y);
+            for (std::size_t x = 0; x < sums_.size(); ++x) {
+                for (std::size_t c = 0; c < 3; ++c) row[x][c] = sums_[x].light[c] / all;
+                baker_.store(static_cast<std::int64_t>(x), y, sums_[x]);
             }
+            convert_to_stored({row, sums_.size()});
         }
 
         /// Over the samples of a texel, of emission as of colours in linear light.
@@ -195,23 +222,67 @@ private:
         };
 
     private:
-        void add(Sum& sum) {
-            const std::size_t channels = baker_.painted_.channels;
-            const Colour light = light_of(
-                shown(baker_.painted_.colour(std::span(here_).first(channels), SurfacePlace())));
-            for (std::size_t c = 0; c < 3; ++c) sum.light[c] += light[c];
-            for (std::size_t k = 0; k < baker_.values_.parts().size(); ++k) {
-                const MaterialPart part = baker_.values_.parts()[k];
-                const float value = std::clamp(here_[channels + k], 0.0F, 1.0F);
+        /// The values of a row of samples.
+        void find_values(std::int64_t row) {
+            const SamplePlace down =
+                place_of_sample(row, baker_.maps_.colour.height * baker_.samples_,
+                                baker_.cells_.rows);
+            for (std::size_t k = 0; k < values_.size(); ++k) {
+                baker_.values_.row_at(k, down, line_);
+                find_slopes(line_.data(), slopes_.data(), slopes_.size());
+                // The first cell with a slope is the third one.
+                blend_columns(&line_[2], slopes_.data(), baker_.before_.data(),
+                              baker_.parts_.data(), values_[k].data(), values_[k].size());
+            }
+        }
+
+        /// Their light.
+        void find_colours() {
+            const PaintedCells& painted = baker_.painted_;
+            const std::size_t channels = painted.channels;
+            for (std::size_t k = 0; k < by_sample_.size(); ++k) {
+                by_sample_[k] = values_[k % channels][k / channels];
+            }
+            const std::span<const float> values = channels > 1 ? by_sample_ : values_[0];
+            if (painted.colours) {
+                painted.colours(values, colours_);
+            } else {
+                for (std::size_t i = 0; i < colours_.size(); ++i) {
+                    colours_[i] = shown(
+                        painted.colour(values.subspan(i * channels, channels), SurfacePlace()));
+                }
+            }
+            convert_to_light(colours_);
+        }
+
+        void add() {
+            const std::size_t samples = static_cast<std::size_t>(baker_.samples_);
+            for (std::size_t x = 0, i = 0; x < sums_.size(); ++x) {
+                for (std::size_t n = 0; n < samples; ++n, ++i) {
+                    for (std::size_t c = 0; c < 3; ++c) sums_[x].light[c] += colours_[i][c];
+                }
+            }
+            std::size_t k = baker_.painted_.channels;
+            for (const MaterialPart part : baker_.values_.parts()) {
                 const bool is_light = part == MaterialPart::red || part == MaterialPart::green ||
                                       part == MaterialPart::blue;
-                sum.material[part] += is_light ? light_of(value) : value;
+                for (std::size_t i = 0; i < values_[k].size(); ++i) {
+                    const float value = std::clamp(values_[k][i], 0.0F, 1.0F);
+                    sums_[i / samples].material[part] += is_light ? light_of(value) : value;
+                }
+                ++k;
             }
-            sum.height += static_cast<double>(here_.back());
+            if (k == values_.size()) return;
+            for (std::size_t i = 0; i < values_[k].size(); ++i) {
+                sums_[i / samples].height += static_cast<double>(values_[k][i]);
+            }
         }
 
         PlaneBaker& baker_;
-        std::vector<float> line_, here_;
+        std::vector<float> line_, slopes_;
+        std::vector<std::vector<float>> values_;  ///< Of a row of samples.
+        std::vector<float> by_sample_;  ///< The channels of each, one sample after another.
+        std::vector<Colour> colours_;
         std::vector<Sum> sums_;  ///< Of a row's texels.
     };
 
@@ -227,11 +298,11 @@ private:
         });
     }
 
+    /// All but the colour.
     void store(std::int64_t x, std::int64_t y, const RowPainter::Sum& sum) {
         const auto all = static_cast<float>(samples_ * samples_);
         const auto mean = [&](MaterialPart part) { return sum.material[part] / all; };
         const auto stored = [&](float light) { return stored_of(light / all); };
-        maps_.colour.at(x, y) = {stored(sum.light[0]), stored(sum.light[1]), stored(sum.light[2])};
         const MapSet& has = maps_.maps;
         if (has.has_surface()) {
             maps_.surface.at(x, y) = {has.occlusion ? mean(MaterialPart::occlusion) : 1,
@@ -286,6 +357,10 @@ private:
     const PaintedCells& painted_;
     CellValues values_;
     std::int64_t samples_ = 2;  ///< Of a texel, along each axis.
+    /// Where the samples of a row lie: the cell before each, counted from −1, and the part of the
+    /// way to the next one.
+    std::vector<std::int32_t> before_;
+    std::vector<float> parts_;
     MaterialMaps maps_;
 };
 

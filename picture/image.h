@@ -85,6 +85,10 @@ double position_in(ValueRange range, float value);
 /// The image may be made in the memory of an earlier one.
 Image paint(const Field& field, ValueRange range, const Palette& palette, Image earlier = {});
 
+/// The same of any values, one colour for each.
+void paint(std::span<const float> values, ValueRange range, const Palette& palette,
+           std::span<Colour> colours);
+
 /// Three fields of one layout as red, green and blue, clamped to 0 … 1; magenta if one is NaN.
 Image paint(const Field& red, const Field& green, const Field& blue, Image earlier = {});
 

@@ -151,6 +151,12 @@ Image paint(const Field& field, ValueRange range, const Palette& palette, Image 
     return image;
 }
 
+void paint(std::span<const float> values, ValueRange range, const Palette& palette,
+           std::span<Colour> colours) {
+    CHECK(values.size() == colours.size(), "each value gets a colour");
+    PalettePainter(range, palette).paint(values, colours.data());
+}
+
 Image paint(const Field& red, const Field& green, const Field& blue, Image earlier) {
     const PlaneLayout& layout = red.layout();
     CHECK(layout == green.layout() && layout == blue.layout(),
@@ -182,10 +188,17 @@ Image enlarge(Image image, int factor) {
     CHECK(factor >= 1, "a picture is enlarged by a whole factor of at least 1");
     if (factor == 1) return image;
     Image large(image.width * factor, image.height * factor);
-    for (std::int64_t y = 0; y < large.height; ++y) {
-        for (std::int64_t x = 0; x < image.width; ++x) {
-            std::fill_n(&large.at(x * factor, y), factor, image.at(x, y / factor));
+    const auto enlarge_rows = [&](const auto& one, auto& all) {
+        auto out = all.begin();
+        for (std::int64_t y = 0; y < large.height; ++y) {
+            const auto row = one.begin() + y / factor * image.width;
+            for (std::int64_t x = 0; x < image.width; ++x) out = std::fill_n(out, factor, row[x]);
         }
+    };
+    enlarge_rows(image.pixels, large.pixels);
+    if (!image.alpha.empty()) {
+        large.alpha.resize(large.pixels.size());
+        enlarge_rows(image.alpha, large.alpha);
     }
     return large;
 }

@@ -1,6 +1,8 @@
 // Powers are computed in binary64 and rounded once to binary32.
 #include "picture/srgb.h"
 
+#include "core/wide_vectors.h"
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -27,10 +29,14 @@ public:
         }
     }
 
-    float operator()(float x) const {
-        const std::uint32_t part = std::bit_cast<std::uint32_t>(x) >> 16;
-        if (part - first_part >= parts_.size()) return steady_power(x, exponent_);
-        const auto [power, inverse] = parts_[part - first_part];
+    bool holds(float x) const { return part_of(x) - first_part < parts_.size(); }
+
+    float operator()(float x) const { return holds(x) ? look_up(x) : steady_power(x, exponent_); }
+
+    /// The same for a number that the table holds.
+    float look_up(float x) const {
+        const std::uint32_t part = part_of(x);
+        const auto& [power, inverse] = parts_[part - first_part];
         const double r = (static_cast<double>(x) - middle_of(part)) * inverse;
         const auto& [a, b, c, d, e] = series_;
         const double square = r * r;  // Shorter than Horner's chain of operations.
@@ -39,6 +45,7 @@ public:
     }
 
 private:
+    static std::uint32_t part_of(float x) { return std::bit_cast<std::uint32_t>(x) >> 16; }
     static double middle_of(std::uint32_t part) {
         return static_cast<double>(std::bit_cast<float>(part << 16 | 0x8000));
     }
@@ -54,6 +61,51 @@ private:
     double exponent_;
 };
 
+constexpr float dark_stored = 0.04045F, dark_light = 0.0031308F;  ///< Up to them in proportion.
+
+/// Whose power is the light of a brighter number.
+float bright_part(float stored) { return (stored + 0.055F) / 1.055F; }
+
+const PowerTable& light_power() {
+    static const PowerTable power(2.4);
+    return power;
+}
+
+const PowerTable& stored_power() {
+    static const PowerTable power(1 / 2.4);
+    return power;
+}
+
+WITH_WIDE_VECTORS bool are_amounts(const float* numbers, std::size_t count) {
+    int is_one_outside = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        is_one_outside |= static_cast<int>(!(numbers[k] >= 0 && numbers[k] <= 1));
+    }
+    return is_one_outside == 0;
+}
+
+/// light_of() each number, 0 … 1.
+WITH_WIDE_VECTORS void find_lights(const PowerTable& power, float* __restrict numbers,
+                                   std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const float stored = numbers[k];
+        const bool is_dark = stored <= dark_stored;
+        const float bright = power.look_up(bright_part(is_dark ? 1.0F : stored));
+        numbers[k] = is_dark ? stored / 12.92F : bright;
+    }
+}
+
+/// stored_of() each number, 0 … 1.
+WITH_WIDE_VECTORS void find_stored(const PowerTable& power, float* __restrict numbers,
+                                   std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const float light = numbers[k];
+        const bool is_dark = light <= dark_light;
+        const float bright = 1.055F * power.look_up(is_dark ? 1.0F : light) - 0.055F;
+        numbers[k] = is_dark ? light * 12.92F : light >= 1 ? 1.0F : bright;
+    }
+}
+
 }  // namespace
 
 float steady_power(float base, double exponent) {
@@ -62,15 +114,33 @@ float steady_power(float base, double exponent) {
 
 float light_of(float stored) {
     if (!(stored > 0)) return 0;
-    static const PowerTable power(2.4);
-    return stored <= 0.04045F ? stored / 12.92F : power((stored + 0.055F) / 1.055F);
+    return stored <= dark_stored ? stored / 12.92F : light_power()(bright_part(stored));
 }
 
 float stored_of(float light) {
     if (!(light > 0)) return 0;
     if (light >= 1) return 1;
-    static const PowerTable power(1 / 2.4);
-    return light <= 0.0031308F ? light * 12.92F : 1.055F * power(light) - 0.055F;
+    return light <= dark_light ? light * 12.92F : 1.055F * stored_power()(light) - 0.055F;
+}
+
+void convert_to_light(std::span<Colour> colours) {
+    if (colours.empty()) return;
+    float* const numbers = colours.data()->data();
+    if (are_amounts(numbers, 3 * colours.size())) {
+        find_lights(light_power(), numbers, 3 * colours.size());
+    } else {
+        for (Colour& colour : colours) colour = light_of(colour);
+    }
+}
+
+void convert_to_stored(std::span<Colour> colours) {
+    if (colours.empty()) return;
+    float* const numbers = colours.data()->data();
+    if (are_amounts(numbers, 3 * colours.size())) {
+        find_stored(stored_power(), numbers, 3 * colours.size());
+    } else {
+        for (Colour& colour : colours) colour = stored_of(colour);
+    }
 }
 
 }  // namespace cascade

@@ -4,6 +4,7 @@
 #include "core/palette.h"
 
 #include <algorithm>
+#include <span>
 
 namespace cascade {
 
@@ -24,6 +25,10 @@ inline Colour stored_of(const Colour& light) {
     if (light[1] == light[0] && light[2] == light[0]) return {red, red, red};
     return {red, stored_of(light[1]), stored_of(light[2])};
 }
+
+/// Replaces each colour by light_of() it, or by stored_of() it, in a fraction of the time.
+void convert_to_light(std::span<Colour> colours);
+void convert_to_stored(std::span<Colour> colours);
 
 /// The nearest of the levels 0 … `highest` of a file to a value, clamped to 0 … 1; NaN becomes 0.
 inline unsigned level_of(float value, unsigned highest) {

@@ -1,6 +1,8 @@
 // Copies values from the order in memory to the order of files.
 #include "run/pictures/cell_look.h"
 
+#include "export/channels.h"
+
 #include <algorithm>
 
 namespace cascade {
@@ -20,10 +22,18 @@ CellLook::CellLook(const Canvas& canvas, ValueRange range, const Palette& palett
             const auto shown = [](float channel) { return std::clamp(channel, 0.0F, 1.0F); };
             return Colour{shown(rgb[0]), shown(rgb[1]), shown(rgb[2])};
         };
+        colours = [](std::span<const float> rgb, std::span<Colour> painted) {
+            for (std::size_t k = 0; k < painted.size(); ++k) {
+                painted[k] = shown({rgb[3 * k], rgb[3 * k + 1], rgb[3 * k + 2]});
+            }
+        };
         return;
     }
     colour = [range, &palette](std::span<const float> value, const SurfacePlace&) {
         return colour_at(palette, position_in(range, value[0]));
+    };
+    colours = [range, &palette](std::span<const float> at, std::span<Colour> painted) {
+        paint(at, range, palette, painted);
     };
 }
 

@@ -18,6 +18,7 @@ struct CellLook {
     std::size_t channels = 1;
     std::vector<float> values;  ///< `channels` numbers per cell, cell after cell.
     PlaceColour colour;
+    ValueColours colours;
     std::vector<float> heights;  ///< One per cell, in units of the model or plane; empty for none.
     Material material;
     bool displaces = false;  ///< Heights move the surface; else they only bend its normals.
@@ -28,7 +29,7 @@ struct CellLook {
 
     /// Refers to the look. Without occlusion, which depends on the surface.
     PaintedCells painted() const {
-        return {channels, values, colour, heights, material.cells(), displaces};
+        return {channels, values, colour, heights, material.cells(), displaces, colours};
     }
     /// The same without heights and material.
     PaintedCells painted_alone() const { return {channels, values, colour, {}}; }

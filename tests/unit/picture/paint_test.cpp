@@ -123,6 +123,20 @@ TEST(Paint, ChannelsOfDifferentSizesAreOurMistake) {
     EXPECT_DEATH(paint(two, two, three), "one layout");
 }
 
+TEST(Paint, ValuesGetTheColoursOfAField) {
+    std::vector<float> values;
+    for (int k = 0; k < 700; ++k) values.push_back(static_cast<float>(k % 97) / 40 - 0.2F);
+    values[300] = std::numeric_limits<float>::quiet_NaN();
+    for (const char* name : {"grey", "viridis", "#fff #203040 #f80"}) {
+        const Palette& palette = *find_palette(name);
+        std::vector<Colour> colours(values.size());
+        paint(values, {0.1F, 1.7F}, palette, colours);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            EXPECT_EQ(colours[k], colour_at(palette, position_in({0.1F, 1.7F}, values[k])));
+        }
+    }
+}
+
 TEST(Enlarge, PixelsBecomeSquares) {
     Image image(2, 2);
     image.at(0, 0) = {1, 0, 0};
@@ -135,7 +149,12 @@ TEST(Enlarge, PixelsBecomeSquares) {
     for (int y = 0; y < 6; ++y) {
         for (int x = 0; x < 6; ++x) EXPECT_EQ(large.at(x, y), image.at(x / 3, y / 3));
     }
+    EXPECT_TRUE(large.alpha.empty());
     EXPECT_EQ(enlarge(image, 1).pixels, image.pixels);
+    image.alpha = {0, 0.25F, 0.5F, 1};
+    const std::vector<float> alpha = enlarge(image, 2).alpha;
+    EXPECT_EQ(alpha, (std::vector<float>{0, 0, 0.25F, 0.25F, 0, 0, 0.25F, 0.25F,  //
+                                         0.5F, 0.5F, 1, 1, 0.5F, 0.5F, 1, 1}));
     EXPECT_DEATH(enlarge(image, 0), "factor");
 }
 

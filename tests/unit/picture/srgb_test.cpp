@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <vector>
 
 namespace cascade {
 namespace {
@@ -37,6 +38,24 @@ TEST(Srgb, PowersAreThoseOfTheLibrary) {
          bits < std::bit_cast<std::uint32_t>(1.0F); bits += 97) {
         const auto light = std::bit_cast<float>(bits);
         EXPECT_EQ(stored_of(light), 1.055F * steady_power(light, 1 / 2.4) - 0.055F) << light;
+    }
+}
+
+TEST(Srgb, ManyColoursAreConvertedAsEach) {
+    for (const float beyond : {1.0F, 1.5F, -0.5F, nan}) {
+        std::vector<Colour> colours;
+        for (int k = 0; k < 100000; ++k) {
+            const float stored = static_cast<float>(k) / 99999;
+            colours.push_back({stored, stored * stored, 1 - stored});
+        }
+        colours[77][1] = beyond;
+        std::vector<Colour> lights = colours, stored = colours;
+        convert_to_light(lights);
+        convert_to_stored(stored);
+        for (std::size_t k = 0; k < colours.size(); ++k) {
+            EXPECT_EQ(lights[k], light_of(colours[k])) << k;
+            EXPECT_EQ(stored[k], stored_of(colours[k])) << k;
+        }
     }
 }
 
