@@ -1,6 +1,8 @@
 // Rearranges the tissue once for all events of a moment, then sets the new places.
 #include "tissue/division.h"
 
+#include "tissue/part_cells.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -92,6 +94,9 @@ Divided divide(Tissue& tissue, std::span<const CellEvent> events,
         result.mothers.push_back(mother);
         result.children.push_back(child);
     }
+    std::vector<std::uint32_t> born = result.mothers;
+    born.insert(born.end(), result.children.begin(), result.children.end());
+    part_cells(tissue, places.species, places.surroundings, places.seed, places.stage, born);
     tissue.pad();
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include "solvers/pace.h"
 #include "tissue/event_rounds.h"
+#include "tissue/part_cells.h"
 #include "tissue/stiffness.h"
 #include "tissue/tissue_stepper.h"
 
@@ -83,9 +84,13 @@ private:
         if (tissue_.count() == 0) return true;
         outcome_.failure = find_not_finite(tissue_);
         if (outcome_.failure) return false;
+        // A run that goes on has had these events, and its cells have parted.
+        if (time().steps == 0 && part_cells(tissue_, species_, surroundings_, schedule_.seed,
+                                            schedule_.stage, tissue_.by_number())) {
+            tissue_.pad();
+        }
         const auto built = stepper_.cells_changed(true);
         if (!built) return fail(built.error());
-        // A run that goes on has had these events.
         return time().steps > 0 || happen();
     }
 

@@ -19,6 +19,7 @@ namespace cascade {
 struct TissueSpecies {
     std::size_t place = 0;  ///< The first of three components.
     std::size_t radius = 3;
+    bool crawls = true;  ///< Places have rates.
     /// Those that never come to rest, such as the age, by which a tissue is not judged steady.
     std::vector<std::size_t> restless;
 };

@@ -31,6 +31,9 @@ TissueSpecies species_of(const TissueStage& stage) {
     TissueSpecies species;
     species.place = stage.species_of(stage.rules().place).index();
     species.radius = stage.species_of(stage.rules().radius).index();
+    // Without terms of p' its rate is a number.
+    const Formula& rate = stage.system().rates[stage.rules().place];
+    species.crawls = rate.nodes.size() != 1 || !rate.nodes.back().is<double>();
     species.restless = {stage.species_of(stage.rules().age).index()};
     return species;
 }

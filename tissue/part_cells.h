@@ -1,0 +1,21 @@
+// Cells in one place, which would never part: each would see the others in no direction.
+#pragma once
+
+#include "tissue/surroundings.h"
+#include "tissue/tissue.h"
+#include "tissue/tissue_rules.h"
+
+#include <cstdint>
+#include <span>
+
+namespace cascade {
+
+/// Of those of `cells` that are in one place, on periodic planes also across sides, moves all but
+/// the one with the least number by a hundredth of its radius, in a random direction that depends
+/// on `seed`, `stage` and its number alone and lies in the surface if there is one. Frozen cells
+/// and those without a radius stay. Returns whether any has moved; Tissue::pad() is due then.
+/// Throws std::bad_alloc.
+bool part_cells(Tissue& tissue, const TissueSpecies& species, const Surroundings& surroundings,
+                std::uint32_t seed, std::uint32_t stage, std::span<const std::uint32_t> cells);
+
+}  // namespace cascade
