@@ -129,7 +129,8 @@ void add_shown(CLI::App& app, PictureChanges& picture) {
               any_text, [&](auto show) { picture.show = show; })
         ->group(group);
     const auto palette = [known = one_of(palette_names())](const std::string& text) {
-        return known(text == "gray" ? "grey" : text);
+        const Palette* const found = find_palette(text);
+        return found != nullptr ? decltype(known(text))(std::string(found->name)) : known(text);
     };
     add_value(app, "--palette", "NAME", help::in_lines(palette_names()), palette, [&](auto name) {
         picture.palette = name;

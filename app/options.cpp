@@ -121,6 +121,23 @@ std::optional<std::string> Parser::unknown_option() const {
     return std::nullopt;
 }
 
+/// What another program's option is here; empty if there is none.
+std::string_view option_elsewhere(std::string_view name) {
+    struct Row {
+        std::string_view name, here;
+    };
+    constexpr Row rows[] = {
+        {"colormap", "--palette"},      {"cmap", "--palette"},   {"color", "--palette"},
+        {"colour", "--palette"},        {"dt", "--set speed=…"}, {"timestep", "--set speed=…"},
+        {"resolution", "--grid 64x64"}, {"nx", "--grid 64x64"},  {"param", "--set NAME=…"},
+        {"parameter", "--set NAME=…"},  {"out", "-o out.png"},   {"outfile", "-o out.png"},
+    };
+    for (const Row& row : rows) {
+        if (row.name == name) return row.here;
+    }
+    return {};
+}
+
 /// Describes an unknown option, since a word after it may only be its value; else the first word
 /// that no option and no argument has taken.
 std::string Parser::describe_unexpected(const std::string& program) {
@@ -131,6 +148,9 @@ std::string Parser::describe_unexpected(const std::string& program) {
             return fmt::format("{}: there is no option --{}; write --set {}=…", where, setting,
                                setting);
         }
+        if (const std::string_view meant = option_elsewhere(setting); !meant.empty()) {
+            return fmt::format("{}: there is no option {}; write {}", where, *option, meant);
+        }
         const std::string near = near_option(*option);
         return fmt::format("{}: there is no option {}{}", where, *option,
                            near.empty() ? "" : fmt::format("; did you mean {}?", near));
@@ -138,14 +158,25 @@ std::string Parser::describe_unexpected(const std::string& program) {
     const std::vector<std::string> left = app.remaining(true);
     const std::string word = left.empty() ? "" : left.front();
     if (chosen()) {
-        const bool is_output = chosen()->get_name() == "run" && output_kind(word);
+        const std::string command = chosen()->get_name();
+        const bool is_output = command == "run" && output_kind(word);
+        const bool is_value = word.find('=') != std::string::npos && !word.starts_with('=');
+        const std::string meant = is_output                        ? "-o " + word
+                                  : is_value && command == "sweep" ? "--vary " + word
+                                  : is_value                       ? "--set " + word
+                                  : word == "help"                 ? "--help"
+                                                                   : "";
         return fmt::format("{}: '{}' is one argument too many{}", where, word,
-                           is_output ? fmt::format("; did you mean -o {}?", word) : "");
+                           meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
     }
     std::vector<std::string> names;
     for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
     std::string near = nearest_name(word, names);
     if (near.empty() && word.find('.') != std::string::npos) near = "run " + word;
+    if (word == "list" || word == "examples" || word == "models" || word == "library") {
+        near = "systems";
+    }
+    if (word == "version") near = "--version";
     return fmt::format("{}: there is no command '{}'{}", where, word,
                        near.empty() ? fmt::format("; the commands are {}", fmt::join(names, ", "))
                                     : fmt::format("; did you mean '{} {}'?", program, near));

@@ -85,3 +85,17 @@ hint "write 500MB, 2GB or 1.5GiB" run s.cascade -q --limit-memory lots -- run s.
 hint "as in --vary feed=0.02..0.06:9" sweep s.cascade -- sweep s.cascade -q --vary k=0.02..0.06:2 -o w
 hint "did you mean 'viridis'?" run s.cascade -q --palette viridi -- run s.cascade -q --palette viridis
 hint "'cascade systems' lists them" systems qqq -- systems
+
+# Words of other programs.
+hint "did you mean --set k=2?" run s.cascade k=2 -- check s.cascade --set k=2
+hint "did you mean --vary k=2,3?" sweep s.cascade k=2,3 -- sweep s.cascade -q --vary k=2,3 -o w2
+hint "write --palette" run s.cascade --cmap viridis -- run s.cascade -q --palette viridis
+hint "the option --grid 32x32 sets it" sweep s.cascade --vary grid=32,64 -o w3 -- check s.cascade --grid 32x32
+hint "the option --grid 32x32 sets it" check s.cascade --set domain.grid=32 -- check s.cascade --set domain.extent=32
+hint "write first.k" check s.cascade --set stage.k=2 -- check s.cascade --set first.k=2
+hint "once for each name" check s.cascade --set k=2,u=1 -- check s.cascade --set k=2 --set u=1
+hint "two dots stand between the ends of a range" sweep s.cascade --vary k=0.02-0.06:3 -- \
+    sweep s.cascade -q --vary k=0.02..0.06:3 -o w4
+hint "did you mean 'cascade systems'?" list -- systems
+"$CASCADE" sweep s.cascade -q --vary extent=4,8 -o w5 || fail "an extent that is varied"
+"$CASCADE" run s.cascade -q --palette "#000 #fff" || fail "a palette of one's own"

@@ -24,6 +24,9 @@ const ast::Statement* value_statement(const ast::Statement& statement);
 
 /// What a `--set` gives to a constant, if it may: it names no stage, side or member. Else null.
 const ast::Statement* constant_statement(const ast::Override& change);
+/// Is it the `extent` or the `spacing` of the domain, as `--set extent=4` gives it? It replaces
+/// both of the script. A parameter of that name comes first.
+bool is_of_domain(const ast::Script& script, const ast::Override& change);
 
 /// The statement of an option for this setting; null if the option was not given.
 const ast::Statement* find_option(const ast::Script& script, std::string_view name);

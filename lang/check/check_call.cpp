@@ -56,7 +56,9 @@ void ExpressionChecker::visit(const ast::Call& call) {
     for (std::uint32_t i = 0; i < call.argument_count; ++i) {
         operands[i] = part_of(script_.arguments[call.first_argument + i]);
     }
-    apply(*function, operands, call.argument_count);
+    const bool is_length =
+        function == Function::abs && formula_.nodes[operands[0]].type == ValueType::vector;
+    apply(is_length ? Function::length : *function, operands, call.argument_count);
 }
 
 /// Registers a distance(…) or keys(…), whose numbers must be constant: it is computed once per
@@ -286,6 +288,7 @@ void ExpressionChecker::check_types(const Node& node) {
         case FunctionKind::colour:
             if (node.function == Function::palette) return check_palette(node);
             formula_.nodes.back().type = ValueType::colour;
+            if (node.function == Function::rgb) check_rgb(node);
             break;
         default: break;
     }
@@ -303,6 +306,20 @@ void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
     }
     node.type = type;
     parts_.back().turned = parts_[a].turned || parts_[b].turned;
+}
+
+/// rgb(255, 128, 0) would be yellow.
+void ExpressionChecker::check_rgb(const Node& node) {
+    std::array<double, 3> parts{};
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (!parts_[node.operands[k]].constant) return;
+        parts[k] = parts_[node.operands[k]].value;
+    }
+    const auto [least, most] = std::minmax_element(parts.begin(), parts.end());
+    if (!(*least >= 0 && *most > 2 && *most <= 255)) return;
+    const auto share = [&](std::size_t k) { return fmt::format("{:.3g}", parts[k] / 255); };
+    warn(node.span, "red, green and blue are from 0 to 1",
+         fmt::format("write rgb({}, {}, {})", share(0), share(1), share(2)));
 }
 
 void ExpressionChecker::check_palette(const Node& node) {

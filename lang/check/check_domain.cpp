@@ -67,6 +67,12 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
         work.diagnostics.warning(sides, fmt::format("this is a line of {} cells", counts[0]),
                                  fmt::format("for a square write --grid {0}x{0}", counts[0]));
     }
+    const auto* const product =
+        std::get_if<ast::Binary>(&script.expressions[statement.values[0].root].node);
+    if (statement.values.size() == 1 && product != nullptr && product->op == Function::multiply) {
+        work.diagnostics.warning(sides, fmt::format("this is a line of {} cells", counts[0]),
+                                 "commas stand between the sides, as in grid: 128, 128");
+    }
     grid.width = counts[0];
     grid.height = counts[1];
     grid.depth = counts[2];
@@ -83,6 +89,10 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
     if (word == "noflux") return Boundary::no_flux;
     const auto* call = std::get_if<ast::Call>(&value.node);
     std::string hint(advice_about(call ? call->function.text : word, WordContext::boundary));
+    if (const auto* text = std::get_if<ast::Text>(&value.node)) {
+        hint = fmt::format("write {} without quotes",
+                           text->value == "periodic" ? "periodic" : "noflux");
+    }
     if (hint.empty()) hint = did_you_mean(work, word, words_taken_by(Setting::boundary));
     work.diagnostics.error(value.span, "the boundary is periodic or noflux", std::move(hint));
     return std::nullopt;
@@ -301,7 +311,14 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
 
 void check_domain(Workspace& work, const ast::Script& script) {
     const ast::Block* written = find_block(work, script, ast::BlockKind::domain, "domain");
-    const ast::Block block = written == nullptr ? ast::Block() : *written;
+    ast::Block block = written == nullptr ? ast::Block() : *written;
+    for (const ast::Override& change : script.overrides) {
+        if (value_statement(change.statement) == nullptr || !is_of_domain(script, change)) continue;
+        std::erase_if(block.statements, [](const ast::Statement& each) {
+            return each.name.text == "extent" || each.name.text == "spacing";
+        });
+        block.statements.push_back(change.statement);
+    }
     std::unordered_map<std::string, Span> seen;
     for (const ast::Statement& statement : block.statements) {
         if (statement.name.empty() || statement.values.empty()) continue;

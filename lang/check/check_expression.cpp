@@ -1,6 +1,7 @@
 // Checks one expression: each node of the syntax tree becomes a node of a formula, in order.
 #include "lang/check/expression_checker.h"
 
+#include "core/palette.h"
 #include "lang/calculus/algebra.h"
 #include "lang/check/check_directions.h"
 #include "lang/program/dependencies.h"
@@ -30,6 +31,7 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     has_error = has_error || (in_cells() && !has_places(root));
     work_.call = std::nullopt;
     if (has_error) return std::nullopt;
+    check_places();
     CheckedExpression checked;
     const bool has_other_nodes = expanded_ != nullptr || has_loose_nodes_;
     checked.formula = has_other_nodes ? formula_of(formula_.nodes, root) : std::move(formula_);
@@ -113,8 +115,10 @@ void ExpressionChecker::visit(const ast::Text& text) {
     Node& node = formula_.nodes.back();
     node.type = ValueType::text;
     if (!wants_text_[NodeId(parts_.size() - 1)]) {
+        const bool is_picture = text.value.ends_with(".png");
         return error(node.span, "a text can only name a palette or a file",
-                     "palette(v, low, high, \"grey\"), field(\"a.npy\")");
+                     is_picture ? fmt::format("write image(\"{}\")", text.value)
+                                : "palette(v, low, high, \"grey\"), field(\"a.npy\")");
     }
     node.kind = work_.program.literals->id_of(text.value);
 }
@@ -126,6 +130,12 @@ void ExpressionChecker::visit(const ast::Name& name) {
     }
     if (stands_in_kernel() && take_lag(name.name)) return;
     if (is_direction_[NodeId(parts_.size() - 1)]) return take_direction(name.name, {});
+    if (scope_.context == Context::picture && scope_.system != unknown_system &&
+        find_palette(name.name) != nullptr &&
+        find(work_.names[scope_.system], name.name) == nullptr) {
+        return error(span, fmt::format("'{}' is a palette", name.name),
+                     fmt::format("write palette(u, 0, 1, \"{}\")", name.name));
+    }
     // In a function's body; a parameter of the system that calls it is not meant.
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {
         return error(span, fmt::format("'{}' is known to cells that crawl only", name.name));
@@ -138,6 +148,10 @@ void ExpressionChecker::visit(const ast::Bracketed& bracketed) {
 }
 
 void ExpressionChecker::visit(const ast::Qualified& qualified) {
+    if (wants_text_[NodeId(parts_.size() - 1)]) {
+        return error(formula_.nodes.back().span, "a text in quotes is expected here",
+                     fmt::format("\"{}.{}\"", qualified.stage.text, qualified.name.text));
+    }
     take(resolve_qualified(work_, scope_, qualified, formula_.nodes.back().span));
 }
 

@@ -31,7 +31,38 @@ const ast::Statement* find_option(const ast::Script& script, std::string_view na
     return found == script.options.end() ? nullptr : &*found;
 }
 
+bool is_of_domain(const ast::Script& script, const ast::Override& change) {
+    const ast::Statement& statement = change.statement;
+    const std::string_view name = statement.name.text;
+    const bool is_length = name == "extent" || name == "spacing";
+    if (!is_length || !statement.side.empty() || !statement.index.empty()) return false;
+    if (!change.stage.empty()) return change.stage.text == "domain";
+    return std::ranges::none_of(script.blocks, [&](const ast::Block& block) {
+        return block.kind != ast::BlockKind::domain &&
+               std::ranges::any_of(block.statements, [&](const ast::Statement& each) {
+                   return each.name.text == name;
+               });
+    });
+}
+
 namespace {
+
+/// What the command line has for a setting of the domain; empty for other words.
+std::string option_for(const ast::Script& script, std::string_view name,
+                       const ast::Statement& statement) {
+    if (name == "grid") {
+        const auto* const number =
+            std::get_if<ast::Number>(&script.expressions[statement.values[0].root].node);
+        const auto side = number != nullptr ? static_cast<std::int64_t>(number->value) : 64;
+        return fmt::format("the option --grid {0}x{0} sets it", side);
+    }
+    for (const std::string_view each : {"seed", "precision", "cells", "mesh", "up", "facing"}) {
+        if (name == each) return fmt::format("the option --{} sets it", each);
+    }
+    if (name == "surface") return "the option --mesh sets it, as in --mesh sphere";
+    const bool is_of_domain = is_setting_of(SettingBlock::domain, name) || is_side_word(name);
+    return is_of_domain ? "extent and spacing are set so; change it in the script" : "";
+}
 
 bool is_of_constant(Workspace& work, const ast::Script& script, const ast::Override& change) {
     const ast::Statement* statement = constant_statement(change);
@@ -52,7 +83,9 @@ bool has_name(const Workspace& work, const Stage& stage, const ast::Statement& s
     return find(work.names[stage.system], name) != nullptr;
 }
 
-void report_unknown_override(Workspace& work, const ast::Word& name) {
+void report_unknown_override(Workspace& work, const ast::Script& script,
+                             const ast::Statement& statement) {
+    const ast::Word& name = statement.name;
     std::vector<std::string> names;
     for (const Stage& stage : work.program.stages) {
         if (stage.system == unknown_system) continue;
@@ -70,15 +103,38 @@ void report_unknown_override(Workspace& work, const ast::Word& name) {
     }
     for (std::string& each : settings_of({SettingBlock::stage, SettingBlock::field_stage}))
         names.push_back(std::move(each));
-    diagnostic.hint = hint_about(work, name.text, WordContext::stage, names);
+    diagnostic.hint = option_for(script, name.text, statement);
+    if (diagnostic.hint.empty()) {
+        diagnostic.hint = hint_about(work, name.text, WordContext::stage, names);
+    } else {
+        diagnostic.message = fmt::format("'{}' is a setting of the domain", name.text);
+        diagnostic.notes.clear();
+    }
     work.diagnostics.add(std::move(diagnostic));
 }
 
-void report_unknown_stage(Workspace& work, const ast::Word& name) {
+void report_unknown_stage(Workspace& work, const ast::Script& script, const ast::Word& name,
+                          const ast::Statement& statement) {
+    if (name.text == "domain") {
+        const std::string hint = option_for(script, statement.name.text, statement);
+        const auto message =
+            hint.empty() ? fmt::format("the domain has no setting '{}'", statement.name.text)
+                         : fmt::format("'{}' is a setting of the domain", statement.name.text);
+        return work.diagnostics.error(join(name.span, statement.name.span), message, hint);
+    }
+    if (name.text == "picture") {
+        return work.diagnostics.error(name.span, "the picture has options of its own",
+                                      "--show, --palette and --range change it");
+    }
     std::vector<std::string> names;
     for (const Stage& stage : work.program.stages) names.push_back(stage.name);
+    std::string hint = did_you_mean(work, name.text, names);
+    for (std::size_t k = 0; k < names.size() && hint.empty(); ++k) {
+        if (!has_name(work, work.program.stages[k], statement)) continue;
+        hint = fmt::format("write {}.{}", names[k], statement.name.text);
+    }
     work.diagnostics.error(name.span, fmt::format("there is no stage '{}'", name.text),
-                           did_you_mean(work, name.text, names));
+                           std::move(hint));
 }
 
 /// `--set gray_scott.feed=…` with the name of a system, not of a stage: sets it in all its stages.
@@ -173,7 +229,7 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
         }
         if (is_used) continue;
         if (!side->stage.empty() && !is_stage) {
-            report_unknown_stage(work, side->stage);
+            report_unknown_stage(work, script, side->stage, statement);
         } else {
             work.diagnostics.error(statement.name.span,
                                    fmt::format("no stage has a species '{}'", statement.name.text));
@@ -187,7 +243,14 @@ StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) 
     for (const ast::Override& change : script.overrides) {
         const ast::Statement* statement = value_statement(change.statement);
         if (statement == nullptr || as_side(work, change)) continue;
-        if (is_of_constant(work, script, change)) continue;
+        if (is_of_constant(work, script, change) || is_of_domain(script, change)) continue;
+        const bool is_grid =
+            statement->name.text == "grid" &&
+            !std::holds_alternative<ast::Call>(script.expressions[statement->values[0].root].node);
+        if (change.stage.empty() && is_grid) {
+            report_unknown_override(work, script, *statement);
+            continue;
+        }
         if (!change.stage.empty()) {
             const auto found = work.stages.find(std::string(change.stage.text));
             if (found != work.stages.end()) {
@@ -195,7 +258,7 @@ StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) 
                 continue;
             }
             if (set_in_stages_of_system(work, change.stage.text, statement, result)) continue;
-            report_unknown_stage(work, change.stage);
+            report_unknown_stage(work, script, change.stage, *statement);
             continue;
         }
         bool used = false;
@@ -204,7 +267,7 @@ StageOverrides distribute_overrides(Workspace& work, const ast::Script& script) 
             result[i].push_back(statement);
             used = true;
         }
-        if (!used) report_unknown_override(work, statement->name);
+        if (!used) report_unknown_override(work, script, *statement);
     }
     return result;
 }

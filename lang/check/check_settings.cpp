@@ -22,6 +22,14 @@ std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statemen
             script.expressions[statement.values[k].root].node);
     };
     if (!is_number(0) || !is_number(1) || part.begin != whole.end + 1) return "";
+    const std::string_view name = statement.name.text;
+    const bool is_count = name == "iterations" || name == "interval" || name == "duration";
+    if (is_count && part.end - part.begin == 3) {
+        const auto number = [&](std::size_t k) {
+            return std::get<ast::Number>(script.expressions[statement.values[k].root].node).value;
+        };
+        return fmt::format("write '{}'", 1000 * number(0) + number(1));
+    }
     return "the decimal separator is a point: write '.' for ','";
 }
 
@@ -44,7 +52,9 @@ std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& scri
     if (!value) return std::nullopt;
     const double least = name == "iterations" ? 0 : 1;
     if (*value < least) {
-        work.diagnostics.error(span, fmt::format("{} must be at least {}", name, least));
+        const bool is_share = *value > 0 && name == "interval";
+        work.diagnostics.error(span, fmt::format("{} must be at least {}", name, least),
+                               is_share ? "it counts steps: write 'interval: 50'" : "");
         return std::nullopt;
     }
     if (*value > static_cast<double>(most_iterations)) {

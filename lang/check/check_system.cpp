@@ -37,7 +37,7 @@ void SystemChecker::run() {
 /// `u_t = …` is a definition in the language, but a rate on paper.
 void SystemChecker::report_no_rates() {
     const auto is_paper_rate = [&](const Declaration* each) {
-        return each && each->name.size() > 2 && each->name.ends_with("_t");
+        return each && !species_of_rate(each->name).empty();
     };
     const auto found = std::find_if(definitions_.begin(), definitions_.end(), is_paper_rate);
     if (found == definitions_.end()) {
@@ -50,7 +50,7 @@ void SystemChecker::report_no_rates() {
         if (!is_paper_rate(*each)) continue;
         const std::string_view name = (*each)->name;
         work_.diagnostics.error((*each)->span(), fmt::format("'{}' is not a rate", name),
-                                fmt::format("write {}' = …", name.substr(0, name.size() - 2)));
+                                fmt::format("write {}' = …", species_of_rate(name)));
     }
 }
 

@@ -65,6 +65,13 @@ void report_change_of_nothing(Workspace& work, const System& system, const Unrea
                            did_you_mean(work, *unread.name, names));
 }
 
+/// For `u_dot = …` and the like, where u is a quantity.
+std::string hint_of_rate(const Workspace& work, SystemId system, std::string_view name) {
+    const std::string_view species = species_of_rate(name);
+    const bool is_known = !species.empty() && find(work.names[system], species) != nullptr;
+    return is_known ? fmt::format("a rate is written {}' = …", species) : "";
+}
+
 }  // namespace
 
 void warn_unread(Workspace& work) {
@@ -84,7 +91,8 @@ void warn_unread(Workspace& work) {
                                  : settings_of({SettingBlock::stage, SettingBlock::system});
                 work.diagnostics.warning(
                     unread.span, fmt::format("{} '{}' is never read", unread.kind, *unread.name),
-                    is_parameter ? hint_about(work, *unread.name, context, settings) : "");
+                    is_parameter ? hint_about(work, *unread.name, context, settings)
+                                 : hint_of_rate(work, index, *unread.name));
             }
         }
     }

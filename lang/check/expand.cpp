@@ -5,6 +5,7 @@
 #include "lang/check/check_expression.h"
 #include "lang/check/domain_lengths.h"
 #include "lang/check/user_functions.h"
+#include "lang/syntax/operator_polynomials.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,9 @@ public:
         : work_(work), scope_(scope) {
         frames_.push_back({&script, nullptr, 0, std::nullopt});
         for (const IndexValue& index : scope.indices) values_[index.name].push_back(index.value);
+        // A system may have a parameter of this name.
+        has_laplacians_ =
+            scope.system == unknown_system || find(work.names[scope.system], "lap") == nullptr;
     }
 
     Expanded run(ast::ExprId root);
@@ -42,6 +46,9 @@ private:
         leave,    ///< The body is done.
         repeat,   ///< An aggregate: bind its index to `value` and expand the operand.
         combine,  ///< The operand is done for `value`.
+        apply,    ///< Apply an operator to the last result.
+        swap,     ///< Exchange the last two results.
+        scale,    ///< Multiply the last two results.
     };
     struct Task {
         TaskKind kind = TaskKind::visit;
@@ -67,6 +74,7 @@ private:
     void finish_call(const ast::Expr& expr, const ast::Call& call);
     void finish_member(const ast::Expr& expr, const ast::Indexed& member, std::size_t before);
     void enter(ast::ExprId part);
+    void apply(ast::ExprId part);
     void repeat(const Task& task);
     void combine(const Task& task);
     /// Does the name mean a constant of the script?
@@ -99,6 +107,7 @@ private:
     std::vector<Frame> frames_;
     std::vector<ast::ExprId> arguments_;  ///< Of the functions in frames_.
     std::vector<ast::ExprId> results_;    ///< Nodes of out_ that are not yet used as operands.
+    bool has_laplacians_ = true;          ///< Means `lap` without brackets the operator?
     std::size_t open_indices_ = 0;        ///< Number of members whose index is being expanded.
     /// The values of the indices, the innermost last. Functions cannot read them.
     std::unordered_map<std::string_view, std::vector<std::int64_t>> values_;
@@ -134,6 +143,13 @@ Expanded Expander::run(ast::ExprId root) {
                 break;
             case TaskKind::repeat: repeat(task); break;
             case TaskKind::combine: combine(task); break;
+            case TaskKind::apply: apply(task.part); break;
+            case TaskKind::swap: std::swap(results_.back(), results_.end()[-2]); break;
+            case TaskKind::scale: {
+                const ast::ExprId right = take(), left = take();
+                emit(expr(task.part).span, ast::Binary{Function::multiply, left, right});
+                break;
+            }
         }
     }
     out_.root = take();
@@ -162,9 +178,13 @@ void Expander::visit(ast::ExprId part) {
         return push(TaskKind::visit, unary->operand);
     }
     if (const auto* binary = std::get_if<ast::Binary>(&here.node)) {
-        push(TaskKind::finish, part);
+        const bool is_applied = binary->op == Function::multiply && has_laplacians_ &&
+                                applies_operator(script(), binary->left) &&
+                                !is_operator(script(), binary->right);
+        push(is_applied ? TaskKind::apply : TaskKind::finish, is_applied ? binary->left : part);
         push(TaskKind::visit, binary->right);
-        return push(TaskKind::visit, binary->left);
+        if (!is_applied) push(TaskKind::visit, binary->left);
+        return;
     }
     if (const auto* member = std::get_if<ast::Indexed>(&here.node)) {
         ++open_indices_;
@@ -266,6 +286,59 @@ void Expander::visit_over(ast::ExprId part, const ast::Over& over) {
                      "sum, product, mean, min and max can");
     }
     push(TaskKind::repeat, part, index->low);
+}
+
+/// Replaces the last result u by a u, for an operator a (lang/syntax/operator_polynomials.h).
+void Expander::apply(ast::ExprId part) {
+    const ast::Expr& here = expr(part);
+    if (!is_operator(script(), part)) {
+        const auto* const number = std::get_if<ast::Number>(&here.node);
+        if (number != nullptr && number->value == 1) return;
+        push(TaskKind::scale, part);
+        push(TaskKind::swap, part);
+        return push(TaskKind::visit, part);
+    }
+    if (std::holds_alternative<ast::Name>(here.node)) {
+        const auto first = static_cast<std::uint32_t>(out_.parts.arguments.size());
+        out_.parts.arguments.push_back(take());
+        return emit(here.span, ast::Call{{here.span, "lap"}, first, 1});
+    }
+    if (const auto* unary = std::get_if<ast::Unary>(&here.node)) {
+        push(TaskKind::finish, part);
+        return push(TaskKind::apply, unary->operand);
+    }
+    const auto& binary = std::get<ast::Binary>(here.node);
+    switch (binary.op) {
+        case Function::multiply:
+            push(TaskKind::apply, binary.left);
+            return push(TaskKind::apply, binary.right);
+        case Function::divide:
+            push(TaskKind::finish, part);
+            push(TaskKind::visit, binary.right);
+            return push(TaskKind::apply, binary.left);
+        case Function::power: {
+            const auto* const power = std::get_if<ast::Number>(&expr(binary.right).node);
+            const bool is_small = power != nullptr && power->value == std::floor(power->value) &&
+                                  power->value >= 1 && power->value <= most_operator_power;
+            if (!is_small) {
+                take();
+                return error(expr(binary.right).span,
+                             fmt::format("the power of an operator is a number from 1 to {}",
+                                         most_operator_power),
+                             "as in (1 + lap)^2 u");
+            }
+            for (int k = 0; k < static_cast<int>(power->value); ++k) {
+                push(TaskKind::apply, binary.left);
+            }
+            return;
+        }
+        default:  // A sum: u is on the stack twice, and the left side is first.
+            results_.push_back(results_.back());
+            push(TaskKind::finish, part);
+            push(TaskKind::apply, binary.right);
+            push(TaskKind::swap, part);
+            return push(TaskKind::apply, binary.left);
+    }
 }
 
 void Expander::repeat(const Task& task) {
@@ -423,6 +496,7 @@ bool needs_expansion(Workspace& work, const ast::Script& script, ast::Expression
             const auto is_it = [&](const IndexValue& index) { return index.name == name->name; };
             if (std::ranges::any_of(scope.indices, is_it)) return true;
             if (has_functions && functions_of(work, script).find_constant(name->name)) return true;
+            if (name->name == "lap") return true;
         } else if (const auto* call = std::get_if<ast::Call>(&node)) {
             if (has_functions && find_function(work, script, call->function.text)) return true;
         }

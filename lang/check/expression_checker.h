@@ -89,9 +89,13 @@ private:
     void check_types(const Node& node);
     void check_choice(Node& node, NodeId a, NodeId b);
     void check_palette(const Node& node);
+    void check_rgb(const Node& node);
     void check_angle(const Node& node);
     void warn(Span span, std::string message, std::string hint);
     void check_lattice(Node& node);
+    void check_places();
+    void warn_of_place(Span span, std::string_view place);
+    void check_shape_in_domain(const Node& node);
     bool check_vectors(const Node& node);
     void check_geometry(Node& node);
     void check_link(Node& node);

@@ -40,6 +40,14 @@ bool same_words(const std::vector<FormatWord>& before, const std::vector<FormatW
         left = std::find_if(left, before.end(), is_written);
         right = std::find_if(right, after.end(), is_written);
         if (left == before.end() || right == after.end()) break;
+        // The product before an operand of (1 + lap)² has no sign, nor has (1 + lap)^2 u.
+        const auto is_left_out = [](const FormatWord& word) {
+            return word.kind == TokenKind::star && word.text.empty();
+        };
+        if (left->kind != right->kind && (is_left_out(*left) || is_left_out(*right))) {
+            ++(is_left_out(*left) ? left : right);
+            continue;
+        }
         const bool are_comments = left->is_comment() && right->is_comment();
         if (left->kind != right->kind || left->spelling != right->spelling) return false;
         if (are_comments && left->text != right->text) return false;

@@ -127,6 +127,7 @@ ExpressionParser::Progress ExpressionParser::read_name() {
 
 /// [name]. Anything else in such brackets is skipped up to the closing one.
 ExpressionParser::Progress ExpressionParser::read_bracketed() {
+    const bool is_range = cursor_.previous().kind == TokenKind::name;
     const Token open = cursor_.take();
     cursor_.skip_newlines();
     const Token inner = cursor_.peek();
@@ -158,7 +159,11 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
     }
     const Span whole = join(open.span, cursor_.previous().span);
     if (is_readable) {
-        cursor_.error(whole, "'[ ]' holds one name of this stage", "( ) groups an expression");
+        const bool is_list = cursor_.text(whole).find(',') != std::string_view::npos;
+        std::string hint = "( ) groups an expression";
+        if (is_list) hint = "lists have no brackets, as in grid: 64, 64";
+        if (is_range) hint = "a range is written 0 .. 1";
+        cursor_.error(whole, "'[ ]' holds one name of this stage", std::move(hint));
     }
     push_operand(whole, ast::Garbage{});
     return Progress::going_on;
@@ -222,7 +227,9 @@ ExpressionParser::Progress ExpressionParser::missing_operand() {
     if (ends || closes) {
         return fail(before.span, "an expression is missing after " + cursor_.describe(before));
     }
-    return fail(here.span, "an expression is missing before " + cursor_.describe(here));
+    const bool is_tex = here.kind == TokenKind::open_curly && before.kind == TokenKind::caret;
+    return fail(here.span, "an expression is missing before " + cursor_.describe(here),
+                is_tex ? "( ) groups an expression, as in u^(n + 1)" : "");
 }
 
 }  // namespace cascade

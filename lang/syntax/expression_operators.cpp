@@ -1,6 +1,9 @@
 // Expressions after an operand: operators, commas, closing brackets, and the end.
 #include "lang/syntax/expression_parser.h"
 #include "lang/vocabulary/functions.h"
+#include "lang/vocabulary/signs_elsewhere.h"
+#include "lang/vocabulary/words_elsewhere.h"
+#include "lang/syntax/operator_polynomials.h"
 #include "lang/syntax/second_rates.h"
 
 #include <fmt/core.h>
@@ -46,7 +49,7 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
         cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
     }
     if (const auto binary = binary_of(token.kind)) {
-        push_binary(*binary);
+        push_binary(*binary, cursor_.take());
         return Progress::going_on;
     }
     switch (token.kind) {
@@ -272,7 +275,7 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     }
     if (open.kind == PendingKind::group) {
         return fail(cursor_.peek().span, "',' separates the arguments of a function",
-                    "the name of a function is missing before '('");
+                    "the name of a function is missing before '('; lists have no brackets");
     }
     cursor_.take();
     arguments_.push_back(operands_.back().id);
@@ -300,6 +303,16 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
     }
 }
 
+/// True if the operand before the cursor is an operator such as (1 + lap)^2, and another begins.
+bool ExpressionParser::begins_applied() {
+    const TokenKind here = cursor_.kind();
+    const bool begins = here == TokenKind::name || here == TokenKind::number ||
+                        here == TokenKind::open_round || here == TokenKind::open_square;
+    if (!begins || cursor_.previous().kind == TokenKind::name) return false;
+    reduce_above(info(Function::multiply).precedence);
+    return applies_operator(script_, operands_.back().id);
+}
+
 /// Reports two operands without an operator between them.
 ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) {
     const Token before = cursor_.previous();
@@ -320,19 +333,54 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
         return fail(here.span, "'over' stands inside a function's brackets",
                     "write sum(e over i) or mean(e over domain)");
     }
+    if (begins_applied()) {
+        push_binary(Function::multiply, before);
+        return Progress::going_on;
+    }
+    const bool is_choice = (here.kind == TokenKind::name && cursor_.text(here) == "if") ||
+                           (before.kind == TokenKind::name && cursor_.text(before) == "if");
+    if (is_choice) {
+        return fail(here.span, "an operator is missing before " + cursor_.describe(here),
+                    "a choice is written if(condition, a, b)");
+    }
+    if (before.kind == TokenKind::number && here.kind == TokenKind::number) {
+        return fail(here.span, "an operator is missing before " + cursor_.describe(here),
+                    fmt::format("write '{0} * {1}' to multiply, '{0}, {1}' for two values",
+                                cursor_.text(before), cursor_.text(here)));
+    }
+    if (before.kind == TokenKind::number && here.kind == TokenKind::name) {
+        const std::string_view word = cursor_.text(here);
+        std::string advice = word.size() > 1 ? advice_about_unit(cursor_.text(before), word) : "";
+        if (word == "to") advice = "a range is written 0 .. 1";
+        if (!advice.empty()) {
+            return fail(here.span, "an operator is missing before " + cursor_.describe(here),
+                        std::move(advice));
+        }
+    }
     std::string hint;
     const Span both = join(before.span, here.span);
-    const bool is_product = before.kind == TokenKind::number || here.kind == TokenKind::open_round;
+    const bool is_bar =
+        here.kind == TokenKind::name && cursor_.text(here) != cursor_.text(here.span);
+    const bool is_product = before.kind == TokenKind::number ||
+                            here.kind == TokenKind::open_round ||
+                            (is_bar && before.kind != TokenKind::keyword_not);
     const bool is_word_of_range = cursor_.at_name("in") || cursor_.at_name("step");
     if (before.kind == TokenKind::name && here.kind == TokenKind::name &&
         function_named(cursor_.text(before))) {
-        hint = fmt::format("write {}({})", cursor_.text(before), shortened(cursor_.text(here)));
+        const bool is_plain = !is_bar && !function_named(cursor_.text(here));
+        hint = fmt::format("write {}({})", cursor_.text(before),
+                           is_plain ? shortened(cursor_.text(here)) : "…");
+    } else if (before.kind == TokenKind::name && here.kind == TokenKind::name &&
+               !advice_about(cursor_.text(before), WordContext::function).empty()) {
+        hint = advice_about(cursor_.text(before), WordContext::function);
     } else if (is_word_of_range) {
         hint = "a range stands after the value of a parameter: p: 1 in 0 .. 2 step 0.1";
     } else if (is_product && here.kind != TokenKind::keyword_not && both.end - both.begin <= 40) {
         hint = fmt::format("write '{} * {}' to multiply", cursor_.text(before), cursor_.text(here));
         const bool is_as_written = cursor_.text(before) == cursor_.text(before.span);
-        if (here.kind == TokenKind::open_round || !is_as_written) hint = "write '*' to multiply";
+        if (here.kind == TokenKind::open_round || !is_as_written || is_bar) {
+            hint = "write '*' to multiply";
+        }
     }
     return fail(here.span, "an operator is missing before " + cursor_.describe(here), hint);
 }

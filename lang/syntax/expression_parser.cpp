@@ -46,12 +46,12 @@ void ExpressionParser::push_bracket(PendingKind kind, Token bracket, ast::Word n
     expects_operand_ = true;
 }
 
-/// Pushes the operator at the cursor; operators on its left that bind tighter are reduced first.
-void ExpressionParser::push_binary(Function op) {
+/// Pushes an operator; operators on its left that bind tighter are reduced first.
+void ExpressionParser::push_binary(Function op, const Token& sign) {
     Pending pending;
     pending.kind = PendingKind::binary;
     pending.op = op;
-    pending.token = cursor_.take();
+    pending.token = sign;
     reduce_above(pending.precedence());
     const bool meets_equal = !pending_.empty() && pending_.back().kind == PendingKind::binary &&
                              pending_.back().precedence() == pending.precedence();

@@ -78,13 +78,14 @@ private:
     void push_component(int axis, const ast::Word& name);
     Progress unexpected_operator(bool on_new_line);
     Progress missing_operator(bool on_new_line);
+    bool begins_applied();
     Progress unclosed();
     Progress fail(Span span, std::string message, std::string hint = "");
     Progress fail_silently();
 
     void push_operand(Span span, decltype(ast::Expr::node) node);
     void push_bracket(PendingKind kind, Token bracket, ast::Word name);
-    void push_binary(Function op);
+    void push_binary(Function op, const Token& sign);
     void reduce_above(int precedence);
     void reduce();
     void report_chain(const Pending& comparison, const Operand& left, const Operand& right);

@@ -1,5 +1,6 @@
 // The lexer: one pass over the bytes of a source.
 #include "core/utf8.h"
+#include "lang/syntax/bars.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/look_alikes.h"
 #include "lang/syntax/operator_spellings.h"
@@ -80,7 +81,7 @@ public:
         const auto end = static_cast<std::uint32_t>(text_.size());
         tokens_.push_back({TokenKind::end_of_text, {source_, end, end}});
         if (!has_signs_of_papers_) return std::move(tokens_);
-        return without_paper_notation(tokens_, text_, diagnostics_);
+        return without_paper_notation(without_bars(tokens_, diagnostics_), text_, diagnostics_);
     }
 
 private:
@@ -338,7 +339,8 @@ bool Lexer::read_operator() {
     for (const Operator& known : operators) {
         if (rest.starts_with(known.spelling)) {
             push(known.kind, offset_, offset_ + known.spelling.size(), spelling(known.kind));
-            has_signs_of_papers_ = has_signs_of_papers_ || is_sign_of_papers(known.kind);
+            has_signs_of_papers_ = has_signs_of_papers_ || is_sign_of_papers(known.kind) ||
+                                   known.kind == TokenKind::bar;
             return true;
         }
     }

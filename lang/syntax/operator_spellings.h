@@ -59,6 +59,8 @@ inline constexpr Operator operators[] = {
     {"∆", TokenKind::laplacian},
     {"∂", TokenKind::partial},
     {"√", TokenKind::root},
+    {"|", TokenKind::bar},
+    {"∣", TokenKind::bar},
 };
 
 /// Operators of other languages, and what they mean here.
@@ -73,7 +75,6 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"!==", TokenKind::not_equal, "write '!='"},
     {"**", TokenKind::caret, "write '^' for a power"},
     {"&&", TokenKind::keyword_and, "write 'and'"},
-    {"||", TokenKind::keyword_or, "write 'or'"},
     {"<>", TokenKind::not_equal, "write '!='"},
     {"=>", TokenKind::greater_equal, "write '>='"},
     {"=<", TokenKind::less_equal, "write '<='"},
@@ -82,7 +83,6 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"*=", TokenKind::plus_assign, "there is only '+='"},
     {"/=", TokenKind::plus_assign, "there is only '+='"},
     {"&", TokenKind::keyword_and, "write 'and'"},
-    {"|", TokenKind::keyword_or, "write 'or'"},
     {"%", TokenKind::garbage, "write mod(a, b) for a % b"},
 };
 

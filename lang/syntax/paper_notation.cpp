@@ -242,6 +242,16 @@ private:
                                "Δ is the Laplacian and makes no width",
                                fmt::format("give the width a name, as in d_{}", token(at_).text));
         }
+        const bool is_alone = kind(at_) == TokenKind::close_round || kind(at_) == TokenKind::plus ||
+                              kind(at_) == TokenKind::minus;
+        if (is_alone && !open_.empty() && function == "lap") {  // (1 + ∇²)² u
+            put(TokenKind::name, sign.span, function);
+            if (times > 1) {
+                put(TokenKind::caret, after(sign), "^");
+                put(TokenKind::number, after(sign), kept_spelling(std::to_string(times)));
+            }
+            return end_operand();
+        }
         if (!begins_operand(at_)) {
             diagnostics_.error(sign.span,
                                fmt::format("the operand of '{}' is missing", source(sign.span)),

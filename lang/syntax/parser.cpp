@@ -136,7 +136,9 @@ void ScriptParser::parse_override() {
     change.statement.values.push_back(
         expressions_.parse("the value of '" + shortened(name.text) + "'"));
     change.statement.span = join(name.span, cursor_.previous().span);
-    report_rest("one value", change.statement.values[0], form);
+    report_rest("one value", change.statement.values[0],
+                cursor_.at(TokenKind::comma) ? "--set may be given again, once for each name"
+                                             : form);
     script_.overrides.push_back(std::move(change));
 }
 

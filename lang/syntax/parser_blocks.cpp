@@ -3,6 +3,7 @@
 
 #include "core/near_name.h"
 #include "lang/syntax/second_rates.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/core.h>
 
@@ -205,7 +206,10 @@ void ScriptParser::parse_body(ast::Block& block) {
     while (!cursor_.at_end() && !cursor_.begins_block() && !begins_classic_stage()) {
         if (cursor_.take_if(TokenKind::close_curly)) return;
         if (cursor_.take_if(TokenKind::newline) || cursor_.take_if(TokenKind::semicolon)) continue;
-        if (refuse_function_or_use()) continue;
+        if (refuse_function_or_use()) {
+            block.is_damaged = true;
+            continue;
+        }
         if (auto statement = parse_statement()) {
             add_statement(block, std::move(*statement));
         } else {
@@ -279,11 +283,18 @@ void ScriptParser::parse_outside_statement() {
     outside_reported_ = true;
     const std::array<std::string, 1> beginning = {"system_name"};
     const bool is_near = !nearest_name(statement->name.text, beginning).empty();
+    const bool is_number = statement->kind == ast::StatementKind::definition;
+    const bool is_of_domain = is_setting_of(SettingBlock::domain, statement->name.text);
     cursor_.error(statement->name.span,
                   fmt::format("{} belongs to no stage",
                               cursor_.describe({TokenKind::name, statement->name.span})),
-                  is_near ? "did you mean 'system_name'?"
-                          : "a stage begins with 'system_name: SYSTEM'");
+                  is_near     ? "did you mean 'system_name'?"
+                  : is_number ? fmt::format("write 'let {} = …' for a number of the whole script",
+                                            shortened(statement->name.text))
+                  : is_of_domain
+                      ? fmt::format("it is a setting of the domain; write {}: … in its block",
+                                    statement->name.text)
+                      : "a stage begins with 'system_name: SYSTEM'");
 }
 
 }  // namespace cascade

@@ -6,6 +6,7 @@
 #include "lang/syntax/index_words.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/second_rates.h"
+#include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/core.h>
 
@@ -255,6 +256,13 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
         cursor_.skip_statement();
         return false;
     }
+    if (const std::string_view advice = advice_about(name.text, WordContext::statement);
+        !advice.empty()) {
+        cursor_.error(name.span, fmt::format("no statement begins with {}", quoted),
+                      std::string(advice));
+        cursor_.skip_statement();
+        return false;
+    }
     cursor_.error(name.span, fmt::format("':' is missing after {}", quoted),
                   "a statement is 'name: expression'");
     const std::size_t next = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
@@ -333,7 +341,16 @@ void ScriptParser::parse_values(ast::Statement& statement) {
             cursor_.skip_statement();
             break;
         }
-        if (cursor_.at(TokenKind::newline) && !cursor_.begins_statement(1)) cursor_.take();
+        const bool ends = cursor_.at(TokenKind::newline)
+                              ? cursor_.begins_statement(1) ||
+                                    cursor_.kind(1) == TokenKind::close_curly ||
+                                    cursor_.kind(1) == TokenKind::end_of_text
+                              : cursor_.at_statement_end();
+        if (ends) {
+            cursor_.error(comma.span, "a value is missing after this ','", "leave the ',' out");
+            break;
+        }
+        if (cursor_.at(TokenKind::newline)) cursor_.take();
         statement.values.push_back(expressions_.parse(owner, ends_of_value));
     }
     if (cursor_.at_name("in")) parse_range(statement);

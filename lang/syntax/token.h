@@ -13,47 +13,48 @@
 namespace cascade {
 
 /// CASCADE_TOKEN(name, spelling): messages and `--dump tokens` use the spelling.
-#define CASCADE_TOKENS(CASCADE_TOKEN)                                              \
-    CASCADE_TOKEN(end_of_text, "end of text")                                      \
-    CASCADE_TOKEN(newline, "line end")                                             \
-    CASCADE_TOKEN(name, "name")                                                    \
-    CASCADE_TOKEN(number, "number")                                                \
-    CASCADE_TOKEN(text, "text in quotes")                                          \
-    CASCADE_TOKEN(garbage, "unreadable characters")                                \
-    CASCADE_TOKEN(keyword_and, "and")                                              \
-    CASCADE_TOKEN(keyword_or, "or")                                                \
-    CASCADE_TOKEN(keyword_not, "not")                                              \
-    CASCADE_TOKEN(colon, ":")                                                      \
-    CASCADE_TOKEN(semicolon, ";")                                                  \
-    CASCADE_TOKEN(comma, ",")                                                      \
-    CASCADE_TOKEN(dot, ".")                                                        \
-    CASCADE_TOKEN(dots, "..")                                                      \
-    CASCADE_TOKEN(prime, "'")                                                      \
-    CASCADE_TOKEN(open_round, "(")                                                 \
-    CASCADE_TOKEN(close_round, ")")                                                \
-    CASCADE_TOKEN(open_square, "[")                                                \
-    CASCADE_TOKEN(close_square, "]")                                               \
-    CASCADE_TOKEN(open_curly, "{")                                                 \
-    CASCADE_TOKEN(close_curly, "}")                                                \
-    CASCADE_TOKEN(assign, "=")                                                     \
-    CASCADE_TOKEN(plus_assign, "+=")                                               \
-    CASCADE_TOKEN(equal, "==")                                                     \
-    CASCADE_TOKEN(not_equal, "!=")                                                 \
-    CASCADE_TOKEN(less, "<")                                                       \
-    CASCADE_TOKEN(less_equal, "<=")                                                \
-    CASCADE_TOKEN(greater, ">")                                                    \
-    CASCADE_TOKEN(greater_equal, ">=")                                             \
-    CASCADE_TOKEN(plus, "+")                                                       \
-    CASCADE_TOKEN(minus, "-")                                                      \
-    CASCADE_TOKEN(star, "*")                                                       \
-    CASCADE_TOKEN(slash, "/")                                                      \
-    CASCADE_TOKEN(caret, "^")                                                      \
-    /* Signs of papers, which paper_notation.h takes apart: lex() returns none. */ \
-    CASCADE_TOKEN(nabla, "∇")                                                      \
-    CASCADE_TOKEN(laplacian, "Δ")                                                  \
-    CASCADE_TOKEN(partial, "∂")                                                    \
-    CASCADE_TOKEN(root, "√")                                                       \
-    CASCADE_TOKEN(superscript, "superscript")
+#define CASCADE_TOKENS(CASCADE_TOKEN)                                                      \
+    CASCADE_TOKEN(end_of_text, "end of text")                                              \
+    CASCADE_TOKEN(newline, "line end")                                                     \
+    CASCADE_TOKEN(name, "name")                                                            \
+    CASCADE_TOKEN(number, "number")                                                        \
+    CASCADE_TOKEN(text, "text in quotes")                                                  \
+    CASCADE_TOKEN(garbage, "unreadable characters")                                        \
+    CASCADE_TOKEN(keyword_and, "and")                                                      \
+    CASCADE_TOKEN(keyword_or, "or")                                                        \
+    CASCADE_TOKEN(keyword_not, "not")                                                      \
+    CASCADE_TOKEN(colon, ":")                                                              \
+    CASCADE_TOKEN(semicolon, ";")                                                          \
+    CASCADE_TOKEN(comma, ",")                                                              \
+    CASCADE_TOKEN(dot, ".")                                                                \
+    CASCADE_TOKEN(dots, "..")                                                              \
+    CASCADE_TOKEN(prime, "'")                                                              \
+    CASCADE_TOKEN(open_round, "(")                                                         \
+    CASCADE_TOKEN(close_round, ")")                                                        \
+    CASCADE_TOKEN(open_square, "[")                                                        \
+    CASCADE_TOKEN(close_square, "]")                                                       \
+    CASCADE_TOKEN(open_curly, "{")                                                         \
+    CASCADE_TOKEN(close_curly, "}")                                                        \
+    CASCADE_TOKEN(assign, "=")                                                             \
+    CASCADE_TOKEN(plus_assign, "+=")                                                       \
+    CASCADE_TOKEN(equal, "==")                                                             \
+    CASCADE_TOKEN(not_equal, "!=")                                                         \
+    CASCADE_TOKEN(less, "<")                                                               \
+    CASCADE_TOKEN(less_equal, "<=")                                                        \
+    CASCADE_TOKEN(greater, ">")                                                            \
+    CASCADE_TOKEN(greater_equal, ">=")                                                     \
+    CASCADE_TOKEN(plus, "+")                                                               \
+    CASCADE_TOKEN(minus, "-")                                                              \
+    CASCADE_TOKEN(star, "*")                                                               \
+    CASCADE_TOKEN(slash, "/")                                                              \
+    CASCADE_TOKEN(caret, "^")                                                              \
+    /* Signs of papers, taken apart by paper_notation.h and bars.h: lex() returns none. */ \
+    CASCADE_TOKEN(nabla, "∇")                                                              \
+    CASCADE_TOKEN(laplacian, "Δ")                                                          \
+    CASCADE_TOKEN(partial, "∂")                                                            \
+    CASCADE_TOKEN(root, "√")                                                               \
+    CASCADE_TOKEN(superscript, "superscript")                                              \
+    CASCADE_TOKEN(bar, "|")
 
 enum class TokenKind : std::uint8_t {
 #define CASCADE_TOKEN(name, spelling) name,

@@ -35,9 +35,12 @@ struct Unit {
     std::string_view base;
 };
 constexpr Unit units[] = {
-    {"m", 1, "metres"},      {"cm", 1e-2, "metres"}, {"mm", 1e-3, "metres"}, {"um", 1e-6, "metres"},
-    {"µm", 1e-6, "metres"},  {"nm", 1e-9, "metres"}, {"km", 1e3, "metres"},  {"s", 1, "seconds"},
-    {"ms", 1e-3, "seconds"}, {"min", 60, "seconds"}, {"h", 3600, "seconds"},
+    {"m", 1, "metres"},     {"cm", 1e-2, "metres"},    {"mm", 1e-3, "metres"},
+    {"um", 1e-6, "metres"}, {"µm", 1e-6, "metres"},    {"nm", 1e-9, "metres"},
+    {"km", 1e3, "metres"},  {"s", 1, "seconds"},       {"ms", 1e-3, "seconds"},
+    {"min", 60, "seconds"}, {"h", 3600, "seconds"},    {"steps", 1, ""},
+    {"iterations", 1, ""},  {"cells", 1, ""},          {"pixels", 1, ""},
+    {"px", 1, ""},          {"seconds", 1, "seconds"},
 };
 
 }  // namespace
@@ -54,6 +57,7 @@ std::string advice_about_unit(std::string_view number, std::string_view unit) {
         if (each.name != unit) continue;
         double value = 0;
         from_decimal(number.data(), number.data() + number.size(), value);
+        if (each.base.empty()) return fmt::format("numbers have no units: write '{}'", number);
         return fmt::format("numbers have no units: write '{}' for {} {} in {}",
                            fmt::format("{:g}", value * each.size), number, unit, each.base);
     }

@@ -27,6 +27,8 @@ constexpr WordElsewhere rows[] = {
     {Context::stage, "boundary bc boundaries boundary_condition boundary_conditions",
      "it belongs in the domain: write 'domain { boundary: noflux }'"},
     {Context::stage, "seed random_seed", "it belongs in the domain: write 'domain { seed: 1 }'"},
+    {Context::stage, "output out filename file save export image png",
+     "the command line names files: cascade run SCRIPT -o out.png"},
     {Context::stage, "precision dtype",
      "it belongs in the domain: write 'domain { precision: double }'"},
     {Context::stage, "palette color colour colors colormap cmap",
@@ -105,6 +107,15 @@ constexpr WordElsewhere rows[] = {
     {Context::function, "steady", "it stands alone after 'until:'"},
     {Context::function, "fixed flux", "it stands after a side, as in u.left: fixed(1)"},
 
+    {Context::function, "hsv hsl hex", "a colour is rgb(red, green, blue), each from 0 to 1"},
+    {Context::statement, "import include require load from",
+     "another script is read by use \"other.cascade\""},
+    {Context::statement, "function def func define", "a function is fn name(a, b) = expression"},
+    {Context::statement, "const constant var param parameter parameters double float int real",
+     "a parameter is 'name: value' in a system; 'let name = value' is one of the script"},
+    {Context::statement, "output save plot print show",
+     "the command line names files: cascade run SCRIPT -o out.png"},
+    {Context::statement, "diff dif derivative d", "a rate is written u' = …"},
     {Context::value, "time", "write 't'"},
     {Context::value, "dt timestep time_step", "write 'speed'"},
     {Context::value, "e euler", "write 'exp(1)'"},
@@ -132,6 +143,17 @@ bool has_word(std::string_view words, std::string_view word) {
 }  // namespace
 
 std::span<const WordElsewhere> words_elsewhere() { return rows; }
+
+std::string_view species_of_rate(std::string_view name) {
+    for (const std::string_view end : {"_dot", "_t", "_dt", "dt"}) {
+        const bool begins_with_d = end.ends_with("dt");
+        const std::size_t around = end.size() + (begins_with_d ? 1 : 0);
+        if (name.size() <= around || !name.ends_with(end)) continue;
+        if (begins_with_d && name[0] != 'd') continue;
+        return name.substr(begins_with_d ? 1 : 0, name.size() - around);
+    }
+    return {};
+}
 
 std::string_view advice_about(std::string_view word, WordContext context) {
     const auto found =

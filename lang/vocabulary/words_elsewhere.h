@@ -12,13 +12,14 @@ namespace cascade {
 
 /// Where an unknown word stands.
 enum class WordContext : std::uint8_t {
-    stage,     ///< `dt: 0.1` in a stage, or of an option such as --set
-    domain,    ///< `size: 100` in the domain
-    picture,   ///< `palette: "grey"` in the picture
-    boundary,  ///< `boundary: neumann`
-    side,      ///< `left: neumann`
-    function,  ///< `laplacian(u)`
-    value,     ///< `time` in an expression
+    stage,      ///< `dt: 0.1` in a stage, or of an option such as --set
+    domain,     ///< `size: 100` in the domain
+    picture,    ///< `palette: "grey"` in the picture
+    boundary,   ///< `boundary: neumann`
+    side,       ///< `left: neumann`
+    function,   ///< `laplacian(u)`
+    value,      ///< `time` in an expression
+    statement,  ///< `import "a.cascade"`, where a statement begins
 };
 
 /// A row: `words`, separated by blanks, and what to write instead. The text in quotes after `write`
@@ -33,6 +34,9 @@ struct WordElsewhere {
 std::span<const WordElsewhere> words_elsewhere();
 
 /// The advice about a word, regardless of case; empty if there is none.
+/// The `u` of u_t, u_dot, dudt and du_dt, the names of a rate in other programs; else empty.
+std::string_view species_of_rate(std::string_view name);
+
 std::string_view advice_about(std::string_view word, WordContext context);
 
 }  // namespace cascade

@@ -109,6 +109,12 @@ Result<Variation> parse_variation(std::string_view text) {
         return tl::unexpected(std::move(*failure));
     }
     if (dots == std::string_view::npos) {
+        if (values.find(':') != std::string_view::npos) {
+            return tl::unexpected(wrong(text, "two dots stand between the ends of a range"));
+        }
+        if (values.starts_with('[') && values.ends_with(']')) {
+            return tl::unexpected(wrong(text, "a list has no brackets"));
+        }
         variation.values = split_list(values);
         const auto is_empty = [](const std::string& value) { return value.empty(); };
         if (std::any_of(variation.values.begin(), variation.values.end(), is_empty)) {
@@ -140,7 +146,8 @@ Result<VariedRange> parse_varied_range(std::string_view text) {
     };
     const std::size_t equals = text.find('=');
     const std::string name(trimmed(text.substr(0, equals)));
-    if (equals == std::string_view::npos || name.empty()) return wrong_range("there is no name");
+    if (equals == std::string_view::npos) return wrong_range("there is no '='");
+    if (name.empty()) return wrong_range("there is no name");
     const std::string_view range = trimmed(text.substr(equals + 1));
     const std::size_t dots = range.find("..");
     if (dots == std::string_view::npos) return wrong_range("there is no range");

@@ -192,7 +192,7 @@ TEST(CheckProgram, OverridesOfASystem) {
     EXPECT_THAT(text, HasSubstr("beta: 4  # uniform"));
     // A system that no stage uses is not meant.
     EXPECT_THAT(check_text("stage one: turing_spots {}", {"autocatalysis.a=1"})->faults(),
-                ElementsAre("1:1: there is no stage 'autocatalysis'"));
+                ElementsAre("1:1: there is no stage 'autocatalysis' | write one.a"));
 }
 
 TEST(CheckProgram, Domain) {

@@ -103,7 +103,8 @@ TEST(Hints, MendWhatTheyStandAt) {
 /// How a word stands in a script, and how its advice does.
 std::string_view frame_of(WordContext context) {
     switch (context) {
-        case WordContext::stage: return "stage";
+        case WordContext::stage:
+        case WordContext::statement: return "stage";
         case WordContext::picture: return "picture";
         case WordContext::function:
         case WordContext::value: return "rate";
@@ -117,6 +118,7 @@ std::string used(WordContext context, std::string_view word) {
         case WordContext::side: return fmt::format("sides: {}", word);
         case WordContext::function: return fmt::format("{}(u)", word);
         case WordContext::value: return std::string(word);
+        case WordContext::statement: return fmt::format("{} q", word);
         // No number alone, which the advice would take for its own.
         default: return fmt::format("{}: 1 + 1", word);
     }

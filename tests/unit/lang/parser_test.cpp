@@ -200,7 +200,7 @@ TEST(Parser, ExplainsWrongOverrides) {
         {"ka", "1:1 '=' is missing after 'ka' | write name=value or stage.name=value"},
         {"large.=3", "1:6 a name is missing after '.' | write name=value or stage.name=value"},
         {"ka=", "1:3 the value of 'ka' is missing"},
-        {"ka=1,2", "1:5 one value ends before ',' | write name=value or stage.name=value"},
+        {"ka=1,2", "1:5 one value ends before ',' | --set may be given again, once for each name"},
     };
     for (const auto& [text, fault] : cases) {
         Sources sources;

@@ -1,0 +1,39 @@
+// Looks for a `lap` without brackets where it makes a product an application.
+#include "lang/syntax/operator_polynomials.h"
+
+#include <vector>
+
+namespace cascade {
+
+bool is_operator(const ast::Script& script, ast::ExprId node) {
+    std::vector<ast::ExprId> waiting{node};
+    while (!waiting.empty()) {
+        const auto& part = script.expressions[waiting.back()].node;
+        waiting.pop_back();
+        if (const auto* name = std::get_if<ast::Name>(&part)) {
+            if (name->name == "lap") return true;
+        } else if (const auto* unary = std::get_if<ast::Unary>(&part)) {
+            if (unary->op == Function::negate) waiting.push_back(unary->operand);
+        } else if (const auto* binary = std::get_if<ast::Binary>(&part)) {
+            switch (binary->op) {
+                case Function::add:
+                case Function::subtract:
+                    waiting.push_back(binary->left);
+                    waiting.push_back(binary->right);
+                    break;
+                case Function::multiply: waiting.push_back(binary->right); break;
+                case Function::divide:
+                case Function::power: waiting.push_back(binary->left); break;
+                default: break;
+            }
+        }
+    }
+    return false;
+}
+
+bool applies_operator(const ast::Script& script, ast::ExprId node) {
+    return !std::holds_alternative<ast::Name>(script.expressions[node].node) &&
+           is_operator(script, node);
+}
+
+}  // namespace cascade
