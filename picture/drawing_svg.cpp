@@ -8,10 +8,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace cascade {
 
 namespace {
+
+/// The image in pixels of at most half a unit, or as near to that as a size of 2048 × 2048 allows:
+/// programs that smooth images, such as librsvg, then blur only the edges of its squares.
+Image in_small_pixels(const DrawnImage& drawn) {
+    constexpr double per_unit = 2;
+    constexpr std::int64_t most_pixels = std::int64_t{1} << 22;
+    const Image& image = drawn.image;
+    // Along an axis with a single pixel there is nothing to blur.
+    const auto units_of_pixel = [](double length, std::int64_t count) {
+        return count > 1 ? length / static_cast<double>(count) : 0.0;
+    };
+    const double wanted =
+        std::ceil(per_unit * std::max(units_of_pixel(drawn.width, image.width),
+                                      units_of_pixel(drawn.height, image.height)));
+    const double possible = std::sqrt(static_cast<double>(most_pixels) /
+                                      static_cast<double>(image.width * image.height));
+    return enlarge(image, std::max(1, static_cast<int>(std::min(wanted, possible))));
+}
 
 class Writer {
 public:
@@ -65,7 +84,7 @@ private:
     }
 
     Result<void> add(const DrawnImage& image) {
-        const auto bytes = encode_png(image.image, PngDepth::eight, {});
+        const auto bytes = encode_png(in_small_pixels(image), PngDepth::eight, {});
         if (!bytes) return tl::unexpected(bytes.error());
         text_ += fmt::format(
             "<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "

@@ -44,8 +44,8 @@ TEST(Srgb, PowersAreThoseOfTheLibrary) {
 TEST(Srgb, ManyColoursAreConvertedAsEach) {
     for (const float beyond : {1.0F, 1.5F, -0.5F, nan}) {
         std::vector<Colour> colours;
-        for (int k = 0; k < 100000; ++k) {
-            const float stored = static_cast<float>(k) / 99999;
+        for (int k = 0; k < 10000; ++k) {
+            const float stored = static_cast<float>(k) / 9999;
             colours.push_back({stored, stored * stored, 1 - stored});
         }
         colours[77][1] = beyond;
