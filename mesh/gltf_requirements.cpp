@@ -23,6 +23,7 @@ constexpr std::size_t deepest_nesting = 128;
 constexpr std::array applied_extensions = {
     "EXT_mesh_gpu_instancing", "KHR_texture_transform",   "KHR_mesh_quantization",
     "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
+    "KHR_node_visibility",
 };
 
 /// Those that say nothing of shapes, places and texture coordinates; also all of look_prefixes.

@@ -73,6 +73,14 @@ private:
         });
     }
 
+    /// By KHR_node_visibility; its descendants are hidden with it.
+    static bool is_hidden(const tinygltf::Node& node) {
+        const auto visibility = node.extensions.find("KHR_node_visibility");
+        if (visibility == node.extensions.end() || !visibility->second.IsObject()) return false;
+        const tinygltf::Value& visible = visibility->second.Get("visible");
+        return visible.IsBool() && !visible.Get<bool>();
+    }
+
     /// Counts work that adds neither points nor corners, or much for few.
     Result<void> take_steps(std::size_t arrays, std::size_t length = 1) {
         if (length > 0 && arrays > (bounds_.steps - steps_) / length) {
@@ -94,6 +102,7 @@ private:
             if (++visits > model_.nodes.size()) {
                 return failure("the nodes of the glTF file are no tree");
             }
+            if (is_hidden(*node)) continue;
             const GltfMatrix matrix = product(above, matrix_of_node(*node));
             if (node->mesh >= 0) {
                 if (auto added = add_mesh_of(*node, matrix); !added) return added;

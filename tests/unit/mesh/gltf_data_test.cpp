@@ -1,4 +1,5 @@
-// Numbers of glTF files that are replaced, transformed, in other sets, compressed or required.
+// Numbers of glTF files that are replaced, transformed, in other sets, compressed or required, and
+// nodes that are hidden.
 #include "unit/mesh/built_gltf.h"
 
 #include <numbers>
@@ -49,6 +50,25 @@ TEST(GltfSparse, OfIntegersCornersAndTargets) {
     expect_points(soup->points, {{0, 0, 0}, {1, 0, -2}, {0, 2, 0}});
     file.accessor(corners).erase("bufferView");
     EXPECT_THAT(file.fault(), HasSubstr("sparse without a base"));
+}
+
+TEST(GltfVisibility, HiddenNodesAreLeftOutWithThoseBelow) {
+    BuiltGltf file;
+    file.json["extensionsRequired"] = {"KHR_node_visibility"};
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    file.json["nodes"].push_back({{"children", {2}}});
+    file.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 7}}});
+    Json& visible = file.node(1)["extensions"]["KHR_node_visibility"]["visible"];
+    visible = true;
+    EXPECT_EQ(file.points().size(), 6u);
+    visible = false;
+    expect_points(file.points(), {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}});
+    file.node(1)["extensions"]["KHR_node_visibility"] = Json::object();  // Visible by default.
+    EXPECT_EQ(file.points().size(), 6u);
+    file.node(2)["extensions"]["KHR_node_visibility"]["visible"] = false;
+    EXPECT_EQ(file.points().size(), 3u);
+    file.node(0)["extensions"]["KHR_node_visibility"]["visible"] = false;
+    EXPECT_THAT(file.fault(), HasSubstr("no triangles"));
 }
 
 TEST(GltfSparse, BrokenOnes) {
