@@ -192,4 +192,22 @@ void Team::barrier() {
     if (state_->active > 1) state_->barrier.arrive(state_->active, state_->spins);
 }
 
+namespace {
+
+/// Thrown by abandon_work().
+struct LeftUndone {};
+
+}  // namespace
+
+void abandon_work() { throw LeftUndone{}; }
+
+bool complete(const std::function<void()>& work) {
+    try {
+        work();
+        return true;
+    } catch (const LeftUndone&) {
+        return false;
+    }
+}
+
 }  // namespace cascade

@@ -20,6 +20,13 @@ RowRange split_rows(std::int64_t rows, int index, int count);
 /// The number of threads that the machine offers this process; at least 1.
 int hardware_threads();
 
+/// Leaves work that nobody waits for any more, such as a step of a run that is to end: what a Team
+/// runs, on any of its threads, and its callers up to complete().
+[[noreturn]] void abandon_work();
+
+/// Calls `work`. Returns whether it came to its end; false if it was abandoned.
+bool complete(const std::function<void()>& work);
+
 /// A team of `size` threads, or fewer if the system refuses to start more. The calling thread is
 /// number 0. Each works under FlushDenormals.
 class Team {

@@ -30,7 +30,7 @@ struct Progress {
 inline const std::atomic<bool> never_cancelled{false};
 
 /// Shared between a run and its observer. `cancel` may be set from a signal handler or from another
-/// thread; the run then ends at the next complete step.
+/// thread; the run then ends after a complete step; one that takes long is left undone.
 struct RunControl {
     std::atomic<bool> cancel{false};
     /// The steps of a stage are taken by many calls: one may leave without looking for values that

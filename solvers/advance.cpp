@@ -66,7 +66,11 @@ public:
         const bool begins = std::exchange(schedule_.begins_anew, false) || clock_.step == 0;
         if (begins && !outcome_.ended) lengths_.choose();
         bool going_on = true;
-        while (going_on && is_to_go_on() && !control.cancel) going_on = batch(control, observe);
+        stepper_.leave_on(control.cancel);
+        // A step that is abandoned leaves the state of the last complete one.
+        complete([&] {
+            while (going_on && is_to_go_on() && !control.cancel) going_on = batch(control, observe);
+        });
         outcome_.cancelled = going_on && is_to_go_on();
         if (going_on && !is_checked_ && (outcome_.cancelled || !may_check_later_)) check();
         outcome_.steps = clock_.step;

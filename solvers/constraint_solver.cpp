@@ -323,6 +323,7 @@ void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
     int taken = 0;
     const int most = stencil_ ? most_iterations_on_grids : most_iterations_on_links;
     while (left > wanted && taken < most) {
+        worker.moment.leave_if_cancelled();
         ++taken;
         double next_rho = dot(worker, shadow_, residual_);
         if (std::abs(next_rho) < least_overlap<Number> * size_of_shadow * left) {

@@ -135,6 +135,7 @@ void PassRunner::run(Worker& worker, Team& team, Registers registers, const Step
 
 void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Registers registers,
                               const StepMoment& moment) {
+    moment.leave_if_cancelled();
     const StepProblem::Pass& pass = problem_.passes[number];
     std::visit(
         [&]<typename Number>(Arguments<Number>& arguments) {
@@ -307,6 +308,7 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
     const bool is_whole = columns.begin == 0 && columns.end == layout_.width;
     for (std::int64_t row = cells.rows.begin; row < cells.rows.end; row += band) {
         const Patch part{{row, std::min(row + band, cells.rows.end)}, cells.columns};
+        level.moment.leave_if_cancelled();
         const bool fills_columns = is_whole && pass.kernel->fills_columns();
         pass.kernel->run(level.given, part);
         for (std::size_t k = 0; k < level.results.size(); ++k) {

@@ -10,6 +10,7 @@
 #include "solvers/step_problem.h"
 #include "solvers/wave_filter.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,10 +26,16 @@ namespace cascade {
 
 /// The moment of a step.
 struct StepMoment {
-    std::int64_t complete = 0;  ///< Steps taken before it.
-    double t = 0;               ///< The stage's time as it begins.
-    double length = 0;          ///< The time step.
-    double next_t = 0;          ///< The stage's time when the next step begins.
+    std::int64_t complete = 0;                  ///< Steps taken before it.
+    double t = 0;                               ///< The stage's time as it begins.
+    double length = 0;                          ///< The time step.
+    double next_t = 0;                          ///< The stage's time when the next step begins.
+    const std::atomic<bool>* cancel = nullptr;  ///< The step may be left undone when this is true.
+
+    /// Abandons the step if it is cancelled. Any thread may call it at any place.
+    void leave_if_cancelled() const {
+        if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) abandon_work();
+    }
 };
 
 /// The planes of every register, one for each species, in the problem's precision.

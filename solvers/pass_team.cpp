@@ -23,8 +23,9 @@ int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
     return static_cast<int>(std::clamp<std::int64_t>(worth, 1, std::max(most, 1)));
 }
 
-StepMoment moment_of(std::int64_t complete, const StageClock& clock) {
-    return {complete, clock.at(complete), clock.step, clock.at(complete + 1)};
+StepMoment moment_of(std::int64_t complete, const StageClock& clock,
+                     const std::atomic<bool>* cancel) {
+    return {complete, clock.at(complete), clock.step, clock.at(complete + 1), cancel};
 }
 
 void go_on(StepPass& next, std::size_t passes) {
@@ -81,13 +82,13 @@ void PassTeam::set_tiling(const Tiling& tiling) {
 }
 
 void PassTeam::run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
-                   const OwnCells& after) {
-    run({planes, clock}, first, count, after);
+                   const OwnCells& after, const std::atomic<bool>* cancel) {
+    run({planes, clock, cancel}, first, count, after);
 }
 
 void PassTeam::run_step(StepPlanes& planes, const StageClock& clock, StepPass first,
-                        const RowsWritten& written) {
-    run({planes, clock, &written}, first, problem_->passes.size() - first.pass, nullptr);
+                        const RowsWritten& written, const std::atomic<bool>* cancel) {
+    run({planes, clock, cancel, &written}, first, problem_->passes.size() - first.pass, nullptr);
 }
 
 void PassTeam::run(const Given& given, const StepPass& first, std::size_t count,
@@ -142,7 +143,7 @@ void PassTeam::run_together(Worker& worker, const Given& given, StepPass& next, 
     const std::size_t passes = problem_->passes.size();
     for (std::size_t number = 0; number < count; ++number) {
         if (number == 0 || next.pass == 0) given.planes.list(next.roles, worker.registers);
-        const StepMoment moment = moment_of(next.complete, given.clock);
+        const StepMoment moment = moment_of(next.complete, given.clock, given.cancel);
         if (number == 0) {
             runner_->prepare_pass(worker.passes, team_, next.pass, worker.registers, moment);
         }

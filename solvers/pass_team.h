@@ -11,6 +11,7 @@
 #include "solvers/tile_runner.h"
 #include "solvers/tiling.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -62,11 +63,13 @@ public:
 
     /// Runs `count` passes from `first` on. Then every thread calls `after` with its own cells,
     /// which are complete; `after` may be null.
+    /// If `cancel`, which may be null, becomes true, run() and run_step() abandon their work; what
+    /// passes write is then unknown.
     void run(StepPlanes& planes, const StageClock& clock, StepPass first, std::size_t count,
-             const OwnCells& after);
+             const OwnCells& after, const std::atomic<bool>* cancel);
     /// Runs the passes of one step from `first` on, and calls `written` for all rows of the last.
     void run_step(StepPlanes& planes, const StageClock& clock, StepPass first,
-                  const RowsWritten& written);
+                  const RowsWritten& written, const std::atomic<bool>* cancel);
     /// Every thread calls `work` with its own cells.
     void run(const OwnCells& work);
 
@@ -79,6 +82,7 @@ private:
     struct Given {
         StepPlanes& planes;
         const StageClock& clock;
+        const std::atomic<bool>* cancel = nullptr;
         const RowsWritten* written_by_last =
             nullptr;  ///< For the last pass of a step; may be null.
     };

@@ -23,11 +23,15 @@ std::int64_t replay(Stepper& stepper, std::int64_t last_finite, std::int64_t spo
         outcome.not_finite = find_not_finite(planes.current(), spoiled, last_finite);
         return spoiled;
     }
+    // For a replay that is abandoned.
+    outcome.not_finite = find_not_finite(planes.current(), spoiled, last_finite);
     stepper.back();
     for (const Field& field : planes.current()) outcome.last_checked.push_back(field.clone());
     for (std::int64_t step = last_finite; step < spoiled; ++step) {
         const CopyRoles before = planes.roles();
-        if (stepper.advance(step, 1, true)) continue;
+        bool is_finite = false;
+        if (!complete([&] { is_finite = stepper.advance(step, 1, true); })) return step;
+        if (is_finite) continue;
         outcome.not_finite = find_not_finite(planes.current(), step + 1, step);
         planes.set_roles(before);
         return step;

@@ -55,13 +55,15 @@ double noise(std::uint64_t number) {
 /// The Jacobian of a kernel of rates at a state, as an operator on vectors.
 class Jacobian {
 public:
-    Jacobian(const StepProblem& rates, std::span<const Field> species, const Mask* frozen)
+    Jacobian(const StepProblem& rates, std::span<const Field> species, const Mask* frozen,
+             const std::atomic<bool>* cancel)
         : rates_(rates),
           layout_(rates.grid),
           state_(species),
           moves_(layout_),
           team_(1),
-          runner_(rates) {
+          runner_(rates),
+          cancel_(cancel) {
         runner_.prepare(worker_, 0, 1);
         for_each_cell([&](std::size_t, std::int64_t i, std::int64_t row) {
             moves_.row(row)[i] = frozen && frozen->row(row)[i] ? 0 : 1;
@@ -165,7 +167,7 @@ private:
         rates_.fill_halos(moved_);
         const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
         // White noise needs a step of some length; it cancels in differences.
-        team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1}); });
+        team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1, cancel_}); });
     }
 
     const StepProblem& rates_;
@@ -177,6 +179,7 @@ private:
     Team team_;
     PassRunner runner_;
     PassRunner::Worker worker_;
+    const std::atomic<bool>* cancel_;
 };
 
 /// The root of larger magnitude of the polynomial λ² + pλ + q for which w₂ + p w₁ + q w₀ ≈ 0 fits
@@ -215,9 +218,9 @@ std::complex<double> leading_eigenvalue(Jacobian& jacobian, double shift) {
 }  // namespace
 
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
-                                     const Mask* frozen) {
+                                     const Mask* frozen, const std::atomic<bool>* cancel) {
     CHECK(!rates.passes.empty() && !species.empty(), "a kernel of rates and its species");
-    Jacobian jacobian(rates, species, frozen);
+    Jacobian jacobian(rates, species, frozen, cancel);
     std::complex<double> fastest = leading_eigenvalue(jacobian, 0);
     StabilityEstimate estimate;
     estimate.eigenvalue = fastest.real();

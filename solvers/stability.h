@@ -4,6 +4,7 @@
 #include "core/plane.h"
 #include "solvers/advance.h"
 
+#include <atomic>
 #include <optional>
 #include <span>
 
@@ -25,8 +26,10 @@ struct StabilityEstimate {
 /// result for each species, slots as for the step). Cells that `frozen` marks (nullptr: none) do
 /// not change. Takes at most about 800 evaluations of the rates on one thread. The error is within
 /// 2 % for diffusion, within 4 % for more than a million values. Deterministic. Only useful at a
-/// state before a blow-up: at 1e20 any reaction looks stiff.
+/// state before a blow-up: at 1e20 any reaction looks stiff. Abandons its work when `cancel`, which
+/// may be null, becomes true.
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
-                                     const Mask* frozen = nullptr);
+                                     const Mask* frozen = nullptr,
+                                     const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace cascade

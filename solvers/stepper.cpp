@@ -48,7 +48,7 @@ bool Stepper::advance(std::int64_t complete, std::int64_t count, bool look) {
     for (std::int64_t taken = 0; taken < count; ++taken) roles.go_on();
     team_.run(planes_, clock_, {0, complete, planes_.roles()},
               static_cast<std::size_t>(count) * problem().passes.size(),
-              look ? look_at(roles.current) : nullptr);
+              look ? look_at(roles.current) : nullptr, count == 1 ? cancel_ : nullptr);
     planes_.set_roles(roles);
     return !look || all_finite();
 }
@@ -81,8 +81,9 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
     const std::size_t first_rate_passes = problem().first_rate_passes;
     const std::size_t first = knows_first_rates_ ? first_rate_passes : 0;
     CopyRoles roles = planes_.roles();
-    team_.run_step(planes_, clock_, {first, complete, roles},
-                   [this](RowRange rows) { add_squares(rows); });
+    team_.run_step(
+        planes_, clock_, {first, complete, roles}, [this](RowRange rows) { add_squares(rows); },
+        cancel_);
     roles.go_on();
     planes_.set_roles(roles);
     knows_first_rates_ = first_rate_passes > 0;

@@ -8,6 +8,7 @@
 #include "solvers/step_planes.h"
 #include "solvers/step_problem.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,6 +32,10 @@ public:
     void use(const StepProblem& problem);
     /// Sets time and length of the steps from now on.
     void set_clock(const StageClock& clock) { clock_ = clock; }
+    /// From now on, when `cancel` becomes true, a step that is taken by itself is left undone:
+    /// advance() and attempt() abandon their work, and the current values are as before. Several
+    /// steps taken at once, which are short, are completed.
+    void leave_on(const std::atomic<bool>& cancel) { cancel_ = &cancel; }
 
     /// Takes `count` steps, at least one, after `complete` earlier ones. With `look`, returns
     /// whether the new values are all finite; without it, true.
@@ -70,6 +75,7 @@ private:
     StepPlanes planes_;
     PassTeam team_;
     StageClock clock_;
+    const std::atomic<bool>* cancel_ = nullptr;
     /// The register of first rates holds the rates of the current copy.
     bool knows_first_rates_ = false;
     std::vector<Squares> squares_;      ///< By species.
