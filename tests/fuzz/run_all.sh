@@ -5,7 +5,7 @@
 # Failures: an input crash-…, timeout-… or oom-… in build/corpora, or a test and its seed.
 #
 #     FUZZERS="picture kept" tests/fuzz/run_all.sh 10    only these
-#     FRONT_END_RUNS=20000 …                         the front end takes this many inputs, however long that is
+#     FIXED_RUNS=1 …                                 each takes its number of inputs below, however long that is
 #     SANITIZERS="thread" …                              only these presets; "" for none
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -14,6 +14,10 @@ read -ra fuzzers <<<"${FUZZERS-front_end model picture saved_run kept prompt pag
 read -ra sanitizers <<<"${SANITIZERS-sanitize thread}"
 jobs=${JOBS:-$(nproc)}
 failed=()
+
+# Inputs that take a minute or two on one core.
+declare -A inputs=([front_end]=20000 [model]=500000 [picture]=2000000 [saved_run]=60000 [kept]=500000 [prompt]=5000
+    [page_message]=500000)
 
 note() { printf '\n== %s\n' "$*"; }
 
@@ -25,7 +29,9 @@ if [ ${#fuzzers[@]} -gt 0 ]; then
     # Scripts alone: the pictures beside them are large, and slow to complain about.
     scripts=build/corpora/scripts
     mkdir -p "$scripts"
-    find examples lang/systems -name '*.cascade' -exec cp -t "$scripts" {} +
+    find examples lang/systems -name '*.cascade' | while read -r path; do
+        cp "$path" "$scripts/${path//\//_}"  # Some names occur in several folders.
+    done
     for name in "${fuzzers[@]}"; do
         corpus=build/corpora/$name
         mkdir -p "$corpus"
@@ -35,9 +41,9 @@ if [ ${#fuzzers[@]} -gt 0 ]; then
             front_end | prompt) seeds+=("$scripts") options+=(-dict=tests/fuzz/cascade.dict) ;;
         esac
         limit=-max_total_time=$seconds
-        [ "$name" = front_end ] && [ -n "${FRONT_END_RUNS-}" ] && limit=-runs=$FRONT_END_RUNS
+        [ -z "${FIXED_RUNS-}" ] || limit=-runs=${inputs[$name]}
         [ "$name" = model ] && options+=(-dict=tests/fuzz/models.dict)
-        note "$name, $seconds s, $(find "$corpus" -type f | wc -l) inputs known"
+        note "$name, $limit, $(find "$corpus" -type f | wc -l) inputs known"
         log=build/corpora/$name.log
         if build/fuzz/tests/fuzz/"$name"_fuzzer "${options[@]}" -print_funcs=0 -max_len=4096 \
             -timeout=10 -malloc_limit_mb=256 "$limit" -print_final_stats=1 \
