@@ -40,6 +40,7 @@ bool keep_shape(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vecto
             ++vanishing;
             continue;
         }
+        if (mesh.is_boundary(h)) continue;  // There is no triangle.
         const Vector3d at_b = position(mesh, b), at_c = position(mesh, c);
         const Vector3d before = cross(at_b - from, at_c - from);
         const Vector3d along = at_b - to;

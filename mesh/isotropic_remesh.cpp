@@ -41,6 +41,7 @@ Vector3d double_area_normal(Vector3d a, Vector3d b, Vector3d c) { return cross(b
 
 /// Whether flipping the edge improves its angles without changing the shape of the surface.
 bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {
+    if (mesh.is_boundary(e)) return false;
     const HalfedgeHandle h = mesh.halfedge_handle(e, 0), other = mesh.halfedge_handle(e, 1);
     if (is_delaunay(facing_angle(mesh, h), facing_angle(mesh, other))) return false;
     const VertexHandle from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
