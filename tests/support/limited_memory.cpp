@@ -6,6 +6,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+// Of addresses or threads: g++ defines a macro, clang a feature.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define has_sanitizer 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define has_sanitizer 1
+#endif
+#endif
+#ifndef has_sanitizer
+#define has_sanitizer 0
+#endif
+
 namespace cascade::test {
 
 namespace {
@@ -27,7 +39,7 @@ std::string in_limited_memory(std::uint64_t bytes, const std::function<std::stri
     if (::pipe(ends.data()) != 0) return "no pipe";
     const pid_t child = ::fork();
     if (child == 0) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !has_sanitizer
         const rlim_t limit = data_size() + bytes;
         const rlimit limits{limit, limit};
         ::setrlimit(RLIMIT_DATA, &limits);

@@ -5,8 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 namespace cascade::test {
 namespace {
 
@@ -32,7 +30,6 @@ TEST(LargeScripts, MayBeDeepAndLong) {
 }
 
 TEST(LargeScripts, AreBoundedWhenWrittenOut) {
-    const auto begin = std::chrono::steady_clock::now();
     std::string doubling = "fn f0(x) = x + 1\n";
     for (int i = 1; i < 60; ++i) {
         doubling += fmt::format("fn f{}(x) = f{}(x) + f{}(x)\n", i, i - 1, i - 1);
@@ -63,7 +60,6 @@ TEST(LargeScripts, AreBoundedWhenWrittenOut) {
         long_chain += fmt::format("system b{}: b{} {{ u' += 1 }}\n", i, i - 1);
     EXPECT_THAT(faults(long_chain),
                 ElementsAre("1414:15: the systems of this script are too large together"));
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 TEST(LargeScripts, HaveShortDumps) {

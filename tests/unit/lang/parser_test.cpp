@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -211,14 +210,11 @@ TEST(Parser, ExplainsWrongOverrides) {
     }
 }
 
-/// Parses within the time that even a slow machine with sanitizers has for it.
 std::vector<std::string> faults_of_large(const std::string& value) {
     Sources sources;
     Diagnostics diagnostics;
     const SourceId source = sources.add("large", "system_name: s\na: " + value + "\nb: ]\n");
-    const auto start = std::chrono::steady_clock::now();
     { const ast::Script script = parse(source, sources, diagnostics); }
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
     return list_faults(diagnostics, sources);
 }
 
