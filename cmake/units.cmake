@@ -3,8 +3,8 @@
 # one target that are compiled as one, so that their headers are read, and their templates compiled, once. It is as large as a
 # compiler process of less than 1 GiB allows. Names in anonymous namespaces must therefore differ within a room.
 #
-# CASCADE_UNITS=OFF compiles each file by itself, without the precompiled header: so builds the preset `strict`, which
-# finds missing includes.
+# CASCADE_UNITS=OFF compiles each file by itself, without the precompiled header and with all optimisation, without which
+# g++ 12 warns of std::optional: so builds the preset `strict`, which finds missing includes.
 
 # Bytes of source text in a unit.
 set(unit_size 130000)
@@ -41,7 +41,10 @@ list(JOIN not_optimised "|" not_optimised)
 # The options of code whose loops matter, and of the rest. Compilers vectorise loops with square roots and choices only
 # without errno and floating-point traps, neither of which changes a value.
 set(loop_options $<$<CONFIG:Release>:-O3> -fno-math-errno -fno-trapping-math)
-set(usual_options $<$<CONFIG:Release>:-O1>)
+set(usual_options)
+if(CASCADE_UNITS)
+  set(usual_options $<$<CONFIG:Release>:-O1>)
+endif()
 
 # g++ collects garbage from 128 MB on. It takes a tenth less time if it begins later, and still less than 1 GiB.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
