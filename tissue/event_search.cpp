@@ -43,6 +43,7 @@ std::vector<Margins> margins_of(const TissueRules::Conditions& conditions,
         if (!planes[k]) continue;
         values[*planes[k]].visit([&](const auto& plane) {
             for (std::size_t n = 0; n < cells.size(); ++n) {
+                if (tissue.is_frozen(cells[n])) continue;
                 result[n][k] = static_cast<double>(plane.origin()[tissue.element(cells[n])]);
             }
         });

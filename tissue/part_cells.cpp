@@ -31,9 +31,7 @@ CellAt at_of(const Tissue& tissue, const TissueSpecies& species,
 }
 
 bool stays(const Tissue& tissue, const TissueSpecies& species, std::uint32_t cell) {
-    const bool is_frozen =
-        !tissue.frozen().empty() && tissue.frozen().origin()[tissue.element(cell)] != 0;
-    return is_frozen || !(tissue.value(species.radius, cell) > 0);
+    return tissue.is_frozen(cell) || !(tissue.value(species.radius, cell) > 0);
 }
 
 }  // namespace

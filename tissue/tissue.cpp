@@ -258,6 +258,10 @@ void Tissue::freeze_by(std::size_t kept_plane) {
     find_frozen();
 }
 
+bool Tissue::is_frozen() const {
+    return std::ranges::all_of(by_number_, [&](std::uint32_t cell) { return is_frozen(cell); });
+}
+
 void Tissue::find_frozen() {
     if (!frozen_by_) return;
     if (frozen_.empty() || frozen_.layout() != layout_) frozen_ = Mask(layout_);

@@ -111,6 +111,11 @@ public:
     const Field& ones() const { return ones_; }
     /// 1 for cells that are frozen; empty if none can be.
     const Mask& frozen() const { return frozen_; }
+    bool is_frozen(std::size_t cell) const {
+        return !frozen_.empty() && frozen_.origin()[element(cell)] != 0;
+    }
+    /// Are all cells?
+    bool is_frozen() const;
     /// From now on cells are frozen where this kept plane is not 0.
     void freeze_by(std::size_t kept_plane);
 

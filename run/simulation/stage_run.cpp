@@ -74,7 +74,7 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
             fmt::format("stage '{}': each step is {}, so that it is stable {}", stage.name, how,
                         here.model ? "in the smallest cells of the model" : "with its size"));
     }
-    if (is_frozen()) return end_frozen(last_step);
+    if (view_.is_frozen()) return end_frozen(last_step);
     if (state_.steps == 0 && last_step > 0 && stage.time.coarse > 1) {
         auto grown = run_on_coarser_grids(here, states_, view_.number(), *control_);
         if (!grown || *grown == StageEnd::cancelled) return grown;
@@ -88,11 +88,6 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     if (here.tilings) tilings_.emplace(*here.tilings, problem, kernels_.identity());
     loop_.emplace(problem, schedule(), state_.species, progress_of(here, view_.number()));
     return std::nullopt;
-}
-
-bool StageRun::is_frozen() const {
-    const ItemId item = view_.system().frozen_item();
-    return view_.stage().uniform[item] && state_.numbers[item] != 0;
 }
 
 /// If all cells are frozen nothing changes: steps are complete at once.

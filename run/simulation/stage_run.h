@@ -35,7 +35,6 @@ public:
 
 private:
     std::optional<Result<StageEnd>> begin(std::int64_t last_step);
-    bool is_frozen() const;
     StageEnd end_frozen(std::int64_t last_step);
     Schedule schedule();
     void look();

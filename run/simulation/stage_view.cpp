@@ -61,6 +61,11 @@ StabilityEstimate StageView::stability(std::span<const Field> species,
     return estimate_stability(rates, species, frozen);
 }
 
+bool StageView::is_frozen() const {
+    const ItemId item = system().frozen_item();
+    return stage().uniform[item] && state().numbers[item] != 0;
+}
+
 StepInUse StageView::step_in_use() const {
     const StageTime& time = stage().time;
     const ItemId speed = system().speed_item();

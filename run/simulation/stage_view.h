@@ -46,6 +46,8 @@ public:
         return stability(species, environment_->kernels->interpreted());
     }
     StabilityEstimate stability(std::span<const Field> species, const Compile& compile) const;
+    /// Is `frozen` one number for all cells, and not 0? Then no step changes anything.
+    bool is_frozen() const;
     StepInUse step_in_use() const;
     /// Does diffusion limit the step at the present state, far below the limit of the reaction?
     bool diffusion_limits() const;

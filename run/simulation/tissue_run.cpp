@@ -142,6 +142,11 @@ void TissueRun::follow(const Tissue& tissue) {
 Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
                                     const std::function<void()>& observe, std::int64_t every) {
     const Stage& stage = environment_.stage(stage_);
+    if (StageView(environment_, states_, stage_).is_frozen()) {
+        can_go_on_ = false;
+        state_.done = true;
+        return StageEnd::finished;
+    }
     control_ = &control;
     if (std::exchange(reaches_all_, false) && control.warn) {
         control.warn(

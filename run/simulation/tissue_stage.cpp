@@ -281,11 +281,16 @@ std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan
 
 std::string remark_on_cells(const StageView& view) {
     const StageState& state = view.state();
+    const Tissue& tissue = *state.tissue;
     const StageTime& time = view.stage().time;
     const bool has_condition = time.until || time.steady;
-    if (state.tissue->count() == 0) {
+    if (view.is_frozen() || (tissue.count() > 0 && tissue.is_frozen())) {
+        return fmt::format("stage '{}' is frozen in all cells: nothing in it changes",
+                           view.stage().name);
+    }
+    if (tissue.count() == 0) {
         return fmt::format("all cells of stage '{}' have died, the last at t = {:.4g}",
-                           view.stage().name, state.tissue->time.last_event);
+                           view.stage().name, tissue.time.last_event);
     }
     if (!has_condition || state.condition_met || time.duration) return "";
     return fmt::format("'until' of stage '{}' never came true, in {} steps up to t = {:.4g}",
