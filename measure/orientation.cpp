@@ -1,7 +1,9 @@
-// Sums products of central differences; the eigenvectors of a symmetric 2 × 2 matrix by atan2.
+// Sums products of differences; the eigenvectors of a symmetric 2 × 2 matrix by atan2.
 #include "measure/orientation.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
@@ -9,12 +11,22 @@ namespace cascade::measure {
 
 namespace {
 
-/// Twice the derivative along an axis, per cell; a neighbour outside counts as the cell itself.
-double difference(const Samples& samples, std::size_t cell, std::size_t axis) {
+/// The derivative along an axis, per cell, of sixth order: exact to 1 % for waves of 6 cells, of
+/// which f(1) − f(−1) alone would lose a sixth. Where it would read a cell outside of the domain,
+/// of second order, and a neighbour outside counts as the cell itself.
+double derivative(const Samples& samples, std::size_t cell, std::size_t axis) {
+    constexpr std::array weights{0.75, -0.15, 1.0 / 60};
+    double sum = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        const auto offset = static_cast<std::ptrdiff_t>(k + 1);
+        sum += weights[k] * (samples.values[samples.mirrored(cell, axis, offset)] -
+                             samples.values[samples.mirrored(cell, axis, -offset)]);
+    }
+    if (std::isfinite(sum)) return sum;
     const double here = samples.values[cell];
-    const double ahead = samples.values[samples.neighbour(cell, axis, true)];
-    const double behind = samples.values[samples.neighbour(cell, axis, false)];
-    return (std::isfinite(ahead) ? ahead : here) - (std::isfinite(behind) ? behind : here);
+    const double ahead = samples.values[samples.mirrored(cell, axis, 1)];
+    const double behind = samples.values[samples.mirrored(cell, axis, -1)];
+    return ((std::isfinite(ahead) ? ahead : here) - (std::isfinite(behind) ? behind : here)) / 2;
 }
 
 }  // namespace
@@ -25,8 +37,8 @@ Orientation orientation_of(const Samples& samples) {
     double xx = 0, yy = 0, xy = 0;
     for (std::size_t cell = 0; cell < samples.count(); ++cell) {
         if (!std::isfinite(samples.values[cell])) continue;
-        const double dx = difference(samples, cell, 0);
-        const double dy = difference(samples, cell, 1);
+        const double dx = derivative(samples, cell, 0);
+        const double dy = derivative(samples, cell, 1);
         xx += dx * dx;
         yy += dy * dy;
         xy += dx * dy;

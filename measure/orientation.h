@@ -14,9 +14,9 @@ struct Orientation {
     double anisotropy = 0;
 };
 
-/// With J = ⟨∇f ∇fᵀ⟩, the mean over all cells (of central differences), the gradient has the
-/// direction φ = ½ atan2(2 Jxy, Jxx − Jyy), perpendicular to the stripes. The anisotropy is the
-/// coherence √((Jxx − Jyy)² + 4 Jxy²) / (Jxx + Jyy). J. Bigün and G. H. Granlund, "Optimal
+/// With J = ⟨∇f ∇fᵀ⟩, the mean over all cells (of central differences of sixth order), the gradient
+/// has the direction φ = ½ atan2(2 Jxy, Jxx − Jyy), perpendicular to the stripes. The anisotropy is
+/// the coherence √((Jxx − Jyy)² + 4 Jxy²) / (Jxx + Jyy). J. Bigün and G. H. Granlund, "Optimal
 /// orientation detection of linear symmetry", ICCV 1987. Both are NaN for even fields and
 /// one-dimensional grids.
 Orientation orientation_of(const Samples& samples);

@@ -38,6 +38,17 @@ struct Samples {
         if (at > 0) return cell - stride(axis);
         return periodic[axis] ? cell + last * stride(axis) : cell;
     }
+    /// The cell at a distance along an axis, in cells, forwards or backwards: across periodic
+    /// sides, or in the mirror at the others.
+    std::size_t mirrored(std::size_t cell, std::size_t axis, std::ptrdiff_t distance) const {
+        const std::size_t at = position(cell, axis);
+        const auto count = static_cast<std::ptrdiff_t>(cells[axis]);
+        const std::ptrdiff_t period = periodic[axis] ? count : 2 * count;
+        std::ptrdiff_t there = (static_cast<std::ptrdiff_t>(at) + distance) % period;
+        if (there < 0) there += period;
+        if (there >= count) there = period - 1 - there;
+        return cell - at * stride(axis) + static_cast<std::size_t>(there) * stride(axis);
+    }
 };
 
 /// Of a field on this grid.
