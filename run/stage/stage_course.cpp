@@ -96,6 +96,22 @@ void StageCourse::look(std::int64_t step, double age, std::span<const Field> spe
     moments_.push_back(std::move(moment));
 }
 
+void StageCourse::add_errors(double age, double part) {
+    if (!(age > age_of_errors_)) return;
+    const double before = age_of_errors_ / age;
+    errors_ = errors_ * before * before + part;
+    age_of_errors_ = age;
+}
+
+double StageCourse::errors() const {
+    double contrast = 0;
+    for (const Spread& spread : last().species) {
+        const double size = std::hypot(spread.mean, spread.deviation());
+        if (size > 0) contrast = std::max(contrast, spread.deviation() / size);
+    }
+    return contrast > 0 ? errors_ / contrast : 0;
+}
+
 const Moment& StageCourse::even_since() const {
     std::size_t k = moments_.size() - 1;
     while (k > 0 && moments_[k - 1].is_even) --k;

@@ -39,6 +39,13 @@ public:
     /// count where it is not 0.
     void look(std::int64_t step, double age, std::span<const Field> species, const Mask* inside);
 
+    /// Adds the estimated errors of the steps up to this age, as a part of the values. Those of
+    /// steps before count as the square of their part of the age: patterns forget how they began.
+    void add_errors(double age, double part);
+    /// Their sum over the contrast at the last moment: the largest deviation of a species, as a
+    /// part of its root mean square.
+    double errors() const;
+
     const Moment& first() const { return moments_.front(); }
     const Moment& last() const { return moments_.back(); }
     bool ended_even() const { return !empty() && last().is_even; }
@@ -60,6 +67,7 @@ private:
 
     std::vector<Moment> moments_;
     std::int64_t steps_between_ = 1;
+    double errors_ = 0, age_of_errors_ = 0;
 };
 
 }  // namespace cascade

@@ -1,8 +1,10 @@
-// The first remark that applies is made: frozen, even, not ended by 'until', growing, fading.
+// The first remark that applies is made: frozen, even, not ended by 'until', growing, fading, of
+// large errors.
 #include "run/stage/stage_remarks.h"
 
 #include "core/counted_cells.h"
 #include "core/with_commas.h"
+#include "ir/solver.h"
 #include "run/stage/bound_kernel.h"
 
 #include <fmt/format.h>
@@ -95,6 +97,19 @@ std::string describe_growth(const System& system, const StageCourse& course) {
         species_name(system, fastest), 100 * growth, course.last().species[fastest].deviation());
 }
 
+/// Steps of first order whose errors add up, or nothing.
+std::string describe_errors(const Stage& stage, const StageCourse& course) {
+    constexpr double least_errors = 0.01;
+    const Solver solver = stage.time.solver;
+    if (!stage.time.chooses_steps() || order_of(solver) > 1 || course.errors() < least_errors) {
+        return {};
+    }
+    return fmt::format(
+        "took steps of first order whose estimated errors add up to {:.0f} % of the differences "
+        "between its cells; solver: {} has smaller ones",
+        100 * course.errors(), is_semi_implicit(solver) ? "etdrk4" : "rkl2");
+}
+
 std::string describe_fading(const System& system, const StageCourse& course) {
     std::string rest;
     for (std::size_t k = 0; k < course.last().species.size() && k < most_named; ++k) {
@@ -137,7 +152,10 @@ std::string describe_end(const Stage& stage, const System& system, const StageSt
         return about(describe_until(stage, state));
     }
     const Trend trend = is_last && !state.condition_met ? course.trend() : Trend::none;
-    if (trend == Trend::growing) return about(describe_growth(system, course));
+    const std::string errors = describe_errors(stage, course);
+    if (trend == Trend::growing) {
+        return about(describe_growth(system, course) + (errors.empty() ? "" : "; it " + errors));
+    }
     if (stage.time.chooses_steps() && differs_by_errors_alone(stage, course)) {
         return about(fmt::format(
             "ended almost even: its cells differ by less than {:.2g} of their values, which is the "
@@ -145,6 +163,7 @@ std::string describe_end(const Stage& stage, const System& system, const StageSt
             stage.time.step_tolerance()));
     }
     if (trend == Trend::fading) return about(describe_fading(system, course));
+    if (!errors.empty()) return about(errors);
     if (!stage.uniform[frozen] && frozen_part == 0) {
         return about("is frozen in no cell: its 'frozen' is true nowhere");
     }

@@ -214,6 +214,11 @@ void StageTimer::look_at_bounds(std::int64_t step, TimeState& time) {
 StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool rejected) {
     state_.go_to(step, time.clock.at(step));
     const Solver solver = stage_.time.solver;
+    if (!rejected && step > 0) {
+        state_.course.add_errors(state_.t, static_cast<double>(time.stretch) *
+                                               time.control.error_before *
+                                               stage_.time.step_tolerance());
+    }
     const bool is_long = takes_long_steps(solver);
     const bool by_rule = bounds_by_rule_ != nullptr;
     const std::int64_t renewal = by_rule && !is_long ? 1 : choose_every(solver, by_rule);
