@@ -8,7 +8,9 @@
 // three bends (second differences) in the cell and its neighbours if they have one sign; beside an
 // edge they have not (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
 // smooth extrema", J. Comput. Phys. 227, 2008). Of cells with two values no curve leaves their
-// range. The functions are always inlined, so that compilers make vectors of loops that call them.
+// range. Elsewhere a crest between cells may be higher than both. That is right for what is looked
+// at; where a run goes on, and a negative value may have no meaning, slopes are limited further.
+// The functions are always inlined, so that compilers make vectors of loops that call them.
 #pragma once
 
 #include <algorithm>
@@ -50,6 +52,30 @@ template <typename Number>
                                                    Number part) {
     return value_on_curve(v[2], v[3], slope_in(v[0], v[1], v[2], v[3], v[4]),
                           slope_in(v[1], v[2], v[3], v[4], v[5]), part);
+}
+
+/// slope_in(), limited so that the curves on both sides stay in the range of the four cells around
+/// them: a curve lies between its ends and the points a third of a cell from them along its slopes.
+template <typename Number>
+[[gnu::always_inline]] inline Number slope_in_range(Number a, Number b, Number c, Number d,
+                                                    Number e) {
+    const Number low = std::min(b, std::min(c, d)), high = std::max(b, std::max(c, d));
+    const Number least = std::max(std::min(low, e) - c, c - std::max(high, a));
+    const Number largest = std::min(std::max(high, e) - c, c - std::min(low, a));
+    return std::clamp(slope_in(a, b, c, d, e), 3 * least, 3 * largest);
+}
+
+/// value_between() with a curve that stays in the range of the four cells in the middle. Values at
+/// evenly spread places have the mean of the cells, as they have on any curve whose slopes on both
+/// sides of each cell are the same.
+template <typename Number>
+[[gnu::always_inline]] inline Number value_in_range(const std::array<Number, cells_between>& v,
+                                                    Number part) {
+    const Number value = value_on_curve(v[2], v[3], slope_in_range(v[0], v[1], v[2], v[3], v[4]),
+                                        slope_in_range(v[1], v[2], v[3], v[4], v[5]), part);
+    // Rounding may leave the range.
+    return std::clamp(value, std::min(std::min(v[1], v[2]), std::min(v[3], v[4])),
+                      std::max(std::max(v[1], v[2]), std::max(v[3], v[4])));
 }
 
 }  // namespace cascade

@@ -140,10 +140,11 @@ std::vector<Around<Number>> around(std::int64_t cells, std::int64_t finer, Bound
 }
 
 /// Interpolates one slice of a grid, which begins at `from`, into slice k of the finer one.
-template <typename Number>
+template <typename Number, typename Between>
 void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& grid,
                   const std::vector<Around<Number>>& columns,
-                  const std::vector<Around<Number>>& rows, Plane<Number>& result, std::int64_t k) {
+                  const std::vector<Around<Number>>& rows, Plane<Number>& result, std::int64_t k,
+                  const Between& value_at) {
     std::vector<Number> line(static_cast<std::size_t>(grid.width));
     for (std::int64_t j = 0; j < static_cast<std::int64_t>(rows.size()); ++j) {
         const Around<Number>& down = rows[static_cast<std::size_t>(j)];
@@ -151,7 +152,7 @@ void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& gri
             std::array<Number, cells_between> v{};
             for (std::size_t n = 0; n < v.size(); ++n)
                 v[n] = from[down.cells[n] * layout.stride + i];
-            line[static_cast<std::size_t>(i)] = value_between(v, down.part);
+            line[static_cast<std::size_t>(i)] = value_at(v, down.part);
         }
         for (std::int64_t i = 0; i < static_cast<std::int64_t>(columns.size()); ++i) {
             const Around<Number>& across = columns[static_cast<std::size_t>(i)];
@@ -159,21 +160,20 @@ void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& gri
             for (std::size_t n = 0; n < v.size(); ++n) {
                 v[n] = line[static_cast<std::size_t>(across.cells[n])];
             }
-            result.at(i, j, k) = value_between(v, across.part);
+            result.at(i, j, k) = value_at(v, across.part);
         }
     }
 }
 
-}  // namespace
-
-template <typename Number>
-Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times) {
+template <typename Number, typename Between>
+Plane<Number> divided_by(const Between& value_at, const Plane<Number>& plane, const Grid& grid,
+                         std::int64_t times) {
     const Grid finer = finer_grid(grid, times);
     Plane<Number> result{PlaneLayout(finer)};
     const auto columns = around<Number>(grid.width, finer.width, grid.boundary.x);
     const auto rows = around<Number>(grid.height, finer.height, grid.boundary.y);
     if (grid.depth == 1) {
-        divide_slice(plane.origin(), plane.layout(), grid, columns, rows, result, 0);
+        divide_slice(plane.origin(), plane.layout(), grid, columns, rows, result, 0, value_at);
         return result;
     }
     const auto slices = around<Number>(grid.depth, finer.depth, grid.boundary.z);
@@ -184,16 +184,32 @@ Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t
             for (std::int64_t i = 0; i < grid.width; ++i) {
                 std::array<Number, cells_between> v{};
                 for (std::size_t n = 0; n < v.size(); ++n) v[n] = plane.at(i, j, deep.cells[n]);
-                between.at(i, j) = value_between(v, deep.part);
+                between.at(i, j) = value_at(v, deep.part);
             }
         }
-        divide_slice(between.origin(), between.layout(), grid, columns, rows, result, k);
+        divide_slice(between.origin(), between.layout(), grid, columns, rows, result, k, value_at);
     }
     return result;
 }
 
+}  // namespace
+
+template <typename Number>
+Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times) {
+    return divided_by([](const auto& v, Number part) { return value_between(v, part); }, plane,
+                      grid, times);
+}
+
+template <typename Number>
+Plane<Number> divided_in_range(const Plane<Number>& plane, const Grid& grid, std::int64_t times) {
+    return divided_by([](const auto& v, Number part) { return value_in_range(v, part); }, plane,
+                      grid, times);
+}
+
 template Plane<float> divided(const Plane<float>&, const Grid&, std::int64_t);
 template Plane<double> divided(const Plane<double>&, const Grid&, std::int64_t);
+template Plane<float> divided_in_range(const Plane<float>&, const Grid&, std::int64_t);
+template Plane<double> divided_in_range(const Plane<double>&, const Grid&, std::int64_t);
 template Plane<float> restricted(const Plane<float>&, const Grid&, const Grid&);
 template Plane<double> restricted(const Plane<double>&, const Grid&, const Grid&);
 template Plane<float> refined(Plane<float>&, const Grid&, const Grid&, const SideRules&);

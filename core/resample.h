@@ -30,8 +30,15 @@ Grid finer_grid(const Grid& grid, std::int64_t times);
 template <typename Number>
 Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 
+/// The same for values that a run goes on with: none is outside of the range of the four cells
+/// around along each axis. On a periodic grid the mean stays, but for rounding.
+template <typename Number>
+Plane<Number> divided_in_range(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
+
 extern template Plane<float> divided(const Plane<float>&, const Grid&, std::int64_t);
 extern template Plane<double> divided(const Plane<double>&, const Grid&, std::int64_t);
+extern template Plane<float> divided_in_range(const Plane<float>&, const Grid&, std::int64_t);
+extern template Plane<double> divided_in_range(const Plane<double>&, const Grid&, std::int64_t);
 extern template Plane<float> restricted(const Plane<float>&, const Grid&, const Grid&);
 extern template Plane<double> restricted(const Plane<double>&, const Grid&, const Grid&);
 extern template Plane<float> refined(Plane<float>&, const Grid&, const Grid&, const SideRules&);

@@ -76,15 +76,17 @@ Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask
 class GridCarrier : public CellCarrier {
 public:
     GridCarrier(const Grid& grid, std::int64_t times, const DomainMask* mask,
-                const DomainMask* finer_mask)
-        : grid_(grid), times_(times), mask_(mask), finer_mask_(finer_mask) {}
+                const DomainMask* finer_mask, Crests crests)
+        : grid_(grid), times_(times), mask_(mask), finer_mask_(finer_mask), crests_(crests) {}
 
     Field carried(const Field& values) const override {
         const FlushDenormals environment;
+        const auto finer = [&](const auto& plane) {
+            return Field(crests_ == Crests::levelled ? divided_in_range(plane, grid_, times_)
+                                                     : divided(plane, grid_, times_));
+        };
         Field result = values.visit([&](const auto& plane) {
-            return Field(mask_ == nullptr
-                             ? divided(plane, grid_, times_)
-                             : divided(continued(plane, grid_, mask_->inside), grid_, times_));
+            return mask_ == nullptr ? finer(plane) : finer(continued(plane, grid_, mask_->inside));
         });
         return finer_mask_ == nullptr ? std::move(result) : with_outside(result, *finer_mask_, 0);
     }
@@ -107,6 +109,7 @@ private:
     const std::int64_t times_;
     const DomainMask* mask_;
     const DomainMask* finer_mask_;
+    const Crests crests_;
 };
 
 class ModelCarrier : public CellCarrier {
@@ -204,8 +207,9 @@ private:
 }  // namespace
 
 std::unique_ptr<CellCarrier> carrier_on_grid(const Grid& grid, std::int64_t times,
-                                             const DomainMask* mask, const DomainMask* finer_mask) {
-    return std::make_unique<GridCarrier>(grid, times, mask, finer_mask);
+                                             const DomainMask* mask, const DomainMask* finer_mask,
+                                             Crests crests) {
+    return std::make_unique<GridCarrier>(grid, times, mask, finer_mask, crests);
 }
 
 std::unique_ptr<CellCarrier> carrier_on_model(const ModelCells& from, const ModelCells& to,

@@ -40,7 +40,7 @@ FinerView::FinerView(const Environment& environment, std::span<const StageState>
         std::make_unique<KernelMaker>(here.grid, environment.kernels->stepper(),
                                       environment.kernels->starts_interpreted(), nullptr);
     here.team = std::make_unique<Team>(environment.team->size());
-    carrier_ = carrier_on_grid(grid, times, nullptr, nullptr);
+    carrier_ = carrier_on_grid(grid, times, nullptr, nullptr, Crests::kept);
     here.files =
         environment.files.mapped([&](const Field& plane) { return carrier_->carried(plane); });
     for (const StageState& state : states)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -90,7 +91,39 @@ TEST(BetweenCells, CurvesStayNearTheirCells) {
     }
 }
 
+TEST(BetweenCells, CurvesInRangeLeaveTheRangeOfNoFourCells) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> number(0, 1);
+    bool differs = false;
+    for (int trial = 0; trial < 20000; ++trial) {
+        Cells v{};
+        for (float& value : v) value = std::pow(number(random), trial % 2 == 0 ? 1.0F : 20.0F);
+        const auto [low, high] = std::minmax({v[1], v[2], v[3], v[4]});
+        for (float part = 0; part <= 1; part += 0.125F) {
+            const float value = value_in_range(v, part);
+            ASSERT_TRUE(value >= low && value <= high) << value;
+            differs = differs || value != value_between(v, part);
+        }
+    }
+    EXPECT_TRUE(differs);
+}
+
+// The limit bites at crests only, and leaves them without a kink.
+TEST(BetweenCells, CurvesInRangeRiseWhereValuesRise) {
+    const Cells rising = {0, 1, 3, 4, 6, 7}, crest = {0, 3, 5, 5, 3, 0};
+    for (float part = 0; part <= 1; part += 0.125F) {
+        EXPECT_EQ(value_in_range(rising, part), value_between(rising, part));
+        EXPECT_EQ(value_in_range(crest, part), 5);
+    }
+    EXPECT_GT(value_between(crest, 0.5F), 5.2F);
+}
+
 TEST(BetweenCells, NaNIsSeen) {
+    for (std::size_t n = 1; n < 5; ++n) {
+        Cells v{0, 3, 0, 1, 2, 0};
+        v[n] = NAN;
+        EXPECT_TRUE(std::isnan(value_in_range(v, 0.5F))) << n;
+    }
     EXPECT_TRUE(std::isnan(value_between<float>({0, NAN, 0, 1, 2, 0}, 0.5F)));
     EXPECT_TRUE(std::isnan(value_between<float>({0, 0, 0, NAN, 2, 0}, 0.5F)));
     EXPECT_FALSE(std::isnan(value_between<float>({NAN, 0, 0, 1, 2, 0}, 0.5F)));

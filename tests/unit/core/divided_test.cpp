@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace cascade {
 namespace {
@@ -99,6 +101,48 @@ TEST(Divided, SidesThatAreNotPeriodicGoOn) {
     EXPECT_EQ(found.at(31, 0), plane.at(7, 0));
     grid.boundary.x = Boundary::periodic;
     EXPECT_GT(divided(plane, grid, 4).at(0, 0), 2);  // Half the way to the last cell.
+}
+
+/// Steep random fields of few cells and of single spikes, on a line, in the plane and in a volume.
+TEST(Divided, WhatGoesOnStaysInTheRangeOfTheCellsAroundAndKeepsTheMean) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(0, 1);
+    for (Grid grid : {Grid{.width = 40, .height = 1}, Grid{.width = 1, .height = 40},
+                      Grid{.width = 24, .height = 20}, Grid{.width = 9, .height = 7, .depth = 8}}) {
+        for (const Boundary boundary : {Boundary::periodic, Boundary::no_flux}) {
+            grid.boundary = boundary;
+            Plane<double> plane{PlaneLayout(grid)};
+            double least = 1, sum = 0;
+            for (std::int64_t k = 0; k < grid.depth; ++k) {
+                for (std::int64_t j = 0; j < grid.height; ++j) {
+                    for (std::int64_t i = 0; i < grid.width; ++i) {
+                        plane.at(i, j, k) = std::pow(number(random), 8);
+                        least = std::min(least, plane.at(i, j, k));
+                        sum += plane.at(i, j, k);
+                    }
+                }
+            }
+            double smallest_drawn = 1, sum_found = 0;
+            const Plane<double> found = divided_in_range(plane, grid, 4),
+                                drawn = divided(plane, grid, 4);
+            const Grid finer = finer_grid(grid, 4);
+            for (std::int64_t k = 0; k < finer.depth; ++k) {
+                for (std::int64_t j = 0; j < finer.height; ++j) {
+                    for (std::int64_t i = 0; i < finer.width; ++i) {
+                        ASSERT_GE(found.at(i, j, k), least);
+                        ASSERT_LE(found.at(i, j, k), 1);
+                        sum_found += found.at(i, j, k);
+                        smallest_drawn = std::min(smallest_drawn, drawn.at(i, j, k));
+                    }
+                }
+            }
+            EXPECT_LT(smallest_drawn, least);  // Else this field tests nothing.
+            if (boundary != Boundary::periodic) continue;
+            const auto finer_cells = static_cast<double>(finer.cell_count()),
+                       cells = static_cast<double>(grid.cell_count());
+            EXPECT_NEAR(sum_found / finer_cells, sum / cells, 1e-14);
+        }
+    }
 }
 
 TEST(Divided, ByOneIsTheSame) {

@@ -103,7 +103,7 @@ TEST(FinerCells, WhatWasDrawnInEachCellIsCarried) {
     ASSERT_TRUE(runs.finer);
     for (const std::string name : {"p", "q"}) {
         const Field& coarse = runs.field(*runs.coarse, name);
-        const Plane<float> wanted = divided(coarse.plane(), runs.coarse->grid(), 2);
+        const Plane<float> wanted = divided_in_range(coarse.plane(), runs.coarse->grid(), 2);
         for (std::int64_t j = 0; j < 24; ++j) {
             for (std::int64_t i = 0; i < 32; ++i)
                 EXPECT_EQ(runs.field(*runs.finer, name).at(i, j), wanted.at(i, j)) << name;
