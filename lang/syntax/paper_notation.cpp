@@ -2,8 +2,8 @@
 #include "lang/syntax/paper_notation.h"
 
 #include "core/utf8.h"
-#include "lang/syntax/index_words.h"
 #include "lang/syntax/kept_spellings.h"
+#include "lang/syntax/paper_tokens.h"
 #include "lang/syntax/token_cursor.h"
 
 #include <fmt/core.h>
@@ -17,12 +17,10 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t no_token = ~std::size_t{0};
-
-class PaperReader {
+class PaperReader : private PaperTokens {
 public:
     PaperReader(const std::vector<Token>& in, std::string_view text, Diagnostics& diagnostics)
-        : in_(in), text_(text), diagnostics_(diagnostics) {}
+        : PaperTokens(in, text), diagnostics_(diagnostics) {}
 
     std::vector<Token> run() {
         out_.reserve(in_.size() + in_.size() / 4);
@@ -50,64 +48,6 @@ private:
         Token last;
         std::size_t size = 0;  ///< Tokens of the source.
     };
-
-    const Token& token(std::size_t at) const { return in_[std::min(at, in_.size() - 1)]; }
-    TokenKind kind(std::size_t at) const { return token(at).kind; }
-    bool is_adjacent(std::size_t at) const {
-        return at > 0 && token(at - 1).span.end == token(at).span.begin;
-    }
-    /// As written, for messages.
-    std::string_view source(const Span& span) const {
-        return text_.substr(span.begin, span.end - span.begin);
-    }
-
-    void put(const Token& token) { out_.push_back(token); }
-    void put(TokenKind kind, Span span, std::string_view text) {
-        out_.push_back({kind, span, text});
-    }
-    static Span before(const Token& token) {
-        return {token.span.source, token.span.begin, token.span.begin};
-    }
-    static Span after(const Token& token) {
-        return {token.span.source, token.span.end, token.span.end};
-    }
-
-    bool is_between_operands(std::size_t at) const {
-        return kind(at) == TokenKind::name && at > 0 && is_word_between_operands(token(at).text) &&
-               ends_operand(at - 1);
-    }
-    bool ends_operand(std::size_t at) const {
-        switch (kind(at)) {
-            case TokenKind::name: return !is_between_operands(at);
-            case TokenKind::number:
-            case TokenKind::close_round:
-            case TokenKind::close_square:
-            case TokenKind::prime: return true;
-            case TokenKind::superscript: return at == power_end_;  // Not of ∇².
-            default: return false;
-        }
-    }
-    bool begins_statement(std::size_t at) const {
-        std::size_t relation =
-            after_index([this](std::size_t ahead) { return kind(ahead); }, at + 1);
-        while (kind(relation) == TokenKind::prime) ++relation;
-        return kind(relation) == TokenKind::colon || kind(relation) == TokenKind::assign ||
-               kind(relation) == TokenKind::plus_assign;
-    }
-    bool begins_operand(std::size_t at) const {
-        switch (kind(at)) {
-            case TokenKind::name:
-            case TokenKind::number:
-            case TokenKind::open_round:
-            case TokenKind::open_square:
-            case TokenKind::nabla:
-            case TokenKind::laplacian:
-            case TokenKind::root: return true;
-            default: return false;
-        }
-    }
-    bool is_after_power() const { return at_ > 0 && power_end_ == at_ - 1; }
-    bool is_after_application() const { return at_ > 0 && application_end_ == at_ - 1; }
 
     void read() {
         switch (kind(at_)) {
@@ -273,10 +213,6 @@ private:
             closings_ += times;
         }
     }
-    static bool is_width(const Token& token) {
-        return token.kind == TokenKind::name &&
-               (token.text == "x" || token.text == "y" || token.text == "z" || token.text == "t");
-    }
     /// How many Laplacians ∇², ∇⁴ or Δ² is.
     std::size_t times_applied(const Token& sign, const Token& power) {
         const std::string digits = digits_of(source(power.span));
@@ -396,29 +332,7 @@ private:
         }
         at_ = name + 1;
     }
-    /// The token after the `]` that closes this `[` on its line.
-    std::size_t end_of_index(std::size_t open) const {
-        std::size_t depth = 0;
-        for (std::size_t at = open; at < in_.size(); ++at) {
-            if (kind(at) == TokenKind::newline) break;
-            if (kind(at) == TokenKind::open_square) ++depth;
-            if (kind(at) == TokenKind::close_square && --depth == 0) return at + 1;
-        }
-        return open;
-    }
-    /// x of `/∂x`; empty if something else stands here.
-    std::string_view axis_of(std::size_t slash) const {
-        const bool is_there = kind(slash) == TokenKind::slash &&
-                              kind(slash + 1) == TokenKind::partial && is_width(token(slash + 2));
-        return is_there ? token(slash + 2).text : std::string_view();
-    }
-    /// y of `/∂x∂y`, x of `/∂x²`.
-    std::string_view second_axis(std::size_t slash, std::string_view axis) const {
-        const Token& next = token(slash + 3);
-        if (next.kind == TokenKind::superscript && source(next.span) == "²") return axis;
-        const bool is_mixed = next.kind == TokenKind::partial && is_width(token(slash + 4));
-        return is_mixed ? token(slash + 4).text : std::string_view();
-    }
+
     void end_derivative(const DerivativeEnd& end) {
         const Span span = join(token(at_).span, end.last.span);
         put(end.kind, span, end.kind == TokenKind::prime ? "'" : ")");
@@ -428,16 +342,10 @@ private:
         end_operand();
     }
 
-    const std::vector<Token>& in_;
-    std::string_view text_;
     Diagnostics& diagnostics_;
-    std::vector<Token> out_;
-    std::size_t at_ = 0;
     std::vector<Open> open_;
-    std::size_t closings_ = 0;                ///< Brackets to close where the operand here ends.
-    bool is_divisor_ = false;                 ///< The product so far has been divided.
-    std::size_t power_end_ = no_token;        ///< The last raised number that is a power.
-    std::size_t application_end_ = no_token;  ///< The last token of an operator and its operand.
+    std::size_t closings_ = 0;  ///< Brackets to close where the operand here ends.
+    bool is_divisor_ = false;   ///< The product so far has been divided.
     std::map<std::size_t, DerivativeEnd> derivative_ends_;
 };
 
