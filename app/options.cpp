@@ -66,6 +66,7 @@ struct Parser {
     Leave wrong_use(const std::string& program, const CLI::ParseError& error);
     std::string near_option(const std::string& word);
     std::optional<std::string> unknown_option() const;
+    std::string in_one_word(const std::string& value);
     std::string describe_unexpected(const std::string& program);
 };
 
@@ -121,6 +122,14 @@ std::optional<std::string> Parser::unknown_option() const {
     return std::nullopt;
 }
 
+/// "--set F=0.05" for the value of `--set F 0.05`; empty if there is no such option.
+std::string Parser::in_one_word(const std::string& value) {
+    const CLI::Option* const option = chosen()->get_option_no_throw("--set");
+    if (option == nullptr || option->results().empty()) return "";
+    const std::string& last = option->results().back();
+    return last.find('=') == std::string::npos ? fmt::format("--set {}={}", last, value) : "";
+}
+
 /// What another program's option is here; empty if there is none.
 std::string_view option_elsewhere(std::string_view name) {
     struct Row {
@@ -165,7 +174,7 @@ std::string Parser::describe_unexpected(const std::string& program) {
                                   : is_value && command == "sweep" ? "--vary " + word
                                   : is_value                       ? "--set " + word
                                   : word == "help"                 ? "--help"
-                                                                   : "";
+                                                                   : in_one_word(word);
         return fmt::format("{}: '{}' is one argument too many{}", where, word,
                            meant.empty() ? "" : fmt::format("; did you mean {}?", meant));
     }

@@ -33,6 +33,7 @@ hint_of_run() {
 }
 hint_of_run "for a square write --grid 9x9" check s.cascade --grid 9
 "$CASCADE" check s.cascade --grid 9x9 2>&1 | grep -q warning && fail "a square gets a warning"
+hint "did you mean --set k=0.05?" run s.cascade --set k 0.05 -- run s.cascade -q --set k=0.05
 hint "did you mean -o p.png?" run s.cascade p.png -- run s.cascade -q -o p.png
 hint "-o film.gif writes a film" run s.cascade --frames film.gif -- run s.cascade -q -o film.gif
 hint "the endings of films are .gif, .webp, .apng, .mp4 and .webm" run s.cascade -o film.mov -- run s.cascade -q -o film.apng
