@@ -11,6 +11,7 @@
 #include "run/commands/analyze.h"
 #include "run/commands/dump.h"
 #include "run/script/embedded_script.h"
+#include "run/session/changed_script.h"
 #include "run/session/session_log.h"
 #include "run/stage/kernel_cache.h"
 #include "run/stage/memory.h"
@@ -44,12 +45,25 @@ Result<std::string> read_standard_input() {
 
 namespace {
 
+/// A log in a file, as the session of a picture would be: with the script at its end.
+Result<LoadedFile> load_session_file(const std::filesystem::path& path, const Overrides& options) {
+    auto text = read_file(path, largest_session_log);
+    if (!text) return tl::unexpected(text.error());
+    const auto log = parse_session_log(*text);
+    if (!log) {
+        return failure(fmt::format("{}: {}", path.string(), log.error().message), log.error().hint);
+    }
+    LoadedFile file{script_at_end(*log, path.parent_path(), options), ""};
+    file.script.file = path;
+    file.session = std::move(*text);
+    return file;
+}
+
 Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides,
                              const TypedScript* typed) {
     if (path != "-") {
         if (is_session_log(first_bytes(path, longest_log_beginning))) {
-            return failure(fmt::format("{} is a session and not a script", path),
-                           "'cascade repl FILE' plays it again");
+            return load_session_file(path, overrides);
         }
         return load_script_file(path, overrides);
     }

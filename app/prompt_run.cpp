@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <limits>
 
 namespace cascade {
@@ -32,13 +33,20 @@ struct WatchedRun {
     ProgressDisplay display;
     InterruptGuard interrupt{control.cancel};
 
-    explicit WatchedRun(Console& console)
-        : display(make_progress_display(console, !console.error().is_terminal)) {
+    std::shared_ptr<SessionFile> kept;
+
+    WatchedRun(Console& console, std::shared_ptr<SessionFile> kept_file)
+        : display(make_progress_display(console, !console.error().is_terminal)),
+          kept(std::move(kept_file)) {
         control.report = [this](const Progress& progress) { display.show(progress); };
         control.warn = [this, &console](const std::string& message) {
             display.clear();
             console.warn(message);
         };
+    }
+    ~WatchedRun() {
+        const bool ends_program = interrupt.signal() == SIGTERM || interrupt.signal() == SIGHUP;
+        if (kept && ends_program) kept->leave();
     }
     WatchedRun(const WatchedRun&) = delete;
     WatchedRun& operator=(const WatchedRun&) = delete;
@@ -75,15 +83,14 @@ bool PromptSession::has_something_to_run() {
 /// that are taken again. False if that failed.
 bool PromptSession::begin_with(
     const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make) {
-    WatchedRun watched(console_);
+    WatchedRun watched(console_, kept_);
     auto made = make(watched.control);
     watched.display.clear();
     if (!made) {
         print_refusal(made.error());
         return false;
     }
-    run_ = std::move(*made);
-    script_.reset();
+    take_over(std::move(*made));
     tell_place();
     return true;
 }
@@ -92,7 +99,7 @@ bool PromptSession::begin_with(
 bool PromptSession::begin_run() {
     if (run_) return true;
     if (!has_something_to_run()) return false;
-    WatchedRun watched(console_);
+    WatchedRun watched(console_, kept_);
     const Script& typed = *script_;
     auto made = LiveRun::begin(load_script(typed.name, typed.text, typed.folder, typed.overrides),
                                options_, watched.control);
@@ -101,15 +108,22 @@ bool PromptSession::begin_run() {
         print_refusal(made.error());
         return false;
     }
-    run_ = std::move(*made);
+    take_over(std::move(*made));
     run_->script().diagnostics = {};  // Its warnings have been printed.
-    script_.reset();
     return true;
+}
+
+void PromptSession::take_over(std::unique_ptr<LiveRun> run) {
+    run_ = std::move(run);
+    script_.reset();
+    // The log of a run that began with a saved one does not grow it again.
+    const bool is_kept = at_terminal_ && !run_->is_resumed();
+    kept_ = is_kept ? SessionFile::of(*run_, stem_, "repl", false) : nullptr;
 }
 
 /// Makes a change of the run and prints the warnings of a changed script. False if it was refused.
 bool PromptSession::apply(const Change& change) {
-    WatchedRun watched(console_);
+    WatchedRun watched(console_, kept_);
     const auto applied = run_->apply(change, watched.control);
     watched.display.clear();
     if (!applied) {
@@ -125,7 +139,7 @@ bool PromptSession::apply(const Change& change) {
 
 /// Takes the run to another moment.
 void PromptSession::move(const std::function<Accepted<void>(RunControl&)>& go) {
-    WatchedRun watched(console_);
+    WatchedRun watched(console_, kept_);
     const auto done = go(watched.control);
     watched.display.clear();
     if (!done) return print_refusal(done.error());
@@ -176,12 +190,12 @@ void PromptSession::run(const std::string& count) {
     if (run_->is_over()) return tell_over();
     const bool good = advance(steps);
     tell_place();
-    if (good && show_after_run_) show("");
+    if (good && at_terminal_) show("");
 }
 
 /// Takes `steps` steps, from stage to stage. False if a run failed.
 bool PromptSession::advance(std::int64_t steps) {
-    WatchedRun watched(console_);
+    WatchedRun watched(console_, kept_);
     GrowingPicture picture(console_, pictures_, *run_);
     Watching watching;
     watching.stage_ended = [&](std::uint32_t stage) {
@@ -189,7 +203,7 @@ bool PromptSession::advance(std::int64_t steps) {
         picture.erase();
         remark(run_->simulation().remark_on(stage));
     };
-    if (show_after_run_ && console_.out().colour) {
+    if (at_terminal_ && console_.out().colour) {
         watching.every = steps_between_looks;
         watching.observe = [&] {
             if (!picture.is_due()) return;

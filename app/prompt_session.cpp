@@ -9,6 +9,7 @@
 #include "lang/syntax/parse.h"
 #include "lang/syntax/replace_blocks.h"
 #include "run/commands/run.h"
+#include "run/session/changed_script.h"
 #include "run/session/session_picture.h"
 
 #include <fmt/format.h>
@@ -70,9 +71,9 @@ std::string called(const CommandEntry& entry) { return fmt::format(":{}", entry.
 
 }  // namespace
 
-PromptSession::PromptSession(const SimulationOptions& options, Console& console,
-                             bool show_after_run, const TerminalPictures& pictures)
-    : options_(options), console_(console), show_after_run_(show_after_run), pictures_(pictures) {}
+PromptSession::PromptSession(const SimulationOptions& options, Console& console, bool at_terminal,
+                             const TerminalPictures& pictures)
+    : options_(options), console_(console), at_terminal_(at_terminal), pictures_(pictures) {}
 
 PromptSession::~PromptSession() = default;
 
@@ -203,6 +204,7 @@ bool PromptSession::change(Script changed) {
 
 void PromptSession::load(const std::string& path) {
     std::error_code error;
+    stem_ = std::filesystem::path(path).stem().string();
     if (std::filesystem::is_directory(path, error)) {
         load_saved(path);
         return;
@@ -223,6 +225,7 @@ void PromptSession::load(const std::string& path) {
     // A script that is loaded starts anew, even if its stages have the names of the old ones.
     if (!change(std::move(file->script))) return;
     run_.reset();
+    kept_.reset();
     console_.note(fmt::format("{}: {} stages", path, script_->program->stages.size()));
 }
 
@@ -245,7 +248,7 @@ void PromptSession::load_saved(const std::string& folder) {
 }
 
 void PromptSession::load_session(const std::string& path) {
-    const auto text = read_file(path, largest_script);
+    const auto text = read_file(path, largest_session_log);
     if (!text) return fail(text.error());
     const auto log = parse_session_log(*text);
     if (!log) {
@@ -286,6 +289,8 @@ void PromptSession::print_text(const std::string&) {
 void PromptSession::forget(const std::string&) {
     run_.reset();
     script_.reset();
+    kept_.reset();
+    stem_ = "prompt";
     last_warnings_.clear();
     shown_.clear();
 }

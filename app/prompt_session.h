@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/session_file.h"
 #include "app/terminal_pictures.h"
 #include "run/pictures/painter.h"
 #include "run/script/script.h"
@@ -24,8 +25,9 @@ namespace cascade {
 /// Otherwise it is kept, and the run goes on with it (LiveRun).
 class PromptSession {
 public:
-    /// `show_after_run`: a picture after each :run, for terminals.
-    PromptSession(const SimulationOptions& options, Console& console, bool show_after_run,
+    /// `at_terminal`: a picture after each :run, and the session is kept in a file while it goes
+    /// on.
+    PromptSession(const SimulationOptions& options, Console& console, bool at_terminal,
                   const TerminalPictures& pictures);
     ~PromptSession();
 
@@ -33,6 +35,10 @@ public:
     bool take(const std::string& line);
     /// Drops an unfinished block (Ctrl-C).
     void drop_pending() { pending_.clear(); }
+    /// Where the session is kept, when that is new.
+    void tell_where_kept() const {
+        if (kept_) tell_news(*kept_, console_);
+    }
     /// End of input: checks an unfinished block as it is.
     void end();
 
@@ -67,6 +73,7 @@ private:
     bool has_something_to_run();
     bool begin_with(const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make);
     bool begin_run();
+    void take_over(std::unique_ptr<LiveRun> run);
     bool apply(const Change& change);
     void move(const std::function<Accepted<void>(RunControl&)>& go);
     void init(const std::string&);
@@ -99,14 +106,16 @@ private:
 
     SimulationOptions options_;
     Console& console_;
-    bool show_after_run_;
+    bool at_terminal_;
     TerminalPictures pictures_;
     std::string pending_;  ///< The first lines of an unfinished block.
     std::string last_warnings_;
     std::string shown_;  ///< The expression of the picture that was drawn last.
     bool has_failed_ = false;
-    std::unique_ptr<Script> script_;  ///< Without errors; before there is a run.
-    std::unique_ptr<LiveRun> run_;    ///< Null until something is run.
+    std::unique_ptr<Script> script_;     ///< Without errors; before there is a run.
+    std::unique_ptr<LiveRun> run_;       ///< Null until something is run.
+    std::string stem_ = "prompt";        ///< Of the file that was loaded.
+    std::shared_ptr<SessionFile> kept_;  ///< Of the run, at a terminal.
 };
 
 }  // namespace cascade

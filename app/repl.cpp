@@ -4,7 +4,9 @@
 #include "app/interrupt.h"
 #include "app/line_reader.h"
 #include "app/prompt_session.h"
+#include "app/session_file.h"
 
+#include <filesystem>
 #include <unistd.h>
 
 namespace cascade {
@@ -19,13 +21,19 @@ int repl_command(const Options& options, Console& console) {
                     : make_plain_reader(STDIN_FILENO);
     if (at_terminal) stay_on_interrupt();
     if (at_terminal) console.say("Cascade: ':help' lists the commands, Ctrl-D leaves.\n");
-    if (!options.scripts.empty()) session.load(options.scripts[0]);
+    const std::filesystem::path loaded = options.scripts.empty() ? "" : options.scripts[0];
+    if (at_terminal) {
+        tell_of_files_left(loaded.parent_path(), loaded.empty() ? "prompt" : loaded.stem().string(),
+                           loaded, "repl", console);
+    }
+    if (!loaded.empty()) session.load(loaded.string());
     // Errors set the status only for a pipe: at a terminal the user has seen them.
     const auto status = [&] {
         return !at_terminal && session.has_failed() ? exit_status::wrong_line
                                                     : exit_status::success;
     };
     while (true) {
+        session.tell_where_kept();
         const TypedLine line = reader->read(session.prompt());
         if (line.kind == TypedLine::Kind::cancelled) {
             session.drop_pending();

@@ -2,6 +2,7 @@
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
+#include "app/session_file.h"
 #include "lang/print/library_note.h"
 #include "view/page_files.h"
 #include "view/page_server.h"
@@ -13,6 +14,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <thread>
 
@@ -85,7 +87,12 @@ int view_command(const Options& options, Console& console) {
     console.say(script.messages(console.error().colour));
     if (!script.program) return exit_status::wrong_script;
 
+    const std::string stem = output_stem(script);
+    tell_of_files_left(script.folder, stem, script.file, "view", console);
+
     RunControl control;
+    ProgressDisplay display = make_progress_display(console, false);
+    control.report = [&](const Progress& progress) { display.show(progress); };
     const InterruptGuard interrupt(control.cancel);
     const auto session = session_to_play(*file, options.overrides, console, false);
     if (!session) {
@@ -94,10 +101,12 @@ int view_command(const Options& options, Console& console) {
     }
     auto run = *session ? LiveRun::play(**session, script.folder, options.run.simulation, control)
                         : LiveRun::begin(std::move(script), options.run.simulation, control);
+    display.clear();
     if (!run) {
         console.say(run.error().messages(console.error().colour));
         return exit_status::failed_run;
     }
+    const auto kept = SessionFile::of(**run, stem, "view", true);
     auto server = PageServer::start(std::move(*run), page_files(), chooses);
     if (!server) {
         console.fail(server.error());
@@ -110,7 +119,11 @@ int view_command(const Options& options, Console& console) {
                     (*server)->port()));
     const LeadingPage page((*server)->address());
     if (!options.no_browser && has_screen() && !page.path().empty()) open_in_browser(page.path());
-    while (!control.cancel) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    while (!control.cancel) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        tell_news(*kept, console);
+    }
+    if (interrupt.signal() != SIGINT) kept->leave();
     return exit_status::success;
 }
 

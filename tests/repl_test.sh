@@ -88,8 +88,10 @@ feed_wrong ':load done.session' ':goto nowhere' ':paint nobody = 1' ':paint' ':u
 says err "no stage is called 'nowhere'"
 says err "has nothing called 'nobody'"
 says err 'nothing is left to undo'
-"$CASCADE" run done.session 2>err && fail "a session ran as a script"
-says err "'cascade repl FILE' plays it again"
+"$CASCADE" run done.session -q --save run_again 2>err || fail "a session is not run"
+cmp played_once/t.b.npy run_again/t.b.npy || fail "a session that is run differs"
+"$CASCADE" check done.session >out 2>err || fail "a session has no script"
+says out '2 stages'
 printf 'cascade session 1\nname x\n' >broken.session
 feed_wrong ':load broken.session'
 says err 'broken.session: line 3 of the session'
@@ -321,23 +323,77 @@ os.waitpid(pid, 0)
 # A page of a picture begins where its session ended.
 import signal, socket, subprocess
 
-server = subprocess.Popen([sys.argv[1], "view", "live.png", "--no-browser"], stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL)
-port, token = re.search(rb":(\d+)/#token=(\w+)", server.stdout.readline()).groups()
-page = socket.create_connection(("127.0.0.1", int(port)), timeout=60)
-page.sendall(b"GET /session?token=%s HTTP/1.1\r\nHost: 127.0.0.1:%s\r\nOrigin: http://127.0.0.1:%s\r\n"
-             b"Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-             b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n" % (token, port, port))
-told = b""
-while not told.endswith(b"\r\n\r\n"):
-    told += page.recv(1)
-ask = b'{"do": "next_snapshot"}'
-page.sendall(bytes([0x81, 0x80 | len(ask)]) + bytes(4) + ask)
-while not re.search(rb'"steps":7\b', told):
-    more = page.recv(65536)
-    check(more, "the page's session is not the picture's", told)
-    told += more
-server.send_signal(signal.SIGINT)
-server.wait()
+class Page:
+    def __init__(self, script):
+        self.server = subprocess.Popen([sys.argv[1], "view", script, "--no-browser"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        port, token = re.search(rb":(\d+)/#token=(\w+)", self.server.stdout.readline()).groups()
+        self.socket = socket.create_connection(("127.0.0.1", int(port)), timeout=60)
+        self.socket.sendall(
+            b"GET /session?token=%s HTTP/1.1\r\nHost: 127.0.0.1:%s\r\nOrigin: http://127.0.0.1:%s\r\n"
+            b"Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+            b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n" % (token, port, port))
+        self.told = b""
+        while not self.told.endswith(b"\r\n\r\n"):
+            self.told += self.socket.recv(1)
+
+    def ask(self, words, answer):
+        self.socket.sendall(bytes([0x81, 0x80 | len(words)]) + bytes(4) + words)
+        while not re.search(answer, self.told):
+            more = self.socket.recv(65536)
+            check(more, f"no {answer!r} from the page", self.told)
+            self.told += more
+
+    def end(self, number):
+        self.server.send_signal(number)
+        return self.server.communicate()[1]
+
+page = Page("live.png")
+page.ask(b'{"do": "next_snapshot"}', rb'"steps":7\b')
+page.end(signal.SIGINT)
+
+# Whatever ends a session, its file holds what was done; only the user's own end removes it.
+def sessions():
+    return sorted(name for name in os.listdir() if ".unsaved" in name and name.endswith(".session"))
+
+open("kept.cascade", "w").write("domain { grid: 16, 8 }\nstage s: turing_spots { iterations: 50 }\n")
+check(not sessions(), "files of sessions that the user ended", sessions())
+for number, kept in (signal.SIGINT, 0), (signal.SIGKILL, 1), (signal.SIGTERM, 2), (signal.SIGINT, 2):
+    page = Page("kept.cascade")
+    page.ask(b'{"do":"step","count":9,"id":1}', rb'"id":1\b')
+    while not re.search(rb'"steps":9\b', page.told):
+        page.told = b""
+        page.ask(b'{"do":"next_snapshot"}', rb'"steps":\d+\D')
+    page.ask(b'{"do":"paint","item":"b","expression":"b+1","id":2}', rb'"id":2\b')
+    page.ask(b'{"do":"set","name":"s.ka","expression":"1/%d","id":3}' % (30 + kept), rb'"id":3\b')
+    page.ask(b'{"do":"undo","id":4}', rb'"id":4\b')
+    page.ask(b'{"do":"set","name":"s.ka","expression":"1/%d","id":5}' % (40 + kept), rb'"id":5\b')
+    said = page.end(number)
+    check(len(sessions()) == kept, f"signal {number}", sessions())
+    check(kept == 0 or number == signal.SIGKILL or b"kept.unsaved.session holds a session" in said,
+          "nothing is said of the file that was left", said)
+check(sessions() == ["kept.unsaved-2.session", "kept.unsaved.session"], "other names", sessions())
+done = "cascade session 1\nname kept.cascade\noptions {}\nscript 3\n" + open("kept.cascade").read() + \
+    "\nat 1 9\npaint b=b+1\nset s.ka=1/41\nend 1 9\n"
+open("done.session", "w").write(done)
+for name in "done", "kept.unsaved":
+    subprocess.run([sys.argv[1], "run", name + ".session", "-q", "-o", "played.png", "--save", name], check=True)
+same = subprocess.run(["cmp", "done/s.b.npy", "kept.unsaved/s.b.npy"]).returncode == 0
+check(same, "the file of the killed session grows another pattern", open("kept.unsaved.session").read())
+
+pid, terminal = start()
+expect(b"1> ")
+type_in(b"stage s: turing_spots { iterations: 100 }\r")
+expect(b"2> ")
+type_in(b":run 7\r")
+expect(b"goes on with it")                      # Where the session is kept.
+type_in(b":paint b=b+1\r")
+type_in(b":set s.ka=1/70\r")
+type_in(b":stages\r")
+expect(b"step 7 of")
+os.kill(pid, 9)
+os.waitpid(pid, 0)
+told = subprocess.run([sys.argv[1], "repl", "prompt.unsaved.session"], input=b":stages\n:text\n", capture_output=True).stdout
+check(b"step 7 of 100" in told and b"# :set s.ka=1/70" in told, "the prompt's session is lost", told)
 END
 echo "repl: right"

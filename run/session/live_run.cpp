@@ -5,6 +5,7 @@
 #include "lang/check/check.h"
 #include "lang/syntax/parse.h"
 #include "run/domain/domain_mask.h"
+#include "run/session/changed_script.h"
 #include "solvers/finite.h"
 #include "tissue/tissue.h"
 
@@ -42,32 +43,9 @@ tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure = {
     return tl::unexpected(std::move(refused));
 }
 
-/// The name in `NAME=EXPR` or `NAME: EXPR`, without blanks around it.
-std::string_view name_of_setting(std::string_view setting) {
-    setting = setting.substr(0, setting.find_first_of("=:"));
-    const std::size_t begin = setting.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return {};
-    return setting.substr(begin, setting.find_last_not_of(" \t") + 1 - begin);
-}
-
 /// Does it change the script, and not only values?
 bool is_of_script(const Change& change) {
     return std::holds_alternative<SetText>(change) || std::holds_alternative<SetNumber>(change);
-}
-
-/// A script with another text. Settings from outside that no longer mean anything are dropped:
-/// their parameter may have gone with the old text.
-Script with_text(const Script& old, const std::string& text) {
-    Script script = load_script(old.name, text, old.folder, old.overrides);
-    if (script.program || old.overrides.sets.empty()) return script;
-    Overrides overrides = old.overrides;
-    overrides.sets.clear();
-    if (!load_script(old.name, text, old.folder, overrides).program) return script;
-    for (const std::string& set : old.overrides.sets) {
-        overrides.sets.push_back(set);
-        if (!load_script(old.name, text, old.folder, overrides).program) overrides.sets.pop_back();
-    }
-    return load_script(old.name, text, old.folder, std::move(overrides));
 }
 
 /// Places of a tissue's planes that no cell is in do not count.
@@ -88,16 +66,6 @@ std::size_t texts_of(const SessionLog& log) {
 }
 
 }  // namespace
-
-Script with_number(const Script& script, const SetNumber& number) {
-    Overrides overrides = script.overrides;
-    // The last setting of a name wins, so earlier ones need not be kept.
-    std::erase_if(overrides.sets, [&](const std::string& set) {
-        return name_of_setting(set) == name_of_setting(number.name);
-    });
-    overrides.sets.push_back(fmt::format("{}={}", number.name, number.expression));
-    return load_script(script.name, script.text, script.folder, std::move(overrides));
-}
 
 std::string Refusal::messages(bool colour) const {
     RenderStyle style;
@@ -208,13 +176,16 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::play(const SessionLog& log,
     std::size_t played = 0, told = 0;
     for (const auto& logged : log.changes) {
         if (control.cancel) return refuse("stopped");
-        const std::size_t percent = 100 * played++ / log.changes.size();
+        const std::size_t percent = 100 * played / log.changes.size();
         if (control.report && percent > told) {
             told = percent;
             Progress progress;
             progress.doing = fmt::format("playing the session: {} % of its changes", percent);
+            progress.step = static_cast<std::int64_t>(played);
+            progress.steps = static_cast<std::int64_t>(log.changes.size());
             control.report(progress);
         }
+        ++played;
         done = (*run)->run_to(logged->at, control);
         const bool needs_values = is_of_script(logged->change);
         if (done) {
@@ -240,8 +211,19 @@ Accepted<void> LiveRun::start_stage(std::uint32_t stage, const std::atomic<bool>
     return {};
 }
 
+void LiveRun::tell_of(bool is_step) const {
+    if (listener_) listener_(log_, place(), is_step);
+}
+
 Result<StageEnd> LiveRun::advance(std::int64_t count, RunControl& control,
                                   const Watching& watching) {
+    auto end = take_steps(count, control, watching);
+    tell_of(true);
+    return end;
+}
+
+Result<StageEnd> LiveRun::take_steps(std::int64_t count, RunControl& control,
+                                     const Watching& watching) {
     while (true) {
         if (!state().done) {
             if (count <= 0) return StageEnd::stopped;
@@ -278,17 +260,16 @@ Accepted<void> LiveRun::run_to(RunPlace place, RunControl& control) {
     };
     while (true) {
         const bool is_there = stage_ == place.stage;
-        if (place < this->place() || (is_there && state().done && state().steps < place.steps)) {
-            return does_not_fit();
-        }
+        const std::int64_t iterations = script_->program->stages[stage_].iterations;
+        const std::int64_t most = state().done ? state().steps : iterations;
+        if (place < this->place() || (is_there && most < place.steps)) return does_not_fit();
         if (is_there && state().steps == place.steps) return {};
         if (!is_there && state().done) {
             if (stage_ + 1 >= script_->stage_count()) return does_not_fit();
             if (auto started = start_stage(stage_ + 1, control.cancel); !started) return started;
             continue;
         }
-        const std::int64_t iterations = script_->program->stages[stage_].iterations;
-        const std::int64_t last = is_there ? std::min(place.steps, iterations) : iterations;
+        const std::int64_t last = is_there ? place.steps : iterations;
         const auto end = simulation_->advance_stage(stage_, last, control, {});
         if (!end) return refuse(end.error());
         if (*end == StageEnd::cancelled) return refuse("stopped");
@@ -409,6 +390,10 @@ void LiveRun::add_to_log(const Change& change, RunPlace at) {
 }
 
 Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool joins_last) {
+    if (log_.changes.size() >= most_logged_changes) {
+        return refuse("the log of this session is full of changes",
+                      "save the script or the values, and begin a session with them");
+    }
     if (const auto* text = std::get_if<SetText>(&change)) {
         if (texts_of(log_) + text->text.size() > most_texts) {
             return refuse("the log of this session is full of texts",
@@ -438,6 +423,7 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
     }
     if (is_remembered) remember(std::move(*before));
     future_.clear();
+    tell_of(false);
     return {};
 }
 
@@ -475,6 +461,7 @@ Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
     }
     remember(std::move(before));
     future_.clear();
+    tell_of(false);
     return {};
 }
 
@@ -513,6 +500,7 @@ Accepted<void> LiveRun::step_through(std::vector<Moment>& from, std::vector<Mome
     from.pop_back();
     to.push_back(std::move(now));
     forget_old_values();
+    tell_of(false);
     return {};
 }
 

@@ -35,9 +35,6 @@ struct Refusal {
 template <typename T>
 using Accepted = tl::expected<T, Refusal>;
 
-/// A script with another value of a parameter or setting. It has no program if that is wrong.
-Script with_number(const Script& script, const SetNumber& number);
-
 /// What a caller wants to know while steps are taken. Functions may be empty.
 struct Watching {
     std::function<void()> observe;  ///< At multiples of `every`, as Simulation::advance_stage().
@@ -111,6 +108,11 @@ public:
     /// All that was done, up to the present place.
     SessionLog log() const;
 
+    /// Called after every change, and with `is_step` after every advance(): with the log, whose end
+    /// is not kept up to date, and the present place.
+    using Listener = std::function<void(const SessionLog& log, RunPlace now, bool is_step)>;
+    void tell(Listener listener) { listener_ = std::move(listener); }
+
     /// The most bytes of values that are kept for undo(), and of texts with logs. Older values are
     /// grown again; moments with older texts are forgotten.
     void set_undo_memory(std::size_t values, std::size_t texts = most_texts) {
@@ -142,6 +144,8 @@ private:
     Accepted<void> make(const SetNumber& change, const KeptState& values, RunControl& control);
     Accepted<void> make(const Paint& change);
     Accepted<void> make(const NextStage& change, RunControl& control);
+    Result<StageEnd> take_steps(std::int64_t count, RunControl& control, const Watching& watching);
+    void tell_of(bool is_step) const;
     Accepted<void> start_stage(std::uint32_t stage, const std::atomic<bool>& cancel);
     Accepted<void> run_to(RunPlace place, RunControl& control);
     Accepted<void> return_to(Moment& moment, RunControl& control);
@@ -159,6 +163,7 @@ private:
     bool is_resumed_ = false;
     std::vector<PaintedNames> painted_;  ///< By stage.
     SessionLog log_;                     ///< Its end is not kept up to date.
+    Listener listener_;
     std::vector<Moment> past_, future_;
     std::size_t undo_memory_ = std::size_t{256} << 20, undo_texts_ = most_texts;
 };

@@ -47,6 +47,9 @@ public:
 
     bool at_end() const { return rest_.empty(); }
 
+    /// Leaves out a last line that does not end.
+    void leave_out_cut_line() { rest_ = rest_.substr(0, rest_.rfind('\n') + 1); }
+
     std::string_view line() {
         ++number_;
         const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -129,19 +132,31 @@ bool is_session_log(std::string_view text) {
     return text.starts_with(first_line) && text.substr(first_line.size()).starts_with('\n');
 }
 
-std::string print_session_log(const SessionLog& log) {
-    std::string text =
-        fmt::format("{}\nname {}\noptions {}\nscript {}", first_line, in_one_line(log.name),
-                    overrides_to_json(log.overrides), counted_lines(log.text));
-    std::optional<RunPlace> at;
-    for (const auto& logged : log.changes) {
-        if (at != logged->at) {
-            text += fmt::format("at {} {}\n", logged->at.stage + 1, logged->at.steps);
-        }
-        at = logged->at;
-        text += print(logged->change);
+std::string print_place(std::string_view word, RunPlace place) {
+    return fmt::format("{} {} {}\n", word, place.stage + 1, place.steps);
+}
+
+std::string print_session_beginning(const SessionLog& log) {
+    return fmt::format("{}\nname {}\noptions {}\nscript {}", first_line, in_one_line(log.name),
+                       overrides_to_json(log.overrides), counted_lines(log.text));
+}
+
+std::string print_logged_changes(const SessionLog& log, std::size_t first,
+                                 std::optional<RunPlace>& at) {
+    std::string text;
+    for (std::size_t k = first; k < log.changes.size(); ++k) {
+        const LoggedChange& logged = *log.changes[k];
+        if (at != logged.at) text += print_place("at", logged.at);
+        at = logged.at;
+        text += print(logged.change);
     }
-    return text + fmt::format("end {} {}\n", log.end.stage + 1, log.end.steps);
+    return text;
+}
+
+std::string print_session_log(const SessionLog& log) {
+    std::optional<RunPlace> at;
+    return print_session_beginning(log) + print_logged_changes(log, 0, at) +
+           print_place("end", log.end);
 }
 
 Result<SessionLog> parse_session_log(std::string_view text) {
@@ -167,8 +182,21 @@ Result<SessionLog> parse_session_log(std::string_view text) {
     if (!script) return reader.wrong("it should be 'script' and the number of its lines");
     log.text = std::move(*script);
     RunPlace at;
+    bool is_open = false;
     while (!reader.at_end()) {
         const auto [word, rest] = split(reader.line());
+        if (word == "open" && rest.empty()) {
+            is_open = true;
+            reader.leave_out_cut_line();
+            continue;
+        }
+        if (word == "keep" && is_open) {
+            const auto kept = LogReader::whole(rest);
+            if (!kept || static_cast<std::size_t>(*kept) > log.changes.size())
+                return reader.wrong("there are not so many changes above");
+            log.changes.resize(static_cast<std::size_t>(*kept));
+            continue;
+        }
         if (word == "at" || word == "end") {
             const auto place = LogReader::place(rest);
             if (!place) return reader.wrong("it should name a stage and a step, as in 'at 1 250'");
@@ -179,13 +207,16 @@ Result<SessionLog> parse_session_log(std::string_view text) {
             return log;
         }
         auto change = read_change(word, rest, reader);
+        if (!change && is_open && word == "text" && reader.at_end()) break;
         if (!change) return reader.wrong("it is no change of a session");
         if (log.changes.size() == most_logged_changes)
             return reader.wrong("there are too many changes");
         log.changes.push_back(
             std::make_shared<const LoggedChange>(LoggedChange{at, std::move(*change)}));
     }
-    return reader.wrong("the session has no end");
+    if (!is_open) return reader.wrong("the session has no end");
+    log.end = at;
+    return log;
 }
 
 }  // namespace cascade

@@ -6,7 +6,10 @@
 #include "run/script/script.h"
 #include "run/session/change.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +27,20 @@ struct SessionLog {
 /// The log as lines of text, which parse_session_log() reads.
 std::string print_session_log(const SessionLog& log);
 
-/// The most changes of a log that is read, so that a small file cannot fill the memory.
-inline constexpr std::size_t most_logged_changes = 250'000;
+/// Its parts, which are also those of a log that grows (open_log.h): the lines above the changes,
+/// the changes from number `first` on, where `at` is the place of the line above, and a place.
+std::string print_session_beginning(const SessionLog& log);
+std::string print_logged_changes(const SessionLog& log, std::size_t first,
+                                 std::optional<RunPlace>& at);
+std::string print_place(std::string_view word, RunPlace place);
 
-/// Fails, naming the line, on a text that print_session_log() does not write.
+/// The most changes of a log, so that a small file cannot fill the memory.
+inline constexpr std::size_t most_logged_changes = 250'000;
+/// The most bytes of a log that is read.
+inline constexpr std::uint64_t largest_session_log = std::uint64_t{512} << 20;
+
+/// Fails, naming the line, on a text that neither print_session_log() nor OpenLog writes. A log
+/// that is still open ends at its last place; lines that were cut off are left out.
 Result<SessionLog> parse_session_log(std::string_view text);
 
 /// Does a text begin like a log? Its first `longest_log_beginning` bytes are enough.

@@ -25,8 +25,8 @@ PngTexts embed_session(const Script& script, const PictureRequest& request, cons
 /// `request`, or if the picture cannot be written.
 Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& request);
 
-/// The session that a picture carries; none for other pictures and for scripts. Fails, naming the
-/// file, if it is not one.
+/// The session that a picture carries, or a file of a session is; none for others. Fails, naming
+/// the file, if it is not one.
 Result<std::optional<SessionLog>> session_of(const LoadedFile& file);
 
 }  // namespace cascade

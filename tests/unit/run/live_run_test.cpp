@@ -384,6 +384,37 @@ TEST(SessionLogTest, NoTextIsTooStrange) {
     }
 }
 
+TEST_F(LiveRunTest, PlayingTellsHowFarItIsAndStops) {
+    const auto run = begun(coupled_stages);
+    SessionLog log = run->log();
+    log.changes.assign(200, std::make_shared<const LoggedChange>(
+                                LoggedChange{{0, 0}, Paint{"u", "u + 0.01"}}));
+    std::vector<std::int64_t> told;
+    control_.report = [&](const Progress& progress) {
+        EXPECT_EQ(progress.doing, "playing the session: " + std::to_string(progress.step / 2) +
+                                      " % of its changes");
+        EXPECT_EQ(progress.steps, 200);
+        told.push_back(progress.step);
+        control_.cancel = progress.step >= 50;
+    };
+    const auto refused = LiveRun::play(log, ".", interpreted(), control_);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().messages(false), "stopped\n");
+    EXPECT_EQ(told.size(), 25u);
+    EXPECT_EQ(told.back(), 50);
+}
+
+TEST_F(LiveRunTest, AnEndBeyondTheIterationsIsRefusedBeforeAnyStep) {
+    SessionLog log = begun(coupled_stages)->log();
+    log.end = {0, 999'999'999'999};
+    bool has_taken_steps = false;
+    control_.report = [&](const Progress&) { has_taken_steps = true; };
+    const auto refused = LiveRun::play(log, ".", interpreted(), control_);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().messages(false), HasSubstr("does not reach"));
+    EXPECT_FALSE(has_taken_steps);
+}
+
 TEST_F(LiveRunTest, ALogThatDoesNotFitItsScriptIsRefused) {
     const auto run = begun(coupled_stages);
     advance(*run, 70);
