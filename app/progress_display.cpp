@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -133,8 +134,8 @@ ProgressDisplay::ProgressDisplay(Kind kind, Output output)
 void ProgressDisplay::show(const Progress& progress) {
     if (kind_ == Kind::none) return;
     if (!progress.doing.empty()) {
-        // Lines are only for progress with a known end.
-        if (kind_ != Kind::bar || width_of(progress.doing) + 2 >= output_.columns()) return;
+        if (kind_ == Kind::lines) return show_doing_line(progress);
+        if (width_of(progress.doing) + 2 >= output_.columns()) return;
         output_.write("\r\x1b[2K" + progress.doing + " …");
         drawn_ = true;
         return;
@@ -172,6 +173,16 @@ void ProgressDisplay::clear() {
     if (!drawn_) return;
     output_.write("\r\x1b[2K");
     drawn_ = false;
+}
+
+/// Lines are only for progress with a known end.
+void ProgressDisplay::show_doing_line(const Progress& progress) {
+    if (progress.steps <= 0) return;
+    const Time now = output_.now();
+    if (!std::exchange(has_begun_, true)) last_line_ = now;
+    if (now - last_line_ < between_lines) return;
+    last_line_ = now;
+    output_.write(progress.doing + "\n");
 }
 
 void ProgressDisplay::show_line(const Progress& progress) {

@@ -47,12 +47,14 @@ public:
 
 private:
     void show_line(const Progress& progress);
+    void show_doing_line(const Progress& progress);
 
     Kind kind_;
     Output output_;
     bool drawn_ = false;
-    int stage_ = 0;       ///< The stage shown last.
-    bool swept_ = false;  ///< True once a sweep has been shown.
+    int stage_ = 0;           ///< The stage shown last.
+    bool swept_ = false;      ///< True once a sweep has been shown.
+    bool has_begun_ = false;  ///< Likewise what is done while no stage runs.
     Time stage_begun_;
     std::int64_t first_step_ = 0;
     Time last_line_;

@@ -10,7 +10,7 @@ namespace cascade {
 
 /// The progress of a stage. Sent some ten times a second and at the end of a stage.
 struct Progress {
-    std::string doing;     ///< The activity while no stage runs; the rest then has no meaning.
+    std::string doing;     ///< The activity while no stage runs: `step` of `steps`, if above 0.
     std::string stage;     ///< The stage's name.
     std::string note;      ///< A remark to print after it; usually empty.
     int stage_number = 1;  ///< From 1.

@@ -149,7 +149,11 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
                                   const Program& program, const Sources& sources,
                                   Diagnostics& diagnostics) {
     Workspace work = workspace_of(program, diagnostics);
-    const ast::Script functions = cell_functions_of(sources);
+    // Searched for among the sources of all strokes of a session, of which there may be many.
+    const bool has_cells = std::ranges::any_of(program.systems, [](const System& system) {
+        return system.cells.has_value();
+    });
+    const ast::Script functions = has_cells ? cell_functions_of(sources) : ast::Script();
     if (!functions.functions.empty()) work.cell_functions = &functions;
     checking::Scope scope;
     scope.context = checking::Context::picture;

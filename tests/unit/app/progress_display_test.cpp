@@ -99,6 +99,24 @@ TEST(Progress, lines_are_sparse) {
     EXPECT_THAT(watched.written, Not(HasSubstr("\r")));
 }
 
+TEST(Progress, lines_tell_of_what_has_a_known_end) {
+    Watched watched(ProgressDisplay::Kind::lines);
+    Progress progress;
+    progress.doing = "spreading cells";
+    for (int k = 0; k < 30; ++k) {
+        watched.now += std::chrono::seconds(1);
+        watched.display.show(progress);
+    }
+    EXPECT_EQ(watched.written, "");
+    progress.doing = "playing the session";
+    progress.steps = 200;
+    for (int k = 0; k < 15; ++k) {
+        watched.now += std::chrono::seconds(1);
+        watched.display.show(progress);
+    }
+    EXPECT_EQ(watched.written, "playing the session\n");
+}
+
 TEST(Progress, a_stage_that_its_condition_ended_says_so) {
     Progress progress = half_way();
     progress.when_met = "settled";
