@@ -37,7 +37,6 @@ list(APPEND CASCADE_WITHOUT
 
 include(cmake/rooms.cmake)
 target_include_directories(cascade_options SYSTEM INTERFACE ${native_headers} ${native_headers}/eigen3)
-target_compile_definitions(cascade_options INTERFACE FMT_HEADER_ONLY)
 target_compile_options(cascade_options INTERFACE -msimd128 -fno-exceptions -fno-rtti)
 
 cascade_room(core)
