@@ -149,7 +149,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const std::functio
     // The checks from here on allocate memory of their own.
     if (!can_go_on_) loop_.reset();
     if (outcome.not_finite || outcome.too_short)
-        return tl::unexpected(explain(outcome, view_, state_));
+        return tl::unexpected(explain(outcome, view_, state_, control_->cancel));
     if (outcome.cancelled) {
         view_.environment().kernels->stepper()->abandon();
         return StageEnd::cancelled;

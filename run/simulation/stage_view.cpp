@@ -49,8 +49,8 @@ std::vector<Field> StageView::starting_species() const {
     return species;
 }
 
-StabilityEstimate StageView::stability(std::span<const Field> species,
-                                       const Compile& compile) const {
+StabilityEstimate StageView::stability(std::span<const Field> species, const Compile& compile,
+                                       const std::atomic<bool>* cancel) const {
     // Rates ignore `frozen`, but frozen cells cannot blow up.
     const Mask* frozen = state().frozen.empty() ? nullptr : &state().frozen;
     const DomainMask* inside = environment_->inside();
@@ -58,7 +58,7 @@ StabilityEstimate StageView::stability(std::span<const Field> species,
     if (inside != nullptr) frozen = &still;
     const StepProblem rates =
         bind_plan(plan_rates(program(), number_), compile, context(), system(), number_);
-    return estimate_stability(rates, species, frozen);
+    return estimate_stability(rates, species, frozen, cancel);
 }
 
 bool StageView::is_frozen() const {

@@ -9,6 +9,7 @@
 #include "run/stage/step_advice.h"
 #include "solvers/stability.h"
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -43,9 +44,10 @@ public:
 
     /// Stability of the rates at a state of the species.
     StabilityEstimate stability(std::span<const Field> species) const {
-        return stability(species, environment_->kernels->interpreted());
+        return stability(species, environment_->kernels->once());
     }
-    StabilityEstimate stability(std::span<const Field> species, const Compile& compile) const;
+    StabilityEstimate stability(std::span<const Field> species, const Compile& compile,
+                                const std::atomic<bool>* cancel = nullptr) const;
     /// Is `frozen` one number for all cells, and not 0? Then no step changes anything.
     bool is_frozen() const;
     StepInUse step_in_use() const;
