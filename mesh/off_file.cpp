@@ -41,7 +41,10 @@ public:
     explicit OffReader(std::string_view bytes) : size_(bytes.size()), lines_(bytes) {}
 
     Result<PolygonSoup> read() {
-        if (!read_head()) return failure("this is no OFF file of text");
+        if (!read_head()) {
+            return failure("this is no OFF file of text",
+                           "files with OFF BINARY, 4OFF or nOFF at their beginning are not read");
+        }
         if (points_ > size_ / least_point || faces_ > size_ / least_face) {
             return failure(fmt::format("the OFF file is too short for {} points and {} faces",
                                        points_, faces_),

@@ -77,23 +77,34 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
     for (;;) {
         const std::vector<std::string_view>& words = lines.next();
         if (words.empty()) break;
-        if (is_word(words[0], "solid")) is_in_solid = true;
-        if (is_word(words[0], "endsolid")) is_in_solid = false;
-        if (is_word(words[0], "outer")) {
-            if (is_in_loop) return wrong_line("begins a loop in a loop");
-            is_in_loop = true;
-        } else if (is_word(words[0], "vertex")) {
-            std::array<std::optional<double>, 3> numbers;
-            for (std::size_t k = 0; k < 3 && k + 1 < words.size(); ++k)
-                numbers[k] = number_in(words[k + 1]);
-            if (!is_in_loop || !numbers[0] || !numbers[1] || !numbers[2]) {
-                return wrong_line("is not a corner of a triangle");
+        // Some programs write several facets in a line. What follows another word is a name or a
+        // remark.
+        for (std::size_t at = 0; at < words.size(); ++at) {
+            if (is_word(words[at], "outer")) {
+                if (is_in_loop) return wrong_line("begins a loop in a loop");
+                is_in_loop = true;
+            } else if (is_word(words[at], "vertex")) {
+                std::array<std::optional<double>, 3> numbers;
+                for (std::optional<double>& number : numbers) {
+                    if (++at < words.size()) number = number_in(words[at]);
+                }
+                if (!is_in_loop || !numbers[0] || !numbers[1] || !numbers[2]) {
+                    return wrong_line("is not a corner of a triangle");
+                }
+                soup.add_corner({*numbers[0], *numbers[1], *numbers[2]});
+            } else if (is_word(words[at], "endloop")) {
+                if (!is_in_loop || soup.corners_of_last() < 3) {
+                    return wrong_line("ends no triangle");
+                }
+                is_in_loop = false;
+                soup.end_polygon();
+            } else if (is_word(words[at], "facet")) {
+                at += 4;  // normal x y z
+            } else if (!is_word(words[at], "loop") && !is_word(words[at], "endfacet")) {
+                if (is_word(words[at], "solid")) is_in_solid = true;
+                if (is_word(words[at], "endsolid")) is_in_solid = false;
+                break;
             }
-            soup.add_corner({*numbers[0], *numbers[1], *numbers[2]});
-        } else if (is_word(words[0], "endloop")) {
-            if (!is_in_loop || soup.corners_of_last() < 3) return wrong_line("ends no triangle");
-            is_in_loop = false;
-            soup.end_polygon();
         }
     }
     if (is_in_solid || is_in_loop) {

@@ -158,6 +158,20 @@ TEST(ModelFile, AnOffFileAndAnStlFile) {
     EXPECT_EQ(stl->polygon_count(), 1u);
 }
 
+TEST(ModelFile, StlTextInLinesOfAnyLength) {
+    const std::string facet =
+        "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
+    for (const char* end :
+         {"endsolid part", "\nendsolid", "\n; vertex in outer space\nEndSolid\n"}) {
+        const auto soup = read_stl("solid part facet\n" + facet + facet + end);
+        ASSERT_TRUE(soup) << end << fault_of(soup);
+        EXPECT_EQ(soup->polygon_count(), 2u) << end;
+    }
+    EXPECT_EQ(fault_of(read_stl("solid\n" + facet)), "the STL file breaks off before 'endsolid'");
+    EXPECT_EQ(fault_of(read_stl("solid\nouter loop vertex 0 0 vertex 1 0 0\n")),
+              "line 2 of the STL file is not a corner of a triangle");
+}
+
 TEST(ModelFile, OffCountsRightAfterTheWord) {
     const std::string rest = " 1 0\n0 0 0 1 1\n1 0 0 1 1\n0 1 0 1 1\n3 0 1 2\n";
     for (const char* head : {"OFF3", "OFF 3", "OFF\n3", "STOFF3", "3"}) {
