@@ -41,7 +41,7 @@ std::string advise(double limit, const StepInUse& use) {
         "the largest stable speed is about {:.3g} and this stage's {}; try 'speed: {}{}'", limit,
         used, speed, iterations_for(speed, use));
     if (use.diffusion_limits && !std::isnan(use.speed)) {
-        text += ", or longer steps: 'solver: rkl1; speed: auto";
+        text += ", or longer steps: 'solver: rkl2; speed: auto";
         // Replaces the iterations.
         if (use.iterations > 0) {
             text +=

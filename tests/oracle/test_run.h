@@ -35,7 +35,8 @@ public:
 private:
     void check(const Result<void>& result);
 
-    bool is_cut_short_;  ///< It takes fewer steps than its script says.
+    bool is_cut_short_;     ///< It takes fewer steps than its script says.
+    bool is_other_solver_;  ///< It takes another solver than its script says.
     Script script_;
     std::unique_ptr<Simulation> simulation_;
     bool failed_ = false;

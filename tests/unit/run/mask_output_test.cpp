@@ -192,12 +192,12 @@ TEST_F(RunTest, ASurfaceHasHoles) {
 
 TEST_F(RunTest, AMaskWithoutCellsIsAFault) {
     Script script = load(
-        "domain { grid: 8, 8; mask: disc(5, 5, 0.1) * 0 }\n"
+        "domain { grid: 8, 8; mask: disc(1, 1, 0.1) * 0 }\n"
         "system s { u: 1; u' = 0 }\nstage only: s { }");
     run_badly(script, request());
     EXPECT_EQ(script.messages(false),
               "test.cascade:1:28: error: no cell is inside the mask\n"
-              "    1 | domain { grid: 8, 8; mask: disc(5, 5, 0.1) * 0 }\n"
+              "    1 | domain { grid: 8, 8; mask: disc(1, 1, 0.1) * 0 }\n"
               "      |                            ^~~~~~~~~~~~~~~~~~~ cells where it is not 0 "
               "belong to the domain\n");
 }

@@ -99,11 +99,11 @@ TEST(StepAdvice, IsAsMuchTimeAsBefore) {
               "try 'speed: 0.19; iterations: 26316'");
     use.diffusion_limits = true;
     EXPECT_THAT(advise(0.207, use),
-                HasSubstr("', or longer steps: 'solver: rkl1; speed: auto; duration: 5000'"));
+                HasSubstr("', or longer steps: 'solver: rkl2; speed: auto; duration: 5000'"));
     use.iterations = 0;
     EXPECT_EQ(advise(0.207, use),
               "the largest stable speed is about 0.207 and this stage's is 1; "
-              "try 'speed: 0.19', or longer steps: 'solver: rkl1; speed: auto'");
+              "try 'speed: 0.19', or longer steps: 'solver: rkl2; speed: auto'");
     use.speed = NAN;
     EXPECT_EQ(advise(0.207, use),
               "the largest stable speed is about 0.207 and this stage's varies by cell; try "
