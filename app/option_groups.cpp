@@ -275,7 +275,7 @@ void add_files(CLI::App& app, RunRequest& run) {
         ->group(group);
     CLI::Option* const save =
         add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
-                  any_text, [&](auto path) { run.save = path; })
+                  parse_folder, [&](auto path) { run.save = path; })
             ->group(group);
     add_value(app, "--checkpoint", "DURATION",
               "Also save every 30s, 10m, 2h during the run, so that a\nkilled run can be resumed",

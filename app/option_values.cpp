@@ -295,6 +295,15 @@ Result<std::string> parse_output_path(std::string_view text) {
         "their cells");
 }
 
+Result<std::string> parse_folder(std::string_view text) {
+    const std::filesystem::path path(text);
+    if (text.empty()) return failure("it must not be empty");
+    if (!output_kind(path)) return std::string(text);
+    return failure(fmt::format("'{}' has the ending of a file, and a folder is written", text),
+                   fmt::format("write {}, or {}/ for a folder of that name",
+                               (path.parent_path() / path.stem()).string(), text));
+}
+
 Result<std::string> parse_frames_folder(std::string_view text) {
     const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
     if (!is_number) return std::string(text);

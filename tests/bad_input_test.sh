@@ -86,6 +86,8 @@ for nonsense in '--range 1' '--range 1,1' '--scale 0' '--detail 0' '--detail 9' 
     refused 64 "'cascade run --help' shows how to use it." run good.cascade $nonsense
 done
 refused 64 "'50' is a number" run good.cascade -o film.gif --frames 50
+refused 64 'write maps/u, or maps/u.png/ for a folder' sweep good.cascade --vary seed=1,2 -o maps/u.png
+refused 64 'write a, or a.glb/ for a folder' run good.cascade --save a.glb
 refused 64 '--save FOLDER writes each species' run good.cascade -o numbers.npy
 refused 3 'are both to be written to' run good.cascade -o a.png --sheet ./a.png
 refused 64 'are both to be written to' compile good.cascade -o a.h
