@@ -50,11 +50,6 @@ inline auto odd_number(std::int64_t low, std::int64_t high) {
     };
 }
 
-inline Result<std::string> any_text(const std::string& text) {
-    if (text.empty()) return failure("it must not be empty");
-    return text;
-}
-
 inline auto one_of(std::vector<std::string> choices) {
     return [choices = std::move(choices)](const std::string& text) {
         return parse_choice(text, choices);

@@ -11,6 +11,24 @@ namespace cascade::command_options {
 
 namespace groups = option_groups;
 
+namespace {
+
+void add_scripts(CLI::App& command, Options& options, const std::string& about) {
+    command.add_option("SCRIPTS", options.scripts, about)->type_name("");
+}
+
+/// Of a command that writes one file.
+template <typename Path>
+void add_output(CLI::App& command, Path& path, const std::string& about) {
+    command
+        .add_option_function<std::string>(
+            "-o,--output", [&](const std::string& given) { path = given; }, about)
+        ->type_name("FILE")
+        ->group("Output");
+}
+
+}  // namespace
+
 void run(CLI::App& command, Options& options) {
     groups::add_script(command, options,
                        "A script, a picture that Cascade drew, or - for standard input");
@@ -39,8 +57,7 @@ void sweep(CLI::App& command, Options& options) {
 }
 
 void check(CLI::App& command, Options& options) {
-    command.add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
-        ->type_name("");
+    add_scripts(command, options, "Scripts, pictures that Cascade drew, or -");
     groups::add_overrides(command, options.overrides);
     groups::add_dump(command, options);
 }
@@ -52,8 +69,7 @@ void analyze(CLI::App& command, Options& options) {
 }
 
 void bench(CLI::App& command, Options& options) {
-    command.add_option("SCRIPTS", options.scripts, "Scripts, pictures that Cascade drew, or -")
-        ->type_name("");
+    add_scripts(command, options, "Scripts, pictures that Cascade drew, or -");
     groups::add_bench(command, options);
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options, "At most N threads; without it all cores");
@@ -81,12 +97,7 @@ void new_script(CLI::App& command, Options& options) {
             "SYSTEM", [&](const std::string& name) { options.words.push_back(name); },
             "A system of the library")
         ->type_name("");
-    command
-        .add_option_function<std::string>(
-            "-o,--output", [&](const std::string& path) { options.new_script = path; },
-            "The script, a new file; without it standard output")
-        ->type_name("FILE")
-        ->group("Output");
+    add_output(command, options.new_script, "The script, a new file; without it standard output");
 }
 
 void palettes(CLI::App& command, Options& options) {
@@ -94,17 +105,11 @@ void palettes(CLI::App& command, Options& options) {
         .add_option("WORDS", options.words,
                     "Names of palettes, or colours of one's own in quotes; without them all")
         ->type_name("");
-    command
-        .add_option_function<std::string>(
-            "-o,--output", [&](const std::string& path) { options.sheet = path; },
-            "A sheet of them, .png, .svg or .pdf")
-        ->type_name("FILE")
-        ->group("Output");
+    add_output(command, options.sheet, "A sheet of them, .png, .svg or .pdf");
 }
 
 void format(CLI::App& command, Options& options) {
-    command.add_option("SCRIPTS", options.scripts, "Scripts, or - for standard input")
-        ->type_name("");
+    add_scripts(command, options, "Scripts, or - for standard input");
     command.add_flag("--check", options.check_only,
                      "Write nothing; name the scripts that would change, with status 1");
     auto* const ascii = command.add_flag_callback(

@@ -128,9 +128,10 @@ void add_shown(CLI::App& app, PictureChanges& picture) {
               "'a - b'",
               any_text, [&](auto show) { picture.show = show; })
         ->group(group);
-    const auto palette = [known = one_of(palette_names())](const std::string& text) {
-        const Palette* const found = find_palette(text);
-        return found != nullptr ? decltype(known(text))(std::string(found->name)) : known(text);
+    const auto palette =
+        [known = one_of(palette_names())](const std::string& text) -> Result<std::string> {
+        if (const Palette* const found = find_palette(text)) return std::string(found->name);
+        return known(text);
     };
     add_value(app, "--palette", "NAME", help::in_lines(palette_names()), palette, [&](auto name) {
         picture.palette = name;

@@ -295,10 +295,14 @@ Result<std::string> parse_output_path(std::string_view text) {
         "their cells");
 }
 
+Result<std::string> any_text(std::string_view text) {
+    if (text.empty()) return failure("it must not be empty");
+    return std::string(text);
+}
+
 Result<std::string> parse_folder(std::string_view text) {
     const std::filesystem::path path(text);
-    if (text.empty()) return failure("it must not be empty");
-    if (!output_kind(path)) return std::string(text);
+    if (!output_kind(path)) return any_text(text);
     return failure(fmt::format("'{}' has the ending of a file, and a folder is written", text),
                    fmt::format("write {}, or {}/ for a folder of that name",
                                (path.parent_path() / path.stem()).string(), text));

@@ -70,6 +70,8 @@ Result<float> parse_bump(std::string_view text);
 
 /// The path of an output of `run -o`; see output_kind() for the endings.
 Result<std::string> parse_output_path(std::string_view text);
+/// A text that is not empty.
+Result<std::string> any_text(std::string_view text);
 /// The path of a folder that is written; it must not end as an output of `run -o` does.
 Result<std::string> parse_folder(std::string_view text);
 /// A folder for frames; a number alone is refused, since it was meant as the number of frames.

@@ -106,6 +106,18 @@ WITH_WIDE_VECTORS void find_stored(const PowerTable& power, float* __restrict nu
     }
 }
 
+/// Converts all colours by `find_all` if they are amounts of 0 … 1, else one by one.
+void convert(std::span<Colour> colours, const PowerTable& power, decltype(find_lights)& find_all,
+             Colour (&find_one)(const Colour&)) {
+    if (colours.empty()) return;
+    float* const numbers = colours.data()->data();
+    if (are_amounts(numbers, 3 * colours.size())) {
+        find_all(power, numbers, 3 * colours.size());
+    } else {
+        for (Colour& colour : colours) colour = find_one(colour);
+    }
+}
+
 }  // namespace
 
 float steady_power(float base, double exponent) {
@@ -124,23 +136,11 @@ float stored_of(float light) {
 }
 
 void convert_to_light(std::span<Colour> colours) {
-    if (colours.empty()) return;
-    float* const numbers = colours.data()->data();
-    if (are_amounts(numbers, 3 * colours.size())) {
-        find_lights(light_power(), numbers, 3 * colours.size());
-    } else {
-        for (Colour& colour : colours) colour = light_of(colour);
-    }
+    convert(colours, light_power(), find_lights, light_of);
 }
 
 void convert_to_stored(std::span<Colour> colours) {
-    if (colours.empty()) return;
-    float* const numbers = colours.data()->data();
-    if (are_amounts(numbers, 3 * colours.size())) {
-        find_stored(stored_power(), numbers, 3 * colours.size());
-    } else {
-        for (Colour& colour : colours) colour = stored_of(colour);
-    }
+    convert(colours, stored_power(), find_stored, stored_of);
 }
 
 }  // namespace cascade
