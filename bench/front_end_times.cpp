@@ -2,7 +2,7 @@
 // checked, lowered, formatted, and refused with a message.
 //
 // All flags of Google Benchmark work. `small` is a stage of a system of the library, `system` a
-// script with equations of its own; `examples` are the scripts of examples/, one after another;
+// script with equations of its own; `examples` are all scripts of examples/, one after another;
 // `wrong` are the same with a part left out.
 #include "core/check.h"
 #include "core/file.h"

@@ -61,7 +61,7 @@ WITH_WIDE_VECTORS void blend_columns(const float* cells, const float* slopes,
 }
 
 /// The values of a plane's cells: the channels of colours, the parts of the material that are
-/// there, and the height if there is one. Gives those of samples, a row of them at a time.
+/// there, and the height if there is one. Gives the attributes of samples, one row at a time.
 class CellValues {
 public:
     CellValues(const FlatCells& cells, const PaintedCells& painted)

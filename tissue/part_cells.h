@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Of those of `cells` that are in one place, on periodic planes also across sides, moves all but
+/// Where several of `cells` share one position, on periodic planes also across sides, moves all but
 /// the one with the least number by a hundredth of its radius, in a random direction that depends
 /// on `seed`, `stage` and its number alone and lies in the surface if there is one. Frozen cells
 /// and those without a radius stay. Returns whether any has moved; Tissue::pad() is due then.

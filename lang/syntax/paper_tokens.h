@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// Tokens that are read from left to right, and those that are written for them.
+/// Reads tokens from left to right and writes the tokens that replace them.
 class PaperTokens {
 protected:
     PaperTokens(const std::vector<Token>& in, std::string_view text) : in_(in), text_(text) {}
