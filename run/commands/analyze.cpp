@@ -10,7 +10,7 @@
 #include "core/file.h"
 #include "core/near_name.h"
 #include "run/commands/analyze_json.h"
-#include "run/simulation/coarser_grid.h"
+#include "run/simulation/other_cells.h"
 #include "run/simulation/stage_sizes.h"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include "lang/program/models.h"
 #include "picture/grey_picture.h"
 #include "picture/npy.h"
-#include "run/domain/carried_cells.h"
+#include "run/domain/cell_carrier.h"
 #include "run/domain/file_places.h"
 #include "run/domain/surface_values.h"
 
@@ -138,7 +138,7 @@ private:
             if (!fits_grid(script_, text, *array, grid)) return std::nullopt;
             Field values = to_field(*array, precision());
             if (detail == 1) return values;
-            return carrier_on_grid(grid, detail, nullptr, nullptr)->carried(values);
+            return carrier_to_finer(grid, detail, nullptr, nullptr)->carried(values);
         }
         if (!knows_slices(*array, reading, text)) return std::nullopt;
         const auto places = FilePlaces::by_formulas(reading.place, grid_, model_, false);

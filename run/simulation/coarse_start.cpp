@@ -3,7 +3,7 @@
 #include "run/simulation/coarse_start.h"
 
 #include "core/resample.h"
-#include "run/simulation/coarser_grid.h"
+#include "run/simulation/other_cells.h"
 #include "run/simulation/stage_run.h"
 #include "run/simulation/stage_start.h"
 
@@ -22,10 +22,10 @@ constexpr std::int64_t most_steps = 1'000'000'000;
 /// A stage on a grid whose cells are `times` as wide. It takes times² as many steps, or as much
 /// time, as on the fine grid, because the time that a pattern needs grows with the square of its
 /// lengths.
-CoarserStage at_start_of(const Environment& fine, std::span<const StageState> states,
-                         std::uint32_t stage, std::int64_t times) {
-    CoarserStage coarse{on_coarser_grid(fine, times, nullptr),
-                        std::vector<StageState>(states.size())};
+StagesInOtherCells at_start_of(const Environment& fine, std::span<const StageState> states,
+                               std::uint32_t stage, std::int64_t times) {
+    StagesInOtherCells coarse{on_coarser_grid(fine, times, nullptr),
+                              std::vector<StageState>(states.size())};
     Environment& here = *coarse.environment;
     Stage& own = here.own_program->stages[stage];
     own.time.coarse = 1;
@@ -46,16 +46,7 @@ void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
             coarse.sides.empty() ? SideRules(coarse_grid.boundary) : coarse.sides[s];
         Field values = coarse.species[s].visit(
             [&](auto& plane) { return Field(refined(plane, coarse_grid, fine_grid, sides)); });
-        if (!fine.frozen.empty()) {
-            values.visit([&]<typename Number>(Plane<Number>& plane) {
-                const Plane<Number>& old = fine.species[s].plane<Number>();
-                for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-                    for (std::int64_t i = 0; i < plane.layout().width; ++i) {
-                        if (fine.frozen.row(row)[i]) plane.row(row)[i] = old.row(row)[i];
-                    }
-                }
-            });
-        }
+        keep_frozen(values, fine.frozen, fine.species[s]);
         fine.species[s] = std::move(values);
     }
 }
@@ -65,9 +56,9 @@ void take_refined(StageState& fine, const Grid& fine_grid, StageState& coarse,
 Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<StageState> states,
                                       std::uint32_t stage, RunControl& control) {
     const Keeping never;
-    std::optional<CoarserStage> before;
+    std::optional<StagesInOtherCells> before;
     for (std::int64_t times = environment.stage(stage).time.coarse; times > 1; times /= 2) {
-        CoarserStage coarse = at_start_of(environment, states, stage, times);
+        StagesInOtherCells coarse = at_start_of(environment, states, stage, times);
         const Environment& here = *coarse.environment;
         if (auto started = start_stage(here, coarse.states, stage); !started) {
             Failure why = started.error();

@@ -1,6 +1,7 @@
 // The program of the finer run differs from that of the script in the end of one stage.
 #include "run/simulation/finer_run.h"
 
+#include "run/simulation/other_cells.h"
 #include "run/simulation/stage_start.h"
 
 #include <algorithm>
@@ -94,16 +95,7 @@ void take_moment(const Program& program, std::uint32_t k, StageState carried, St
         const std::size_t s = state.species_of_item[item]->index();
         Field& values = carried.species[s];
         // Cells that never change have their starting values, with sharp outlines.
-        if (!state.frozen.empty() && !drawn.contains(item)) {
-            values.visit([&]<typename Number>(Plane<Number>& plane) {
-                const Plane<Number>& start = state.species[s].plane<Number>();
-                for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-                    for (std::int64_t i = 0; i < plane.layout().width; ++i) {
-                        if (state.frozen.row(row)[i]) plane.row(row)[i] = start.row(row)[i];
-                    }
-                }
-            });
-        }
+        if (!drawn.contains(item)) keep_frozen(values, state.frozen, state.species[s]);
         state.species[s] = std::move(values);
     }
     state.go_to(carried.steps, carried.t);
@@ -113,7 +105,7 @@ void take_moment(const Program& program, std::uint32_t k, StageState carried, St
 
 std::unique_ptr<CellCarrier> carrier_to_finer(const Environment& from, const Environment& here) {
     if (from.model) return carrier_on_model(*from.model, *here.model, *here.team);
-    return carrier_on_grid(from.grid, here.program->domain.detail, from.inside(), here.inside());
+    return carrier_to_finer(from.grid, here.program->domain.detail, from.inside(), here.inside());
 }
 
 Result<void> settle_in_finer_cells(Environment& here, std::span<StageState> into, std::uint32_t k) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/result.h"
-#include "run/domain/carried_cells.h"
+#include "run/domain/cell_carrier.h"
 #include "run/simulation/environment.h"
 #include "run/stage/stage_state.h"
 

@@ -3,10 +3,10 @@
 
 #include "core/resample.h"
 #include "lang/program/nodes_of_rates.h"
-#include "run/simulation/finer_state.h"
 #include "run/simulation/stage_view.h"
 
 #include <memory>
+#include <utility>
 
 namespace cascade {
 
@@ -27,29 +27,17 @@ bool sums_over_domain(const System& system, const Formula& formula) {
 FinerView::FinerView(const Environment& environment, std::span<const StageState> states,
                      std::int64_t times)
     : run_(environment), run_states_(states) {
-    Environment& here = environment_;
-    const Grid& grid = environment.grid;
-    here.script = environment.script;
-    here.own_program = *environment.program;
-    here.own_program->domain.grid = finer_grid(grid, times);
-    here.program = &*here.own_program;
-    here.grid = here.program->domain.grid;
-    here.threads = environment.threads;
-    here.plans = std::make_unique<StagePlans>(*here.program, environment.plans->options());
-    here.kernels =
-        std::make_unique<KernelMaker>(here.grid, environment.kernels->stepper(),
-                                      environment.kernels->starts_interpreted(), nullptr);
-    here.team = std::make_unique<Team>(environment.team->size());
-    carrier_ = carrier_on_grid(grid, times, nullptr, nullptr, Crests::kept);
-    here.files =
-        environment.files.mapped([&](const Field& plane) { return carrier_->carried(plane); });
+    carrier_ = carrier_to_finer(environment.grid, times, nullptr, nullptr, Crests::kept);
+    Program program = *environment.program;
+    program.domain.grid = finer_grid(environment.grid, times);
+    finer_.environment = environment_in_cells(environment, std::move(program), *carrier_, nullptr);
     for (const StageState& state : states)
-        states_.push_back(finer_state(state, *carrier_, grid, here.grid, times));
+        finer_.states.push_back(carried_state(state, *carrier_, finer_.environment->grid.spacing));
 }
 
 std::vector<Field> FinerView::evaluate(const Formula& formula, std::uint32_t stage) const {
     if (!sums_over_domain(run_.program->system_of(stage), formula)) {
-        return StageView(environment_, states_, stage).evaluate(formula);
+        return StageView(*finer_.environment, finer_.states, stage).evaluate(formula);
     }
     std::vector<Field> values = StageView(run_, run_states_, stage).evaluate(formula);
     for (Field& field : values) field = carrier_->carried(field);

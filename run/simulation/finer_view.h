@@ -2,8 +2,8 @@
 #pragma once
 
 #include "lang/program/program.h"
-#include "run/domain/carried_cells.h"
-#include "run/simulation/environment.h"
+#include "run/domain/cell_carrier.h"
+#include "run/simulation/other_cells.h"
 #include "run/stage/stage_state.h"
 
 #include <cstdint>
@@ -29,9 +29,8 @@ public:
 private:
     const Environment& run_;
     std::span<const StageState> run_states_;
-    Environment environment_;
-    std::vector<StageState> states_;
     std::unique_ptr<const CellCarrier> carrier_;
+    StagesInOtherCells finer_;
 };
 
 }  // namespace cascade

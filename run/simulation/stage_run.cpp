@@ -2,7 +2,7 @@
 #include "run/simulation/stage_run.h"
 
 #include "run/simulation/coarse_start.h"
-#include "run/simulation/coarser_grid.h"
+#include "run/simulation/other_cells.h"
 #include "run/simulation/stage_doubts.h"
 #include "run/simulation/stage_failures.h"
 #include "run/simulation/stage_tools.h"

@@ -1,10 +1,8 @@
 // States in the cells of the domain are made when something asks for them.
 #include "run/simulation/stages_on_grids.h"
 
-#include "core/resample.h"
 #include "run/domain/field_values.h"
 #include "run/simulation/finer_run.h"
-#include "run/simulation/finer_state.h"
 #include "run/stage/memory.h"
 
 #include <utility>
@@ -28,8 +26,8 @@ StagesOnGrids::StagesOnGrids(std::unique_ptr<Environment> domain, std::uint32_t 
     for (std::uint32_t k = 0; k < stages_that_run; ++k) {
         const std::int64_t times = domain_->stage(k).coarse;
         if (times == 1) continue;
-        CoarserStage made{on_coarser_grid(*domain_, times, domain_->account),
-                          std::vector<StageState>(states_.size())};
+        StagesInOtherCells made{on_coarser_grid(*domain_, times, domain_->account),
+                                std::vector<StageState>(states_.size())};
         domain_->memory += memory_of(*made.environment->program, *made.environment->plans);
         coarser_.emplace(k, std::move(made));
     }
@@ -72,24 +70,24 @@ void StagesOnGrids::take_divided(StagesOnGrids& run) {
         if (!run.state(k).started) continue;
         const Environment &from = run.environment(k), &to = environment(k);
         const auto own = has_own_cells(k) ? carrier_to_finer(from, to) : nullptr;
-        state(k) = finer_state(run.state(k), own ? *own : *of_domain, from.grid, to.grid,
-                               to.program->domain.detail);
+        state(k) = carried_state(run.state(k), own ? *own : *of_domain, to.grid.spacing);
         touch(k);
     }
 }
 
 Field StagesOnGrids::in_cells_of(std::uint32_t stage, ItemId item, Field values) {
     if (!has_own_cells(stage)) return values;
-    const Grid &fine = domain_->grid, &grid = environment(stage).grid;
+    const auto carrier = carrier_to_wider(domain_->grid, environment(stage).grid);
     if (item == domain_->program->system_of(stage).frozen_item())
-        return restricted_flags(to_mask(values), fine, grid, values.precision());
+        return to_field(carrier->carried(to_mask(values)), values.precision());
     // Where nothing changes the difference is 0, and cells keep their values exactly.
     Field result(state(stage).field(item));
     const Field& shown = in_domain()[stage].field(item);
     values.visit([&]<typename Number>(Plane<Number>& plane) {
         visit_rows(plane, shown.plane<Number>(), [](Number& to, Number from) { to -= from; });
-        const Plane<Number> change = restricted(plane, fine, grid);
-        visit_rows(result.plane<Number>(), change, [](Number& to, Number by) { to += by; });
+        const Field change = carrier->carried(values);
+        visit_rows(result.plane<Number>(), change.plane<Number>(),
+                   [](Number& to, Number by) { to += by; });
     });
     return result;
 }

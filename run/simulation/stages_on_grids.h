@@ -2,7 +2,7 @@
 // the domain, and in those of the domain, as pictures and other stages see them.
 #pragma once
 
-#include "run/simulation/coarser_grid.h"
+#include "run/simulation/other_cells.h"
 #include "run/simulation/environment.h"
 #include "run/simulation/stage_view.h"
 #include "run/stage/stage_state.h"
@@ -47,7 +47,7 @@ public:
 private:
     std::unique_ptr<Environment> domain_;
     std::vector<StageState> states_;
-    std::map<std::uint32_t, CoarserStage> coarser_;
+    std::map<std::uint32_t, StagesInOtherCells> coarser_;
     std::set<std::uint32_t> ahead_;  ///< Of which `states_` has an older state.
 };
 

@@ -1,11 +1,13 @@
-// Values of cells carried to the finer cells of the same domain.
+// Values carried from the cells of a domain to finer or wider cells of the same domain.
 #pragma once
 
 #include "core/parallel.h"
 #include "core/plane.h"
+#include "core/side.h"
 #include "run/domain/domain_mask.h"
 #include "run/domain/model_cells.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -19,12 +21,16 @@ public:
     CellCarrier(const CellCarrier&) = delete;
     CellCarrier& operator=(const CellCarrier&) = delete;
 
-    /// Smooth between cells, and nowhere outside of the range of the cells around unless crests are
-    /// kept; of third order in their width on grids away from crests, of second on models. NaN
-    /// around a cell with NaN.
+    /// In wider cells the means of the cells that they cover. In finer cells smooth, and nowhere
+    /// outside of the range of the cells around unless crests are kept; of third order in their
+    /// width on grids away from crests, of second on models. NaN around a cell with NaN.
     virtual Field carried(const Field& values) const = 0;
-    /// Each finer cell has what the cell has in which it lies, or, on models, the nearest one.
-    virtual Mask repeated(const Mask& cells) const = 0;
+    /// A finer cell has what the cell has in which it lies, or, on models, the nearest one. A wider
+    /// cell has 1 where at least half of its cells are not 0.
+    virtual Mask carried(const Mask& cells) const = 0;
+    /// The values of the side with this number: means along it, or each repeated. Grids only.
+    virtual std::shared_ptr<const SideValues> carried(const SideValues& values,
+                                                      std::size_t side) const = 0;
 };
 
 /// What becomes of crests between cells that are higher than all cells around, and of troughs.
@@ -36,9 +42,12 @@ enum class Crests : std::uint8_t {
 /// Each cell of `grid` becomes times × times cells (core/resample.h). With a mask, the values of
 /// its cells go on beyond its border, and are 0 outside of `finer_mask`; both are null without one.
 /// All must outlive the result.
-std::unique_ptr<CellCarrier> carrier_on_grid(const Grid& grid, std::int64_t times,
-                                             const DomainMask* mask, const DomainMask* finer_mask,
-                                             Crests crests = Crests::levelled);
+std::unique_ptr<CellCarrier> carrier_to_finer(const Grid& grid, std::int64_t times,
+                                              const DomainMask* mask, const DomainMask* finer_mask,
+                                              Crests crests = Crests::levelled);
+
+/// From the cells of a grid without a mask to wider ones (core/resample.h).
+std::unique_ptr<CellCarrier> carrier_to_wider(const Grid& grid, const Grid& wider);
 
 /// From the cells of a model to those of `to`, which have the same mesh. All must outlive the
 /// result. Throws std::bad_alloc.

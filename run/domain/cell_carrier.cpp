@@ -5,10 +5,11 @@
 //
 // The average alone flattens waves, and tangents from the cells overshoot them by as much; half the
 // way between them the curvature of f cancels, as does the slope where cells are uneven around p.
-#include "run/domain/carried_cells.h"
+#include "run/domain/cell_carrier.h"
 
 #include "core/floating_point.h"
 #include "core/resample.h"
+#include "run/domain/field_values.h"
 #include "surface/cell_filter.h"
 #include "surface/cell_gradient.h"
 
@@ -73,10 +74,15 @@ Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask
     return result;
 }
 
-class GridCarrier : public CellCarrier {
+/// The cells beside a side of an axis as a grid of their own, in the same order.
+Grid face_of(const Grid& grid, std::size_t axis) {
+    return {axis == 0 ? grid.height : grid.width, axis == 2 ? grid.height : grid.depth};
+}
+
+class FinerCarrier : public CellCarrier {
 public:
-    GridCarrier(const Grid& grid, std::int64_t times, const DomainMask* mask,
-                const DomainMask* finer_mask, Crests crests)
+    FinerCarrier(const Grid& grid, std::int64_t times, const DomainMask* mask,
+                 const DomainMask* finer_mask, Crests crests)
         : grid_(grid), times_(times), mask_(mask), finer_mask_(finer_mask), crests_(crests) {}
 
     Field carried(const Field& values) const override {
@@ -91,7 +97,7 @@ public:
         return finer_mask_ == nullptr ? std::move(result) : with_outside(result, *finer_mask_, 0);
     }
 
-    Mask repeated(const Mask& cells) const override {
+    Mask carried(const Mask& cells) const override {
         const Grid finer = finer_grid(grid_, times_);
         const auto cell = [&](std::int64_t of, std::int64_t cells_along) {
             return cells_along > 1 ? of / times_ : of;
@@ -104,12 +110,64 @@ public:
         return result;
     }
 
+    std::shared_ptr<const SideValues> carried(const SideValues& values,
+                                              std::size_t side) const override {
+        const Grid face = face_of(grid_, side / 2);
+        const std::int64_t across = face.width > 1 ? times_ : 1,
+                           down = face.height > 1 ? times_ : 1;
+        SideValues result;
+        for (std::int64_t j = 0; j < face.height * down; ++j) {
+            for (std::int64_t i = 0; i < face.width * across; ++i) {
+                result.numbers.push_back(values.at(j / down * face.width + i / across));
+            }
+        }
+        return std::make_shared<const SideValues>(std::move(result));
+    }
+
 private:
     const Grid grid_;
     const std::int64_t times_;
     const DomainMask* mask_;
     const DomainMask* finer_mask_;
     const Crests crests_;
+};
+
+class WiderCarrier : public CellCarrier {
+public:
+    WiderCarrier(const Grid& grid, const Grid& wider) : grid_(grid), wider_(wider) {}
+
+    Field carried(const Field& values) const override {
+        return values.visit(
+            [&](const auto& plane) { return Field(restricted(plane, grid_, wider_)); });
+    }
+
+    Mask carried(const Mask& cells) const override {
+        const Field shares = carried(to_field(cells, Precision::single));
+        Mask result{PlaneLayout(wider_)};
+        visit_cells(wider_, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+            result.at(i, j, k) = shares.at(i, j, k) >= 0.5F ? 1 : 0;
+        });
+        return result;
+    }
+
+    std::shared_ptr<const SideValues> carried(const SideValues& values,
+                                              std::size_t side) const override {
+        const Grid face = face_of(grid_, side / 2), wider_face = face_of(wider_, side / 2);
+        Plane<double> numbers{PlaneLayout(face)};
+        visit_cells(face, [&](std::int64_t i, std::int64_t j, std::int64_t) {
+            numbers.at(i, j) = values.at(j * face.width + i);
+        });
+        const Plane<double> result = restricted(numbers, face, wider_face);
+        SideValues wider;
+        visit_cells(wider_face, [&](std::int64_t i, std::int64_t j, std::int64_t) {
+            wider.numbers.push_back(result.at(i, j));
+        });
+        return std::make_shared<const SideValues>(std::move(wider));
+    }
+
+private:
+    const Grid grid_;
+    const Grid wider_;
 };
 
 class ModelCarrier : public CellCarrier {
@@ -143,7 +201,7 @@ public:
         return field_of_cells(result, to_, values.precision());
     }
 
-    Mask repeated(const Mask& cells) const override {
+    Mask carried(const Mask& cells) const override {
         const Grid& grid = from_.grid();
         std::vector<std::uint8_t> own(from_.count());
         for (std::int64_t k = 0; k < static_cast<std::int64_t>(own.size()); ++k)
@@ -161,6 +219,11 @@ public:
             result.row(k / to_.grid().width)[k % to_.grid().width] = own[nearest->cell];
         }
         return result;
+    }
+
+    std::shared_ptr<const SideValues> carried(const SideValues&, std::size_t) const override {
+        CHECK(false, "a model has no sides");
+        return nullptr;
     }
 
 private:
@@ -206,10 +269,14 @@ private:
 
 }  // namespace
 
-std::unique_ptr<CellCarrier> carrier_on_grid(const Grid& grid, std::int64_t times,
-                                             const DomainMask* mask, const DomainMask* finer_mask,
-                                             Crests crests) {
-    return std::make_unique<GridCarrier>(grid, times, mask, finer_mask, crests);
+std::unique_ptr<CellCarrier> carrier_to_wider(const Grid& grid, const Grid& wider) {
+    return std::make_unique<WiderCarrier>(grid, wider);
+}
+
+std::unique_ptr<CellCarrier> carrier_to_finer(const Grid& grid, std::int64_t times,
+                                              const DomainMask* mask, const DomainMask* finer_mask,
+                                              Crests crests) {
+    return std::make_unique<FinerCarrier>(grid, times, mask, finer_mask, crests);
 }
 
 std::unique_ptr<CellCarrier> carrier_on_model(const ModelCells& from, const ModelCells& to,

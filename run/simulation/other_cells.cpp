@@ -1,0 +1,114 @@
+// Environments are made anew for their grid; values are carried (run/domain/cell_carrier.h).
+#include "run/simulation/other_cells.h"
+
+#include "core/resample.h"
+#include "lang/program/scaled_lengths.h"
+#include "run/domain/field_values.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace cascade {
+
+Program coarser_program(const Script& script, const Program& fine, std::int64_t times) {
+    Program result = script.coarser(fine.domain.coarse * times);
+    for (std::uint32_t k = 0; k < result.stages.size(); ++k) {
+        const auto& size = fine.stages[k].size;
+        if (size && size->factor != 1) result = with_lengths(result, k, size->factor);
+    }
+    return result;
+}
+
+Program program_of_stage(const Script& script, const Program& program, std::uint32_t stage) {
+    const std::int64_t times = program.stages[stage].coarse;
+    return times == 1 ? program : coarser_program(script, program, times);
+}
+
+std::unique_ptr<Environment> environment_in_cells(const Environment& known, Program program,
+                                                  const CellCarrier& carrier,
+                                                  TimeAccount* account) {
+    auto made = std::make_unique<Environment>();
+    Environment& here = *made;
+    here.script = known.script;
+    here.own_program = std::move(program);
+    here.program = &*here.own_program;
+    here.grid = here.program->domain.grid;
+    here.threads = known.threads;
+    here.tiling = known.tiling;
+    here.plans = std::make_unique<StagePlans>(*here.program, known.plans->options());
+    here.kernels = std::make_unique<KernelMaker>(here.grid, known.kernels->stepper(),
+                                                 known.kernels->starts_interpreted(), account);
+    here.team = std::make_unique<Team>(here.kernels->is_small() ? 1 : here.threads);
+    here.account = account;
+    here.files = known.files.mapped([&](const Field& plane) { return carrier.carried(plane); });
+    return made;
+}
+
+std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, std::int64_t times,
+                                             TimeAccount* account) {
+    Program program = coarser_program(*fine.script, *fine.program, times);
+    const auto carrier = carrier_to_wider(fine.grid, program.domain.grid);
+    auto made = environment_in_cells(fine, std::move(program), *carrier, account);
+    made->progress_note = fmt::format(", cells {} times as wide", made->program->domain.coarse);
+    return made;
+}
+
+StageState carried_state(const StageState& state, const CellCarrier& carrier, double spacing) {
+    StageState result;
+    result.started = state.started;
+    result.done = state.done;
+    result.steps = state.steps;
+    result.t = state.t;
+    result.time = state.time;
+    result.numbers = state.numbers;
+    result.species_of_item = state.species_of_item;
+    const auto carry_all = [&](const auto& planes, auto& into) {
+        for (const Field& plane : planes)
+            into.push_back(plane.empty() ? Field() : carrier.carried(plane));
+    };
+    carry_all(state.fields, result.fields);
+    carry_all(state.species, result.species);
+    if (!state.frozen.empty()) {
+        result.frozen = carrier.carried(state.frozen);
+        // The last items of a stage of fields are `frozen` and `speed`.
+        Field& flags = result.fields[ItemId(result.fields.size() - 2)];
+        flags = to_field(result.frozen, flags.precision());
+    }
+    result.sides = state.sides;
+    for (SideRules& rules : result.sides) {
+        rules.spacing = spacing;
+        for (std::size_t side = 0; side < side_count; ++side) {
+            auto& values = rules.at[side].values;
+            if (values) values = carrier.carried(*values, side);
+        }
+    }
+    return result;
+}
+
+StageState on_grid(const StageState& state, const Grid& from, const Grid& to) {
+    const std::int64_t before = from.longest_side(), now = to.longest_side();
+    if (before == now) return StageState(state);
+    const auto carrier = before > now ? carrier_to_wider(from, to)
+                                      : carrier_to_finer(from, now / before, nullptr, nullptr);
+    return carried_state(state, *carrier, to.spacing);
+}
+
+void keep_frozen(Field& values, const Mask& frozen, const Field& start) {
+    if (frozen.empty()) return;
+    values.visit([&]<typename Number>(Plane<Number>& plane) {
+        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
+            const Number* const from = start.row<Number>(row);
+            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
+                if (frozen.row(row)[i]) plane.row(row)[i] = from[i];
+            }
+        }
+    });
+}
+
+std::string note_of_cells(const Program& program) {
+    if (program.domain.coarse == 1) return "";
+    return fmt::format(" (on the grid with cells {} times as wide)", program.domain.coarse);
+}
+
+}  // namespace cascade

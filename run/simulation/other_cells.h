@@ -1,0 +1,48 @@
+// Stages in wider or finer cells of the same domain.
+#pragma once
+
+#include "run/domain/cell_carrier.h"
+#include "run/simulation/environment.h"
+#include "run/stage/stage_state.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cascade {
+
+/// The stages of a run in other cells. Those whose values nothing reads have not started.
+struct StagesInOtherCells {
+    std::unique_ptr<Environment> environment;
+    std::vector<StageState> states;
+};
+
+/// The program of `fine`, which is that of the script on a grid, for cells `times` as wide: checked
+/// again, so that all that the checker derives from lengths is right, with the factors that sizes
+/// have in `fine`.
+Program coarser_program(const Script& script, const Program& fine, std::int64_t times);
+/// The program in the cells in which a stage runs.
+Program program_of_stage(const Script& script, const Program& program, std::uint32_t stage);
+
+/// An environment for `program`, which is that of `known` in the cells to which `carrier` carries.
+/// The domain of both has neither a model, a surface nor a mask. `account` may be null.
+std::unique_ptr<Environment> environment_in_cells(const Environment& known, Program program,
+                                                  const CellCarrier& carrier, TimeAccount* account);
+/// The same with cells `times` as wide.
+std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, std::int64_t times,
+                                             TimeAccount* account);
+
+/// What other stages and pictures read of a state, in the cells to which `carrier` carries, whose
+/// width is `spacing`: its moment, numbers, planes, frozen cells and sides, without what only steps
+/// need.
+StageState carried_state(const StageState& state, const CellCarrier& carrier, double spacing);
+/// The same on a grid whose cells are a whole number of times as wide or as short.
+StageState on_grid(const StageState& state, const Grid& from, const Grid& to);
+
+/// Gives frozen cells the values that they had at the start of their stage. `frozen` may be empty.
+void keep_frozen(Field& values, const Mask& frozen, const Field& start);
+
+/// After messages that name cells of a coarser grid; empty on that of the domain.
+std::string note_of_cells(const Program& program);
+
+}  // namespace cascade
