@@ -2,16 +2,11 @@
 
 #include "core/file.h"
 #include "core/version.h"
-#include "picture/npy.h"
 #include "run/commands/run.h"
-#include "run/commands/saved_cells.h"
 #include "run/commands/saved_folder.h"
+#include "run/commands/saved_stage.h"
 #include "run/script/embedded_script.h"
 #include "run/script/script_folder.h"
-#include "run/stage/bound_kernel.h"
-#include "run/stage/saved_time.h"
-#include "solvers/finite.h"
-#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,24 +18,7 @@ namespace cascade {
 
 namespace {
 
-std::string array_name(const Stage& stage, std::string_view item) {
-    return fmt::format("{}.{}.npy", stage.name, item);
-}
-
-/// `cells` has, by stage, what is saved of its cells besides arrays, or null.
-nlohmann::json manifest(const Script& script, const Simulation& simulation,
-                        const std::vector<nlohmann::json>& cells) {
-    nlohmann::json stages = nlohmann::json::array();
-    for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
-        const StageState& state = simulation.state(k);
-        if (!state.started) break;
-        stages.push_back({{"name", script.program->stages[k].name},
-                          {"steps", state.steps},
-                          {"done", state.done},
-                          {"condition_met", state.condition_met},
-                          {"time", to_json(state)}});
-        if (!cells[k].is_null()) stages.back()["cells"] = cells[k];
-    }
+nlohmann::json manifest(const Script& script, const Simulation& simulation, nlohmann::json stages) {
     return {
         {"cascade", version()},
         {"name", portable_path(script.name)},
@@ -48,7 +26,7 @@ nlohmann::json manifest(const Script& script, const Simulation& simulation,
         {"overrides", nlohmann::json::parse(overrides_to_json(script.overrides))},
         {"grid", {simulation.grid().width, simulation.grid().height, simulation.grid().depth}},
         {"seed", script.program->domain.seed},
-        {"stages", stages},
+        {"stages", std::move(stages)},
     };
 }
 
@@ -56,78 +34,12 @@ Failure damaged(const std::filesystem::path& folder, const std::string& why) {
     return {fmt::format("the saved run in {} is damaged: {}", folder.string(), why), ""};
 }
 
-/// Suffix of species as they were at the last test of `until: steady(…)`.
-constexpr std::string_view last_look = ".last";
-
-/// The values of an item of a stage, or of another array of the same shape.
-Result<Field> read_item(const std::filesystem::path& folder, const nlohmann::json& manifest,
-                        const Simulation& simulation, std::uint32_t stage, std::string_view item) {
-    const Program& program = simulation.program();
-    const auto model = simulation.model();
-    const Grid grid =
-        model ? Grid{static_cast<std::int64_t>(model->count()), 1} : simulation.grid(stage);
-    const std::string name = array_name(program.stages[stage], item);
-    const auto file = read_saved_file(folder, manifest, name);
-    if (!file) return tl::unexpected(damaged(folder, file.error().message));
-    const auto array = parse_npy(*file, program.domain.precision);
-    if (!array) {
-        return tl::unexpected(
-            damaged(folder, fmt::format("cannot read '{}': {}", name, array.error().message)));
-    }
-    if (!fits(*array, grid)) {
-        return tl::unexpected(damaged(folder, fmt::format("{} has another shape", name)));
-    }
-    Field field = to_field(*array, program.domain.precision);
-    if (model) field = in_rows(field, *model);
-    // Outside of the mask, files hold NaN but runs 0.
-    if (simulation.mask()) field = with_outside(field, *simulation.mask(), 0);
-    return field;
-}
-
-Result<std::vector<Field>> read_species(const std::filesystem::path& folder,
-                                        const nlohmann::json& manifest,
-                                        const Simulation& simulation, std::uint32_t stage,
-                                        std::string_view suffix = "") {
-    std::vector<Field> species;
-    const Program& program = simulation.program();
-    const System& system = program.system_of(stage);
-    for (const ItemId item : system.species()) {
-        const std::string name = fmt::format("{}{}", system.item_name(item), suffix);
-        auto field = read_item(folder, manifest, simulation, stage, name);
-        if (!field) return tl::unexpected(field.error());
-        if (first_not_finite(*field)) {
-            return tl::unexpected(
-                damaged(folder, fmt::format("{} has a value that is not finite",
-                                            array_name(program.stages[stage], name))));
-        }
-        species.push_back(std::move(*field));
-    }
-    return species;
-}
-
-/// True if the stage's item has a plane to be saved.
-bool is_saved(const Program& program, std::uint32_t stage, ItemId item) {
-    return program.system_of(stage).is_species(item) || !program.stages[stage].uniform[item];
-}
-
 }  // namespace
 
 Result<void> check_savable(const std::filesystem::path& folder, const Script& script) {
-    const Program& program = *script.program;
     std::vector<std::string> names;
-    for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
-        const System& system = program.system_of(k);
-        if (system.cells) {
-            std::ranges::move(cell_arrays(program, k), std::back_inserter(names));
-            continue;
-        }
-        for (const ItemId item : system.items()) {
-            const std::string_view name = system.item_name(item);
-            if (is_saved(program, k, item)) names.push_back(array_name(program.stages[k], name));
-            if (!program.stages[k].time.steady || !system.is_species(item)) continue;
-            names.push_back(array_name(program.stages[k], fmt::format("{}{}", name, last_look)));
-        }
-    }
+    for (std::uint32_t k = 0; k < script.stage_count(); ++k)
+        std::ranges::move(stage_arrays(*script.program, k), std::back_inserter(names));
     return check_savable(folder, names);
 }
 
@@ -137,41 +49,14 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
     if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
     auto change = SavedFolderChange::begin(folder);
     if (!change) return tl::unexpected(change.error());
-    const Program& program = *script.program;
-    const auto write = [&](const std::string& name, const Field& field) {
-        const DomainMask* mask = simulation.mask();
-        if (mask)
-            return (*change)->add(name, encode_npy(with_outside(field, *mask, nothing_outside)));
-        if (simulation.model())
-            return (*change)->add(name, encode_npy(in_one_row(field, *simulation.model())));
-        return (*change)->add(name, encode_npy(field));
-    };
-    std::vector<nlohmann::json> cells(program.stages.size());
-    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+    nlohmann::json stages = nlohmann::json::array();
+    for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
         if (!simulation.state(k).started) break;
-        const Stage& stage = program.stages[k];
-        const System& system = program.system_of(k);
-        if (system.cells) {
-            auto saved = save_cells(**change, simulation, k);
-            if (!saved) return tl::unexpected(saved.error());
-            cells[k] = std::move(*saved);
-            continue;
-        }
-        for (const ItemId item : system.items()) {
-            if (!is_saved(program, k, item)) continue;
-            auto done =
-                write(array_name(stage, system.item_name(item)), simulation.state(k).field(item));
-            if (!done) return tl::unexpected(done.error());
-        }
-        const std::span<const Field> looked_at = simulation.state(k).watch.last();
-        for (std::size_t species = 0; species < looked_at.size(); ++species) {
-            auto done = write(array_name(stage, fmt::format("{}{}", species_name(system, species),
-                                                            last_look)),
-                              looked_at[species]);
-            if (!done) return tl::unexpected(done.error());
-        }
+        auto saved = save_stage(**change, simulation, k);
+        if (!saved) return tl::unexpected(saved.error());
+        stages.push_back(std::move(*saved));
     }
-    return (*change)->commit(manifest(script, simulation, cells));
+    return (*change)->commit(manifest(script, simulation, std::move(stages)));
 }
 
 namespace {
@@ -255,53 +140,21 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
                 !stages[k].at("steps").is_number_integer()) {
                 return tl::unexpected(damaged(folder, fmt::format("stage {} is not right", k + 1)));
             }
-            const auto steps = stages[k].at("steps").get<std::int64_t>();
-            bool done = stages[k].at("done").get<bool>();
-            const bool condition_met = stages[k].value("condition_met", done);
-            // More steps may be requested than before, but not in a stage whose end a later one has
-            // used.
-            const bool is_last = k + 1 == stages.size();
-            done = done &&
-                   (!is_last || condition_met || steps >= script.program->stages[k].iterations);
-            if (steps < 0) return tl::unexpected(damaged(folder, "a number of steps is negative"));
+            if (auto started = simulation.start_stage(k, cancel); !started) return started;
+            auto record = read_stage(folder, *json, stages[k], simulation, k);
+            if (!record) return tl::unexpected(damaged(folder, record.error().message));
             // With --steps, the saved run may have taken more steps than are allowed now.
-            if (!script.overrides.steps && steps > script.program->stages[k].iterations) {
+            const std::int64_t iterations = script.program->stages[k].iterations;
+            if (!script.overrides.steps && record->steps > iterations) {
                 return tl::unexpected(
                     damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
             }
-            if (auto started = simulation.start_stage(k, cancel); !started) return started;
-            if (script.program->system_of(k).cells) {
-                auto cells = read_cells(folder, *json, stages[k].at("cells"), simulation, k);
-                if (!cells) return tl::unexpected(damaged(folder, cells.error().message));
-                simulation.restore_cells(k, *cells, {{}, steps, 0, done, condition_met, {}});
-                continue;
-            }
-            auto species = read_species(folder, *json, simulation, k);
-            if (!species) return tl::unexpected(species.error());
-            StageMoment moment{std::move(*species), steps, 0, done, condition_met, {}};
-            const auto time =
-                saved_time_from(stages[k].at("time"), script.program->stages[k].time.solver);
-            if (!time) return tl::unexpected(damaged(folder, "its time makes no sense"));
-            SteadyWatch watch;
-            if (time->last_look) {
-                auto looked_at = read_species(folder, *json, simulation, k, last_look);
-                if (!looked_at) return tl::unexpected(looked_at.error());
-                if (time->formations.size() != looked_at->size()) {
-                    return tl::unexpected(damaged(folder, "it lacks the course of a species"));
-                }
-                watch.remember(std::move(*looked_at), *time->last_look, time->formations);
-            }
-            moment.t = time->t;
-            moment.memory = {time->state, std::move(watch)};
-            simulation.restore(k, std::move(moment));
-            // Most are as the start of the stage gives them; some may have been painted.
-            const System& system = script.program->system_of(k);
-            for (const ItemId item : system.items()) {
-                if (system.is_species(item) || !is_saved(*script.program, k, item)) continue;
-                auto field = read_item(folder, *json, simulation, k, system.item_name(item));
-                if (!field) return tl::unexpected(field.error());
-                simulation.set_field(k, item, std::move(*field));
-            }
+            // More steps may be requested than before, but not in a stage whose end a later one has
+            // used.
+            const bool is_last = k + 1 == stages.size();
+            record->done =
+                record->done && (!is_last || record->condition_met || record->steps >= iterations);
+            simulation.restore(k, *std::move(record));
         }
     } catch (const nlohmann::json::exception&) {
         return tl::unexpected(damaged(folder, "run.json is incomplete or malformed"));

@@ -20,11 +20,11 @@ using Values = std::vector<double>;
 class CellChange {
 public:
     CellChange(Simulation& simulation, std::uint32_t stage, const KeptStage& kept)
-        : simulation_(simulation), stage_(stage), kept_(kept), record_(*kept.cells) {}
+        : simulation_(simulation), stage_(stage), kept_(kept), record_(*kept.record.cells) {}
 
     Result<void> make(const Simulation* before, const StageMoment& moment) {
         take_values();
-        simulation_.restore_cells(stage_, record_, moment);
+        restore(moment);
         const auto now = simulation_.values_of_start(stage_);
         if (now.empty() && !missing_.empty() && !record_.numbers.empty()) {
             return failure(fmt::format("'{}' is new, and cells that were born since stage '{}' "
@@ -39,11 +39,16 @@ public:
         for (const ItemId item : system().items()) {
             if (is_changed(item, now, then)) values_of(item) = now[item.index()];
         }
-        simulation_.restore_cells(stage_, record_, moment);
+        restore(moment);
         return {};
     }
 
 private:
+    void restore(const StageMoment& moment) {
+        StageRecord record{moment, {}, std::make_shared<const TissueRecord>(record_)};
+        simulation_.restore(stage_, std::move(record));
+    }
+
     const System& system() const { return simulation_.program().system_of(stage_); }
     Values& values_of(ItemId item) {
         const auto species = system().species_of(item);
@@ -60,9 +65,9 @@ private:
     Values kept_values(ItemId item) const {
         const auto found = std::ranges::find(kept_.species, system().item_name(item));
         const auto species = static_cast<std::size_t>(found - kept_.species.begin());
-        if (species < kept_.species.size()) return kept_.cells->species[species];
+        if (species < kept_.species.size()) return kept_.record.cells->species[species];
         const std::size_t other = kept_item(item);
-        return other < kept_.items.size() ? kept_.cells->kept[other] : Values();
+        return other < kept_.items.size() ? kept_.record.cells->kept[other] : Values();
     }
 
     void take_values() {

@@ -3,7 +3,6 @@
 
 #include "run/session/kept_cells.h"
 #include "run/stage/stage_time.h"
-#include "tissue/tissue.h"
 
 #include <algorithm>
 #include <numeric>
@@ -13,30 +12,12 @@
 namespace cascade {
 namespace {
 
-std::size_t bytes_of_field(const Field& field) {
-    return static_cast<std::size_t>(field.layout().size()) * bytes_of(field.precision());
-}
-
-std::vector<Field> copies(std::span<const Field> fields) {
-    std::vector<Field> result;
-    for (const Field& field : fields) result.push_back(field.clone());
-    return result;
-}
-
-std::size_t bytes_of_record(const TissueRecord& record) {
-    std::size_t values = 0;
-    for (const auto* of : {&record.species, &record.stiffest, &record.kept}) {
-        for (const std::vector<double>& each : *of) values += each.size();
-    }
-    return sizeof(double) * values + sizeof(std::uint32_t) * 2 * record.numbers.size();
-}
-
 /// The kept stage that stage `k` of a program goes on from; null if there is none. Cells that crawl
 /// do not go on as a field, nor the other way round.
 const KeptStage* counterpart(const Program& program, std::uint32_t k, const KeptState& state) {
     if (k >= state.stages.size()) return nullptr;
     const KeptStage& kept = state.stages[k];
-    if ((kept.cells != nullptr) != program.system_of(k).cells.has_value()) return nullptr;
+    if ((kept.record.cells != nullptr) != program.system_of(k).cells.has_value()) return nullptr;
     const bool is_elsewhere =
         kept.name != program.stages[k].name &&
         std::any_of(program.stages.begin(), program.stages.end(),
@@ -45,10 +26,10 @@ const KeptStage* counterpart(const Program& program, std::uint32_t k, const Kept
 }
 
 bool is_over(const Program& program, std::uint32_t k, const StageState& state,
-             const StageMoment& moment) {
+             const StageMoment& then) {
     const Stage& stage = program.stages[k];
-    if (!stage.time.has_duration()) return moment.steps >= stage.iterations;
-    return moment.t >= duration_of(stage, program.system_of(k), state);
+    if (!stage.time.has_duration()) return then.steps >= stage.iterations;
+    return then.t >= duration_of(stage, program.system_of(k), state);
 }
 
 /// Are two expressions the same but for the places where they were written?
@@ -99,15 +80,7 @@ std::optional<ItemId> find_item(const System& system, std::string_view name) {
 
 std::size_t KeptState::bytes() const {
     std::size_t bytes = 0;
-    for (const KeptStage& stage : stages) {
-        for (const Field& field : stage.moment.species) bytes += bytes_of_field(field);
-        for (const auto& [name, field] : stage.painted) {
-            bytes += field.empty() ? 0 : bytes_of_field(field);
-        }
-        if (stage.cells) bytes += bytes_of_record(*stage.cells);
-        if (!stage.moment.memory) continue;
-        for (const Field& field : stage.moment.memory->watch.last()) bytes += bytes_of_field(field);
-    }
+    for (const KeptStage& stage : stages) bytes += stage.record.bytes();
     return bytes;
 }
 
@@ -115,33 +88,14 @@ KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& pa
     KeptState kept;
     const Program& program = simulation.program();
     for (std::uint32_t k = 0; k < program.stages.size() && simulation.state(k).started; ++k) {
-        const StageState& state = simulation.state(k);
         const System& system = program.system_of(k);
-        KeptStage stage;
+        KeptStage& stage = kept.stages.emplace_back();
         stage.name = program.stages[k].name;
+        stage.painted = painted[k];
+        stage.record = record_of(simulation.state(k), program, k, stage.painted);
+        for (const ItemId item : system.items()) stage.items.emplace_back(system.item_name(item));
         for (const ItemId item : system.species())
             stage.species.emplace_back(system.item_name(item));
-        stage.moment = {state.tissue ? std::vector<Field>() : copies(state.species),
-                        state.steps,
-                        state.t,
-                        state.done,
-                        state.condition_met,
-                        StageMoment::Memory{state.time, state.watch}};
-        if (state.tissue) {
-            stage.cells = std::make_shared<const TissueRecord>(state.tissue->record());
-            for (const ItemId item : system.items()) {
-                stage.items.emplace_back(system.item_name(item));
-            }
-            for (const std::string& name : painted[k]) stage.painted.emplace(name, Field());
-            kept.stages.push_back(std::move(stage));
-            continue;
-        }
-        for (const std::string& name : painted[k]) {
-            const auto item = find_item(system, name);
-            const bool is_own = item && !system.is_species(*item);
-            stage.painted.emplace(name, is_own ? state.field(*item).clone() : Field());
-        }
-        kept.stages.push_back(std::move(stage));
     }
     return kept;
 }
@@ -160,43 +114,41 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation
         const System& system = program.system_of(k);
         const bool is_current = k + 1 == state.stages.size();
         const bool is_same_run = how == Continuation::same;
-        const bool is_anew = !is_same_run && is_current && kept->moment.steps == 0;
-        StageMoment moment;
-        moment.steps = kept->moment.steps;
-        moment.t = kept->moment.t;
-        moment.done = kept->moment.done && (is_same_run || !is_current ||
-                                            is_over(program, k, simulation.state(k), kept->moment));
-        moment.condition_met = kept->moment.condition_met && moment.done;
+        const bool is_anew = !is_same_run && is_current && kept->record.steps == 0;
+        StageRecord record{StageMoment(kept->record), {}, {}};
+        if (!is_same_run) {
+            const bool is_done =
+                !is_current || is_over(program, k, simulation.state(k), kept->record);
+            record.done = record.done && is_done;
+            record.condition_met = record.condition_met && record.done;
+            record.time = {};
+            record.watch = {};
+        }
         PaintedNames& still_painted = painted.emplace_back();
-        if (kept->cells) {
-            for (const auto& [name, field] : kept->painted) still_painted.insert(name);
+        if (kept->record.cells) {
+            still_painted = kept->painted;
             if (is_anew && still_painted.empty()) continue;
+            record.cells = kept->record.cells;
             if (is_same_run) {
-                simulation.restore_cells(k, *kept->cells, moment);
-            } else if (auto gone = go_on_with_cells(simulation, before, k, *kept, moment); !gone) {
+                simulation.restore(k, std::move(record));
+            } else if (auto gone = go_on_with_cells(simulation, before, k, *kept, record); !gone) {
                 return tl::unexpected(gone.error());
             }
             continue;
         }
-        for (const ItemId item : system.species()) {
-            const std::string_view name = system.item_name(item);
-            const auto old = std::find(kept->species.begin(), kept->species.end(), name);
-            const bool is_kept = old != kept->species.end() &&
-                                 (!is_anew || kept->painted.contains(std::string(name)));
-            const auto& own = simulation.state(k).field(item);
-            const auto index = static_cast<std::size_t>(old - kept->species.begin());
-            moment.species.push_back(is_kept ? kept->moment.species[index].clone() : own.clone());
+        for (const ItemId item : recorded_items(program, k)) {
+            const std::string name(system.item_name(item));
+            const bool is_species = system.is_species(item);
+            const bool was_painted = kept->painted.contains(name);
+            const auto old = kept->record.fields.find(name);
+            const bool is_kept =
+                old != kept->record.fields.end() && (was_painted || (is_species && !is_anew));
+            if (!is_kept && !is_species) continue;
+            const Field& values = is_kept ? old->second : simulation.state(k).field(item);
+            record.fields.emplace(name, values.clone());
+            if (was_painted) still_painted.insert(name);
         }
-        if (is_same_run && kept->moment.memory) moment.memory.emplace(*kept->moment.memory);
-        simulation.restore(k, std::move(moment));
-        for (const auto& [name, field] : kept->painted) {
-            const auto item = find_item(system, name);
-            if (!item) continue;
-            const bool is_own = !system.is_species(*item);
-            if (is_own && (program.stages[k].uniform[*item] || field.empty())) continue;
-            if (is_own) simulation.set_field(k, *item, field.clone());
-            still_painted.insert(name);
-        }
+        simulation.restore(k, std::move(record));
     }
     return painted;
 }

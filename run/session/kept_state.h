@@ -2,14 +2,11 @@
 // them.
 #pragma once
 
-#include "core/plane.h"
 #include "core/result.h"
 #include "run/simulation/simulation.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -24,11 +21,10 @@ using PaintedNames = std::set<std::string>;
 /// A stage that has started.
 struct KeptStage {
     std::string name;
-    std::vector<std::string> species;  ///< Their names, in the order of the moment's fields.
-    StageMoment moment;
-    std::map<std::string, Field> painted;       ///< By name; without fields for species and cells.
-    std::shared_ptr<const TissueRecord> cells;  ///< Of a stage of cells that crawl, else null.
-    std::vector<std::string> items;             ///< The names of all items of such a stage.
+    StageRecord record;    ///< With those parameters that were painted.
+    PaintedNames painted;  ///< Species and parameters.
+    /// The names of all items and of the species, for cells that crawl.
+    std::vector<std::string> items, species;
 };
 
 struct KeptState {

@@ -84,6 +84,24 @@ struct Simulation::Implementation {
         run.reset();
     }
 
+    /// Gives an item other values, in the stage's own cells.
+    void set(std::uint32_t stage, ItemId item, Field values) {
+        StageState& state = stages->state(stage);
+        const System& system = environment().program->system_of(stage);
+        const auto species = state.species_of_item[item];
+        if (Tissue* const tissue = state.tissue.get()) {
+            (species ? tissue->species[species->index()] : tissue->kept[item.index()]) =
+                std::move(values);
+            tissue->pad();
+            if (item == system.frozen_item()) tissue->freeze_by(item.index());
+            return;
+        }
+        CHECK(species || !environment().stage(stage).uniform[item],
+              "only an item that varies has a field");
+        if (item == system.frozen_item()) state.frozen = to_mask(values);
+        (species ? state.species[species->index()] : state.fields[item]) = std::move(values);
+    }
+
     /// Warns of kernels of ended stages that could not be compiled.
     void warn_of_refused(RunControl& control) {
         for (auto& [k, kernels] : unsettled) kernels.warn_of_refused(control);
@@ -194,31 +212,24 @@ void Simulation::settle(RunControl& control) {
     self_->warn_of_refused(control);
 }
 
-void Simulation::restore(std::uint32_t stage, StageMoment moment) {
+void Simulation::restore(std::uint32_t stage, StageRecord record) {
     self_->end_run();
-    StageState& state = self_->stages->state(stage);
     self_->stages->touch(stage);
-    CHECK(moment.species.size() == state.species.size(), "every species of the stage is given");
-    state.species = std::move(moment.species);
-    state.course = {};
-    state.go_to(moment.steps, moment.t);
-    state.done = moment.done;
-    state.condition_met = moment.condition_met;
-    state.time = {};
-    state.watch = {};
-    if (!moment.memory) return;
-    state.time = moment.memory->time;
-    state.watch = std::move(moment.memory->watch);
-}
-
-void Simulation::restore_cells(std::uint32_t stage, const TissueRecord& cells,
-                               const StageMoment& moment) {
-    self_->end_run();
     StageState& state = self_->stages->state(stage);
-    state.tissue = std::make_shared<Tissue>(cells, program().domain.precision);
-    state.go_to(moment.steps, cells.time.t);
-    state.done = moment.done;
-    state.condition_met = moment.condition_met;
+    const System& system = program().system_of(stage);
+    static_cast<StageMoment&>(state) = std::move(record);
+    if (record.cells) {
+        state.tissue = std::make_shared<Tissue>(*record.cells, program().domain.precision);
+        return state.go_to(state.steps, record.cells->time.t);
+    }
+    state.course = {};
+    for (const ItemId item : system.items()) {
+        const auto found = record.fields.find(system.item_name(item));
+        CHECK(found != record.fields.end() || !system.is_species(item),
+              "every species of the stage is given");
+        if (found != record.fields.end()) self_->set(stage, item, std::move(found->second));
+    }
+    state.go_to(state.steps, state.t);
 }
 
 std::vector<std::vector<double>> Simulation::values_of_start(std::uint32_t stage) const {
@@ -253,23 +264,7 @@ void Simulation::end_stage(std::uint32_t stage) {
 void Simulation::set_field(std::uint32_t stage, ItemId item, Field values) {
     self_->end_run();
     self_->stages->touch(stage);
-    StageState& state = self_->stages->state(stage);
-    const System& system = program().system_of(stage);
-    if (Tissue* const tissue = state.tissue.get()) {
-        const auto species = state.species_of_item[item];
-        (species ? tissue->species[species->index()] : tissue->kept[item.index()]) =
-            std::move(values);
-        tissue->pad();
-        if (item == system.frozen_item()) tissue->freeze_by(item.index());
-        return;
-    }
-    if (const auto species = state.species_of_item[item]) {
-        state.species[species->index()] = std::move(values);
-        return;
-    }
-    CHECK(!program().stages[stage].uniform[item], "only an item that varies has a field");
-    if (item == system.frozen_item()) state.frozen = to_mask(values);
-    state.fields[item] = std::move(values);
+    self_->set(stage, item, std::move(values));
 }
 
 Field Simulation::in_cells_of(std::uint32_t stage, ItemId item, Field values) const {

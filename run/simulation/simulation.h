@@ -9,7 +9,7 @@
 #include "run/domain/domain_mask.h"
 #include "run/domain/model_cells.h"
 #include "run/script/script.h"
-#include "run/stage/stage_state.h"
+#include "run/simulation/stage_record.h"
 #include "run/stage/step_work.h"
 #include "run/stage/time_account.h"
 #include "solvers/advance.h"
@@ -68,25 +68,9 @@ struct SimulationOptions {
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
 struct SurfaceMesh;
-struct TissueRecord;
 
 /// Why a stage ended.
 enum class StageEnd { finished, stopped, cancelled };
-
-/// A moment of a stage from which its run can go on.
-struct StageMoment {
-    /// What steps of chosen length and `until: steady(…)` remember.
-    struct Memory {
-        TimeState time;
-        SteadyWatch watch;
-    };
-    std::vector<Field> species;
-    std::int64_t steps = 0;  ///< That are complete.
-    double t = 0;            ///< The stage's time.
-    bool done = false;
-    bool condition_met = false;    ///< Was it ended by `until`?
-    std::optional<Memory> memory;  ///< Without it, steps are chosen as at the start of a stage.
-};
 
 class FinerView;
 
@@ -128,12 +112,10 @@ public:
     /// be compiled and were interpreted.
     void settle(RunControl& control);
 
-    /// Makes a started stage go on from another moment.
-    void restore(std::uint32_t stage, StageMoment moment);
+    /// Makes a started stage go on from another moment. The record has all species of a stage of
+    /// fields, or all values of cells that crawl; of their moment only steps and ends count.
+    void restore(std::uint32_t stage, StageRecord record);
 
-    /// Makes a started stage of cells that crawl go on from other cells, which have the values of
-    /// its system. Of the moment steps and ends count.
-    void restore_cells(std::uint32_t stage, const TissueRecord& cells, const StageMoment& moment);
     /// The values that the start of a started stage of cells that crawl would give the present
     /// cells where they are now: by item, then in ascending order of the cells' numbers. Empty for
     /// items that the start does not compute, or that are the same in all cells. Empty altogether
@@ -209,7 +191,6 @@ private:
 
 /// The values of formulas that are the same in all cells, such as aggregates over the domain. For
 /// other formulas, the value of the first cell.
-/// others the first cell's).
 std::vector<double> evaluate_numbers(const Simulation& simulation,
                                      std::span<const Formula* const> formulas, std::uint32_t stage);
 

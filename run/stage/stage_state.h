@@ -25,21 +25,25 @@ class TissueGround;
 /// What is known of the solutions of constraints, by their numbers in Literals.
 using SolveReports = std::map<std::uint32_t, std::shared_ptr<SolveReport>>;
 
+/// How far a stage has come, and what its further steps depend on besides values.
+struct StageMoment {
+    bool done = false;           ///< All its steps are taken, or it has ended early.
+    bool condition_met = false;  ///< Its `until` has ended it.
+    std::int64_t steps = 0;      ///< Complete steps.
+    double t = 0;                ///< Its time; 0 if `speed` varies by cell.
+    TimeState time;              ///< The state from which steps of other lengths go on.
+    SteadyWatch watch;           ///< The last evaluation of `until: steady(…)`.
+};
+
 /// Values of one stage's items. A copy owns planes of its own; it is made only where that is
 /// written.
-struct StageState {
+struct StageState : StageMoment {
     StageState() = default;
     explicit StageState(const StageState&) = default;
     StageState(StageState&&) = default;
     StageState& operator=(StageState&&) = default;
 
     bool started = false;
-    bool done = false;                 ///< All its steps are taken, or it has ended early.
-    bool condition_met = false;        ///< Its `until` has ended it.
-    std::int64_t steps = 0;            ///< Complete steps.
-    double t = 0;                      ///< Its time; 0 if `speed` varies by cell.
-    TimeState time;                    ///< The state from which steps of other lengths go on.
-    SteadyWatch watch;                 ///< The last evaluation of `until: steady(…)`.
     StageCourse course;                ///< Since it began, or went on from a saved run.
     IdVector<ItemId, double> numbers;  ///< Of the run's precision; meaningful where uniform.
     IdVector<ItemId, Field> fields;    ///< Empty where uniform, and for species.

@@ -235,11 +235,7 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
         ASSERT_TRUE(first->advance_stage(0, 11, control, {}));
         auto second = Simulation::create(script, {BackendKind::interpreter, 0, 1}).value();
         ASSERT_TRUE(second->start_stage(0));
-        std::vector<Field> copies;
-        for (const Field& field : first->state(0).species) copies.push_back(field.clone());
-        const StageState& state = first->state(0);
-        second->restore(0, {std::move(copies), 11, state.t, false, false,
-                            StageMoment::Memory{state.time, {}}});
+        second->restore(0, record_of(first->state(0), first->program(), 0));
         ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
         EXPECT_EQ(same_bits(one.state().species, second->state(0).species), "");
     }

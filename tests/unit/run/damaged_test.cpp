@@ -104,10 +104,11 @@ TEST_F(DamagedTest, AStartThatIsNotFiniteIsToldAtAnyStep) {
     auto simulation = Simulation::create(*script, options);
     ASSERT_TRUE(simulation);
     ASSERT_TRUE((*simulation)->start_stage(0));
-    std::vector<Field> species;
-    for (const Field& field : (*simulation)->state(0).species) species.push_back(field.clone());
-    species[1].at(3, 2) = INFINITY;
-    (*simulation)->restore(0, {std::move(species), 70, 70, false, false, {}});
+    StageRecord record = record_of((*simulation)->state(0), (*simulation)->program(), 0);
+    record.fields.at("b").at(3, 2) = INFINITY;
+    record.steps = 70;
+    record.t = 70;
+    (*simulation)->restore(0, std::move(record));
     RunControl control;
     const auto end = (*simulation)->advance_stage(0, 300, control, {});
     ASSERT_FALSE(end);

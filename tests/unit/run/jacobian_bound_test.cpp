@@ -75,7 +75,13 @@ private:
         species[moved].row(row)[column] += by;
         std::vector<Field> before;
         for (const Field& field : species) before.push_back(field.clone());
-        simulation_->restore(0, {std::move(species), 0, 0, false, false, {}});
+        const System& system = simulation_->program().system_of(0);
+        StageRecord record;
+        for (const ItemId item : system.species()) {
+            const std::size_t k = system.species_of(item)->index();
+            record.fields.emplace(system.item_name(item), std::move(species[k]));
+        }
+        simulation_->restore(0, std::move(record));
         RunControl control;
         EXPECT_TRUE(simulation_->advance_stage(0, 1, control, {}));
         Vector rates;

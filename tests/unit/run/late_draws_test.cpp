@@ -23,10 +23,10 @@ std::vector<std::vector<double>> draws_from(std::int64_t first, const std::strin
         auto simulation = Simulation::create(script, {backend, 0, 1});
         EXPECT_TRUE(simulation);
         EXPECT_TRUE((*simulation)->start_stage(0));
-        std::vector<Field> species;
-        species.push_back((*simulation)->state(0).species[0].clone());
-        (*simulation)
-            ->restore(0, {std::move(species), step, static_cast<double>(step), false, false, {}});
+        StageRecord record = record_of((*simulation)->state(0), (*simulation)->program(), 0);
+        record.steps = step;
+        record.t = static_cast<double>(step);
+        (*simulation)->restore(0, std::move(record));
         RunControl control;
         EXPECT_TRUE((*simulation)->advance_stage(0, step + 1, control, {}));
         std::vector<double>& row = draws.emplace_back();

@@ -33,11 +33,6 @@ protected:
     std::unique_ptr<Simulation> made() {
         return Simulation::create(script_, {BackendKind::interpreter, 0, 1}).value();
     }
-    static std::vector<Field> copies(const Simulation& simulation, std::uint32_t stage) {
-        std::vector<Field> fields;
-        for (const Field& field : simulation.state(stage).species) fields.push_back(field.clone());
-        return fields;
-    }
     void advance(Simulation& simulation, std::uint32_t stage, std::int64_t last) {
         ASSERT_TRUE(simulation.advance_stage(stage, last, control_, {}));
     }
@@ -51,12 +46,10 @@ TEST_F(RunningStage, StatesThatAreReplacedAreGoneOnFrom) {
     ASSERT_TRUE(first->start_stage(0));
     ASSERT_TRUE(second->start_stage(0));
     advance(*first, 0, 20);
-    std::vector<Field> kept = copies(*first, 0);
-    const TimeState time = first->state(0).time;
-    const double t = first->state(0).t;
+    StageRecord record = record_of(first->state(0), first->program(), 0);
     advance(*first, 0, 45);
     // Back to step 20, in the middle of a stage that runs.
-    first->restore(0, {std::move(kept), 20, t, false, false, StageMoment::Memory{time, {}}});
+    first->restore(0, std::move(record));
     advance(*first, 0, 60);
     advance(*second, 0, 60);
     EXPECT_EQ(same_bits(first->state(0).species, second->state(0).species), "");

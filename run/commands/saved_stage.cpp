@@ -1,0 +1,320 @@
+// Fields have the shape of the grid, or are one row of the cells of a model, in the order of its
+// file. Cells that crawl are in the order of their numbers. The files may have been changed, so
+// sizes and ranges are checked.
+#include "run/commands/saved_stage.h"
+
+#include "picture/npy.h"
+#include "run/commands/saved_numbers.h"
+#include "run/stage/bound_kernel.h"
+#include "solvers/finite.h"
+#include "tissue/tissue.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace cascade {
+
+namespace {
+
+/// Suffix of species as they were at the last test of `until: steady(…)`.
+constexpr std::string_view last_look = ".last";
+// No quantity has such a name.
+constexpr std::string_view numbers_array = "cells-numbers", triangles_array = "cells-triangles";
+/// Suffix of the direction in which rates change fastest.
+constexpr std::string_view stiffest = ".stiffest";
+
+std::string array_name(const Program& program, std::uint32_t stage, std::string_view what) {
+    return fmt::format("{}.{}.npy", program.stages[stage].name, what);
+}
+
+std::string array_name(std::string_view item, std::string_view suffix) {
+    return fmt::format("{}{}", item, suffix);
+}
+
+/// Adds the arrays of one stage to a saved run, until one fails.
+class ArrayWriter {
+public:
+    ArrayWriter(SavedFolderChange& change, const Simulation& simulation, std::uint32_t stage)
+        : change_(change), simulation_(simulation), stage_(stage) {}
+
+    void add(std::string_view what, const Field& field) {
+        if (const DomainMask* const mask = simulation_.mask()) {
+            return put(what, with_outside(field, *mask, nothing_outside));
+        }
+        if (simulation_.model()) return put(what, in_one_row(field, *simulation_.model()));
+        put(what, field);
+    }
+
+    /// Values of cells that crawl, if there are any.
+    void add(std::string_view what, const std::vector<double>& values) {
+        if (values.empty()) return;
+        Plane<double> row(PlaneLayout(Grid{static_cast<std::int64_t>(values.size()), 1}));
+        std::copy(values.begin(), values.end(), row.row(0));
+        put(what, Field(std::move(row)));
+    }
+
+    const Result<void>& result() const { return result_; }
+
+private:
+    void put(std::string_view what, const Field& field) {
+        if (!result_) return;
+        result_ = change_.add(array_name(simulation_.program(), stage_, what), encode_npy(field));
+    }
+
+    SavedFolderChange& change_;
+    const Simulation& simulation_;
+    std::uint32_t stage_;
+    Result<void> result_;
+};
+
+/// Reads the arrays of one stage. What follows the first failure is empty.
+class ArrayReader {
+public:
+    ArrayReader(const std::filesystem::path& folder, const nlohmann::json& manifest,
+                const Simulation& simulation, std::uint32_t stage)
+        : folder_(folder), manifest_(manifest), simulation_(simulation), stage_(stage) {}
+
+    /// The values of an item of fields, or of another array of the same shape.
+    Field field(std::string_view what) {
+        const Precision precision = simulation_.program().domain.precision;
+        const auto model = simulation_.model();
+        const Grid grid =
+            model ? Grid{static_cast<std::int64_t>(model->count()), 1} : simulation_.grid(stage_);
+        const auto array = read(what, precision);
+        if (!array) return {};
+        if (!fits(*array, grid)) {
+            fail(what, "has another shape");
+            return {};
+        }
+        Field field = to_field(*array, precision);
+        if (model) field = in_rows(field, *model);
+        // Outside of the mask, files hold NaN but runs 0.
+        if (simulation_.mask()) field = with_outside(field, *simulation_.mask(), 0);
+        return field;
+    }
+
+    Field finite_field(std::string_view what) {
+        Field result = field(what);
+        if (!failure_ && first_not_finite(result)) fail(what, "has a value that is not finite");
+        return result;
+    }
+
+    /// The values of cells that crawl, which are finite.
+    std::vector<double> values(std::string_view what) {
+        auto array = read(what, Precision::binary64);
+        if (!array) return {};
+        const bool is_row = array->slices == 1 && array->rows == 1;
+        if (count_ == 0) count_ = array->values.size();
+        if (!is_row || array->values.size() != count_) fail(what, "has another number of cells");
+        if (!std::ranges::all_of(array->values, [](double value) { return std::isfinite(value); }))
+            fail(what, "has a value that is not finite");
+        return failure_ ? std::vector<double>() : std::move(array->values);
+    }
+
+    /// Whole numbers of 32 bits.
+    std::vector<std::uint32_t> words(std::string_view what) {
+        std::vector<std::uint32_t> result;
+        for (const double value : values(what)) {
+            const bool is_word = value >= 0 && value == std::floor(value) &&
+                                 value <= std::numeric_limits<std::uint32_t>::max();
+            if (!is_word) fail(what, "has a number that is none of cells");
+            result.push_back(is_word ? static_cast<std::uint32_t>(value) : 0);
+        }
+        return result;
+    }
+
+    void fail(std::string_view what, std::string_view why) {
+        fail(fmt::format("{} {}", array_name(simulation_.program(), stage_, what), why));
+    }
+    const std::optional<Failure>& failure() const { return failure_; }
+
+private:
+    std::optional<NpyArray> read(std::string_view what, Precision precision) {
+        if (failure_) return std::nullopt;
+        const std::string name = array_name(simulation_.program(), stage_, what);
+        const auto file = read_saved_file(folder_, manifest_, name);
+        auto array = file ? parse_npy(*file, precision) : tl::unexpected(file.error());
+        if (array) return std::move(*array);
+        const std::string& why = array.error().message;
+        fail(file ? fmt::format("cannot read '{}': {}", name, why) : why);
+        return std::nullopt;
+    }
+
+    void fail(std::string why) {
+        if (!failure_) failure_ = Failure{std::move(why), ""};
+    }
+
+    const std::filesystem::path& folder_;
+    const nlohmann::json& manifest_;
+    const Simulation& simulation_;
+    std::uint32_t stage_;
+    std::size_t count_ = 0;  ///< Of cells; 0 before the first array.
+    std::optional<Failure> failure_;
+};
+
+nlohmann::json save_cells(ArrayWriter& arrays, const TissueRecord& record, const Program& program,
+                          std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    arrays.add(numbers_array, {record.numbers.begin(), record.numbers.end()});
+    arrays.add(triangles_array, {record.triangles.begin(), record.triangles.end()});
+    for (const ItemId item : recorded_items(program, stage)) {
+        const std::string_view name = system.item_name(item);
+        const auto species = system.species_of(item);
+        arrays.add(name, species ? record.species[species->index()] : record.kept[item.index()]);
+        if (!species || record.stiffest.empty()) continue;
+        arrays.add(array_name(name, stiffest), record.stiffest[species->index()]);
+    }
+    return {{"count", record.numbers.size()},
+            {"next_number", record.next_number},
+            {"births", record.births},
+            {"deaths", record.deaths},
+            {"knows_stiffest", !record.stiffest.empty()},
+            {"time", to_json(record.time)}};
+}
+
+/// Are the cells on triangles of the surface on which they crawl?
+bool are_on_surface(const TissueRecord& record, const Simulation& simulation, std::uint32_t stage) {
+    const auto model = simulation.model();
+    const auto body = simulation.body(stage);
+    const SurfaceMesh* const surface = model ? &model->mesh : body.get();
+    const std::size_t triangles = surface != nullptr ? surface->triangles.size() : 0;
+    return std::ranges::all_of(record.triangles, [&](std::uint32_t triangle) {
+        return triangle < triangles || triangle == Tissue::no_triangle;
+    });
+}
+
+Result<TissueRecord> read_cells(ArrayReader& arrays, const nlohmann::json& saved,
+                                const Simulation& simulation, std::uint32_t stage) {
+    const Program& program = simulation.program();
+    const System& system = program.system_of(stage);
+    TissueRecord record;
+    saved.at("next_number").get_to(record.next_number);
+    saved.at("births").get_to(record.births);
+    saved.at("deaths").get_to(record.deaths);
+    const bool has_time = read_json(saved.at("time"), record.time);
+    const bool knows_stiffest = saved.at("knows_stiffest").get<bool>();
+    const bool has_cells = saved.at("count").get<std::uint64_t>() > 0;
+    record.species.resize(system.species_count());
+    record.kept.resize(system.item_count());
+    if (knows_stiffest) record.stiffest.resize(system.species_count());
+    if (has_cells) {
+        record.numbers = arrays.words(numbers_array);
+        record.triangles = arrays.words(triangles_array);
+    }
+    for (const ItemId item : recorded_items(program, stage)) {
+        const std::string_view name = system.item_name(item);
+        const auto species = system.species_of(item);
+        if (item == system.frozen_item()) record.frozen = item.index();
+        if (!has_cells) continue;
+        (species ? record.species[species->index()] : record.kept[item.index()]) =
+            arrays.values(name);
+        if (!species || !knows_stiffest) continue;
+        record.stiffest[species->index()] = arrays.values(array_name(name, stiffest));
+    }
+    if (arrays.failure()) return tl::unexpected(*arrays.failure());
+    const bool is_in_order =
+        std::ranges::adjacent_find(record.numbers, std::greater_equal<>()) == record.numbers.end();
+    if (!is_in_order || (has_cells && record.numbers.back() >= record.next_number)) {
+        return failure("the numbers of its cells are not in order");
+    }
+    if (!are_on_surface(record, simulation, stage))
+        return failure("its cells are on triangles that their surface does not have");
+    if (!has_time) return failure("the time of its cells makes no sense");
+    return record;
+}
+
+}  // namespace
+
+std::vector<std::string> stage_arrays(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    std::vector<std::string> names;
+    const auto add = [&](std::string_view what) {
+        names.push_back(array_name(program, stage, what));
+    };
+    if (system.cells) {
+        add(numbers_array);
+        add(triangles_array);
+    }
+    for (const ItemId item : recorded_items(program, stage)) {
+        const std::string_view name = system.item_name(item);
+        add(name);
+        if (!system.is_species(item)) continue;
+        if (system.cells) add(array_name(name, stiffest));
+        else if (program.stages[stage].time.steady) add(array_name(name, last_look));
+    }
+    return names;
+}
+
+Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& simulation,
+                                  std::uint32_t stage) {
+    const Program& program = simulation.program();
+    const System& system = program.system_of(stage);
+    const StageState& state = simulation.state(stage);
+    ArrayWriter arrays(change, simulation, stage);
+    nlohmann::json saved{{"name", program.stages[stage].name},
+                         {"steps", state.steps},
+                         {"done", state.done},
+                         {"condition_met", state.condition_met},
+                         {"time", to_json(static_cast<const StageMoment&>(state))}};
+    if (state.tissue) {
+        saved["cells"] = save_cells(arrays, state.tissue->record(), program, stage);
+    } else {
+        for (const ItemId item : recorded_items(program, stage)) {
+            arrays.add(system.item_name(item), state.field(item));
+        }
+        const std::span<const Field> looked_at = state.watch.last();
+        for (std::size_t species = 0; species < looked_at.size(); ++species) {
+            arrays.add(array_name(species_name(system, species), last_look), looked_at[species]);
+        }
+    }
+    if (!arrays.result()) return tl::unexpected(arrays.result().error());
+    return saved;
+}
+
+Result<StageRecord> read_stage(const std::filesystem::path& folder, const nlohmann::json& manifest,
+                               const nlohmann::json& saved, const Simulation& simulation,
+                               std::uint32_t stage) {
+    const Program& program = simulation.program();
+    const System& system = program.system_of(stage);
+    ArrayReader arrays(folder, manifest, simulation, stage);
+    StageRecord record;
+    saved.at("steps").get_to(record.steps);
+    saved.at("done").get_to(record.done);
+    record.condition_met = saved.value("condition_met", record.done);
+    if (record.steps < 0) return failure("a number of steps is negative");
+    if (system.cells) {
+        auto cells = read_cells(arrays, saved.at("cells"), simulation, stage);
+        if (!cells) return tl::unexpected(cells.error());
+        record.cells = std::make_shared<const TissueRecord>(*std::move(cells));
+        return record;
+    }
+    // Parameters are mostly as the start of the stage gives them; some may have been painted.
+    for (const ItemId item : recorded_items(program, stage)) {
+        const std::string_view name = system.item_name(item);
+        const bool is_species = system.is_species(item);
+        record.fields.emplace(name, is_species ? arrays.finite_field(name) : arrays.field(name));
+    }
+    std::optional<SavedLook> look;
+    const Solver solver = program.stages[stage].time.solver;
+    if (!read_json(saved.at("time"), solver, record, look))
+        return failure("its time makes no sense");
+    if (look) {
+        std::vector<Field> looked_at;
+        for (const ItemId item : system.species()) {
+            looked_at.push_back(arrays.finite_field(array_name(system.item_name(item), last_look)));
+        }
+        if (look->formations.size() != looked_at.size())
+            return failure("it lacks the course of a species");
+        record.watch.remember(std::move(looked_at), look->t, std::move(look->formations));
+    }
+    if (arrays.failure()) return tl::unexpected(*arrays.failure());
+    return record;
+}
+
+}  // namespace cascade

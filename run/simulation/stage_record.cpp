@@ -1,0 +1,56 @@
+// A record holds copies.
+#include "run/simulation/stage_record.h"
+
+#include "tissue/tissue.h"
+
+namespace cascade {
+
+namespace {
+
+std::size_t bytes_of_field(const Field& field) {
+    return field.empty() ? 0 : Field::bytes(field.layout(), field.precision());
+}
+
+std::size_t bytes_of_cells(const TissueRecord& record) {
+    std::size_t values = 0;
+    for (const auto* of : {&record.species, &record.stiffest, &record.kept}) {
+        for (const std::vector<double>& each : *of) values += each.size();
+    }
+    return sizeof(double) * values + sizeof(std::uint32_t) * 2 * record.numbers.size();
+}
+
+}  // namespace
+
+std::size_t StageRecord::bytes() const {
+    std::size_t bytes = cells ? bytes_of_cells(*cells) : 0;
+    for (const auto& [name, field] : fields) bytes += bytes_of_field(field);
+    for (const Field& field : watch.last()) bytes += bytes_of_field(field);
+    return bytes;
+}
+
+StageRecord record_of(const StageState& state, const Program& program, std::uint32_t stage,
+                      const std::set<std::string>& parameters) {
+    StageRecord record{StageMoment(state), {}, {}};
+    if (state.tissue) {
+        record.cells = std::make_shared<const TissueRecord>(state.tissue->record());
+        return record;
+    }
+    const System& system = program.system_of(stage);
+    for (const ItemId item : recorded_items(program, stage)) {
+        const std::string name(system.item_name(item));
+        if (!system.is_species(item) && !parameters.contains(name)) continue;
+        record.fields.emplace(name, state.field(item).clone());
+    }
+    return record;
+}
+
+std::vector<ItemId> recorded_items(const Program& program, std::uint32_t stage) {
+    const System& system = program.system_of(stage);
+    std::vector<ItemId> result;
+    for (const ItemId item : system.items()) {
+        if (system.is_species(item) || !program.stages[stage].uniform[item]) result.push_back(item);
+    }
+    return result;
+}
+
+}  // namespace cascade
