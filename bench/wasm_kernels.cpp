@@ -38,7 +38,7 @@ CellKernel step_of(const std::string& system) {
         std::exit(1);
     }
     const PlanOptions as_run{Materialise::when_cheaper, false, true};
-    return plan_step(*script.program, 0, as_run).passes.front().bound.kernel;
+    return *plan_step(*script.program, 0, as_run).passes.front().bound.kernel;
 }
 
 /// Seconds of a call on planes of one value, at best of half a second.

@@ -279,6 +279,8 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     for (const StepProblem::PlaneRef& ref : pass.fields) {
         level.fields.push_back(read(ref, registers).template origin<Number>());
     }
+    level.masks.clear();
+    for (const Mask* const mask : pass.masks) level.masks.push_back(mask->origin());
     level.results.clear();
     level.written.clear();
     for (const StepProblem::Result& result : pass.results) {
@@ -288,8 +290,8 @@ void PassRunner::bind_as(Arguments<Number>& arguments, std::size_t number, std::
     }
     const LinkTable<Number> links =
         problem_.links ? problem_.links->template table<Number>() : LinkTable<Number>{};
-    level.given = {level.fields, pass.masks, level.uniforms, level.results,
-                   layout_,      links,      is_near,        sides_[pass_number].copied};
+    level.given = {level.fields, level.masks, level.uniforms, level.results,
+                   layout_,      links,       is_near,        sides_[pass_number].copied};
 }
 
 void PassRunner::run_cells(Worker& worker, std::size_t level, const Patch& cells) const {

@@ -61,6 +61,7 @@ public:
         StepMoment moment;
         std::vector<Number> uniforms;
         std::vector<const Number*> fields;
+        std::vector<const std::uint8_t*> masks;
         std::vector<Number*> results;
         std::vector<const Field*> written;  ///< The planes of the results.
         KernelArgumentsOf<Number> given;

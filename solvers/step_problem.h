@@ -105,12 +105,14 @@ struct StepProblem {
         std::vector<Convolution> convolutions;  ///< Done in order before the reductions.
         std::vector<Reduction> reductions;      ///< Done before the kernel is run.
         std::optional<SweepFilter> filter;      ///< Done after them, before the kernel is run.
-        KernelPointer kernel;
+        /// What the kernel computes; null if only its executable form is known.
+        std::shared_ptr<const CellKernel> source;
+        KernelPointer kernel;          ///< Null in a problem that is only described (bind_plan()).
         std::vector<PlaneRef> fields;  ///< By field slot of the kernel.
         /// By field slot: is it read in the cells to which links lead? Empty: all may be.
         std::vector<bool> read_by_links;
-        std::vector<const std::uint8_t*> masks;
-        std::vector<double> uniforms;  ///< Rounded in single precision.
+        std::vector<const Mask*> masks;  ///< By mask slot of the kernel.
+        std::vector<double> uniforms;    ///< Rounded in single precision.
         std::vector<ChangingUniform> changing;
         std::vector<Result> results;
     };

@@ -162,7 +162,7 @@ bool needs_all_rows(const StepProblem::Pass& pass) {
 
 std::int64_t bytes_of_step(const StepProblem& problem) {
     std::set<StepProblem::PlaneRef> planes;
-    std::set<const std::uint8_t*> masks;
+    std::set<const Mask*> masks;
     for (const StepProblem::Pass& pass : problem.passes) {
         planes.insert(pass.fields.begin(), pass.fields.end());
         for (const StepProblem::Result& result : pass.results) {

@@ -95,7 +95,7 @@ std::string describe(const PlanGraph& graph, const PassPlanner& planner, const S
     if (plan.step_invariants > 0)
         text += ", " + counted(plan.step_invariants, "step-invariant part");
     for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
-        const std::vector<std::string>& results = plan.passes[pass].bound.kernel.result_names;
+        const std::vector<std::string>& results = plan.passes[pass].bound.kernel->result_names;
         if (results.empty()) continue;
         text += fmt::format("\n  pass {}", pass + 1);
         if (!plan.passes[pass].solves.empty()) {

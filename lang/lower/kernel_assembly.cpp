@@ -111,7 +111,7 @@ ValueId KernelAssembly::within_mask(ValueId value, float outside) {
 }
 
 BoundKernel KernelAssembly::finish() && {
-    bound_.kernel = std::move(builder_).finish();
+    bound_.kernel = std::make_shared<const CellKernel>(std::move(builder_).finish());
     return std::move(bound_);
 }
 

@@ -131,13 +131,14 @@ void PlanBuilder::close(std::uint32_t pass) {
     values_.reset();
     BoundKernel& bound = plan_.passes[pass].bound;
     bound = std::move(*last_).finish();
-    if (request_.contracts) bound.kernel = contracted(bound.kernel);
+    if (request_.contracts)
+        bound.kernel = std::make_shared<const CellKernel>(contracted(*bound.kernel));
 }
 
 StepPlan PlanBuilder::finish() && {
     close(planner_.pass_count() - 1);
     Pass& last = plan_.passes.back();
-    while (last.targets.size() < last.bound.kernel.results.size()) {
+    while (last.targets.size() < last.bound.kernel->results.size()) {
         last.targets.push_back({ResultId(plan_.result_count++), false, {}, {}});
     }
     share_temporaries();

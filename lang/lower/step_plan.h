@@ -22,7 +22,7 @@ namespace cascade {
 
 /// A kernel, the sources of its slots and the targets of its results.
 struct BoundKernel {
-    CellKernel kernel;
+    std::shared_ptr<const CellKernel> kernel;  ///< Never null once the plan is complete.
     IdVector<FieldSlot, PlaneSource> fields;
     IdVector<MaskSlot, StageItem> masks;
     IdVector<UniformSlot, UniformSource> uniforms;

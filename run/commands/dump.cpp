@@ -40,9 +40,9 @@ std::string dump_ir(const Program& program) {
     std::string text;
     const auto section = [&](const Stage& stage, std::string_view what, const StepPlan& plan) {
         for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
-            if (plan.passes[pass].bound.kernel.results.empty()) continue;
+            if (plan.passes[pass].bound.kernel->results.empty()) continue;
             text += fmt::format("# stage '{}': {}{}\n{}\n", stage.name, what,
-                                pass_words(plan, pass), print(plan.passes[pass].bound.kernel));
+                                pass_words(plan, pass), print(*plan.passes[pass].bound.kernel));
         }
     };
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
@@ -84,7 +84,7 @@ Result<std::string> dump_code([[maybe_unused]] const Program& program,
         const StepPlan plan = plan_step(program, k, as_run);
         const Stencil stencil = program.domain.grid.stencil();
         for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
-            const CellKernel& kernel = plan.passes[pass].bound.kernel;
+            const CellKernel& kernel = *plan.passes[pass].bound.kernel;
             auto code =
                 assembly ? dump_assembly(kernel, stencil, {}) : dump_llvm(kernel, stencil, {});
             if (!code) return code;

@@ -1,17 +1,15 @@
-// Binds the solver's scheme to placeholder planes as a run would, then writes each pass as C
-// statements from the bound slots.
+// Binds the plans of a stage as a run would, though nothing has planes yet, then writes each pass
+// of the problem as C statements.
 #include "run/emit_c/c_stage.h"
 
 #include "core/overloaded.h"
 #include "lang/lower/lower.h"
 #include "run/emit_c/c_tables.h"
-#include "run/emit_c/placeholders.h"
 #include "run/stage/bound_kernel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 namespace cascade {
 
@@ -55,7 +53,10 @@ public:
           k_(request.stage),
           stage_(program_.stages[k_]),
           system_(program_.system_of(k_)),
-          tables_(request, result_) {}
+          tables_(request, result_) {
+        for (std::uint32_t k = 0; k <= k_; ++k)
+            states_.push_back(empty_state(program_.system_of(k)));
+    }
 
     Result<CStage> describe() {
         result_.name = request_.name;
@@ -125,69 +126,24 @@ private:
         return text + "    }\n";
     }
 
-    // The starting values and the values of sides, whose plans read planes without further sweeps.
-
-    /// The statements of a plan; `result(k)` is the plane of result k.
+    /// The statements of a plan other than that of a step; `result(k)` is the plane of result k.
     template <typename ResultPlane>
     std::string plan_text(const StepPlan& plan, const ResultPlane& result) {
+        const StepProblem problem = bind_plan(plan, {}, context());
         std::string text;
-        std::set<TemporaryId> with_halo;
-        for (const Pass& pass : plan.passes) {
-            for (const FieldSlot slot : pass.bound.fields.ids()) {
-                const auto* const id = std::get_if<TemporaryId>(&pass.bound.fields[slot]);
-                if (id != nullptr && pass.bound.kernel.reads_neighbours(slot)) {
-                    with_halo.insert(*id);
-                }
-            }
-        }
         if (plan.aggregates > 0)
             text += fmt::format("    float aggregates[{}];\n", plan.aggregates);
-        for (const Pass& pass : plan.passes) {
-            PassText lines;
-            lines.kernel = tables_.kernel(pass.bound.kernel);
-            for (const Reduction& each : pass.reductions) {
-                lines.before.push_back(
-                    reduction(each.aggregate.index(), each.kind, tables_.plane(each.operand)));
-            }
-            for (const PassTarget& target : pass.targets) {
-                if (const auto* const number = std::get_if<ResultId>(&target.id)) {
-                    lines.results.push_back(result(number->index()));
-                    continue;
-                }
-                const TemporaryId temporary = std::get<TemporaryId>(target.id);
-                lines.results.push_back(tables_.temporary(temporary.index()));
-                if (with_halo.contains(temporary)) {
-                    lines.after.push_back(fill(lines.results.back(), request_.name + "_boundary"));
-                }
-            }
-            add_reads(pass, lines);
-            for (const UniformSource& source : pass.bound.uniforms) {
-                lines.uniforms.push_back(start_uniform(source));
-            }
-            text += write(lines);
+        for (std::size_t number = 0; number < plan.passes.size(); ++number) {
+            text += pass_text(problem, number, plan.passes[number], true,
+                              [&](SpeciesPlane of) { return result(of.species.index()); });
         }
         return plan.aggregates > 0 ? "    {\n" + text + "    }\n" : text;
     }
 
-    /// Adds the planes that passes read but do not change; the halo of those read at neighbours is
-    /// filled before the pass.
-    void add_reads(const Pass& pass, PassText& lines) {
-        for (const FieldSlot slot : pass.bound.fields.ids()) {
-            const PlaneSource& source = pass.bound.fields[slot];
-            lines.fields.push_back(tables_.plane(source));
-            if (std::holds_alternative<TemporaryId>(source)) continue;
-            if (!pass.bound.kernel.reads_neighbours(slot)) continue;
-            lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
-        }
-        for (const StageItem item : pass.bound.masks) lines.masks.push_back(tables_.mask(item));
-    }
-
-    std::string start_uniform(const UniformSource& source) {
-        if (const auto* const item = std::get_if<StageItem>(&source)) return tables_.number(*item);
-        if (const auto* const id = std::get_if<AggregateId>(&source)) {
-            return fmt::format("aggregates[{}]", id->index());
-        }
-        return "0";  // Step and time are 0 when a stage starts.
+    /// Where a run would have its values. Planes of stages stay empty.
+    BindingContext context() const {
+        return {states_, request_.files, 0, program_.domain.grid, Precision::single,
+                0,       request_.metric};
     }
 
     void describe_start() {
@@ -245,10 +201,8 @@ private:
         for (const Sweep& sweep : request_.scheme.sweeps) {
             for (const Pass& pass : plans[sweep.form].passes) passes.push_back(&pass);
         }
-        const Placeholders places(program_, k_);
-        const auto no_kernel = [](const CellKernel&) { return KernelPointer(); };
         const StepProblem problem =
-            bind_scheme(request_.scheme, plans, {}, no_kernel, places.context(), system_, k_);
+            bind_scheme(request_.scheme, plans, {}, {}, context(), system_, k_);
         result_.scratch_registers = problem.registers - first_scratch_register.index();
         result_.step_aggregates = problem.aggregates;
         for (std::size_t species = 0; species < system_.species_count(); ++species) {
@@ -257,14 +211,18 @@ private:
                                                          species_rules(species)));
         }
         for (std::size_t number = 0; number < passes.size(); ++number) {
-            result_.step += step_pass(problem, number, *passes[number]);
+            result_.step += pass_text(problem, number, *passes[number], false,
+                                      [&](SpeciesPlane of) { return register_text(of); });
         }
     }
 
-    std::string step_pass(const StepProblem& problem, std::size_t number, const Pass& pass) {
+    /// A pass of a bound plan. `written` names the plane of a result that is no temporary.
+    template <typename Written>
+    std::string pass_text(const StepProblem& problem, std::size_t number, const Pass& pass,
+                          bool starts, const Written& written) {
         const StepProblem::Pass& bound = problem.passes[number];
         PassText lines;
-        lines.kernel = tables_.kernel(pass.bound.kernel);
+        lines.kernel = tables_.kernel(*bound.source);
         const auto plane = [&](const StepProblem::PlaneRef& ref, const PlaneSource& source) {
             const auto* const own = std::get_if<SpeciesPlane>(&ref);
             return own != nullptr ? register_text(*own) : tables_.plane(source);
@@ -273,19 +231,6 @@ private:
             lines.before.push_back(
                 reduction(bound.reductions[k].aggregate.index(), bound.reductions[k].kind,
                           plane(bound.reductions[k].operand, pass.reductions[k].operand)));
-        }
-        for (const FieldSlot slot : pass.bound.fields.ids()) {
-            const PlaneSource& source = pass.bound.fields[slot];
-            const StepProblem::PlaneRef& ref = bound.fields[slot.index()];
-            lines.fields.push_back(plane(ref, source));
-            if (std::holds_alternative<const Field*>(ref) &&
-                pass.bound.kernel.reads_neighbours(slot)) {
-                lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
-            }
-        }
-        for (const StageItem item : pass.bound.masks) lines.masks.push_back(tables_.mask(item));
-        for (const UniformSlot slot : pass.bound.uniforms.ids()) {
-            lines.uniforms.push_back(step_uniform(bound, slot, pass.bound.uniforms[slot]));
         }
         for (const StepProblem::Result& result : bound.results) {
             if (const auto* const temporary = std::get_if<TemporaryId>(&result.plane)) {
@@ -296,11 +241,23 @@ private:
                 continue;
             }
             const auto own = std::get<SpeciesPlane>(result.plane);
-            lines.results.push_back(register_text(own));
+            lines.results.push_back(written(own));
             if (result.needs_halo && is_read_at_neighbours_later(problem, number, own)) {
                 lines.after.push_back(
                     fill(lines.results.back(), species_rules(own.species.index())));
             }
+        }
+        for (const FieldSlot slot : pass.bound.fields.ids()) {
+            const PlaneSource& source = pass.bound.fields[slot];
+            const StepProblem::PlaneRef& ref = bound.fields[slot.index()];
+            lines.fields.push_back(plane(ref, source));
+            if (std::holds_alternative<const Field*>(ref) && bound.source->reads_neighbours(slot)) {
+                lines.before.push_back(fill(lines.fields.back(), rules_of(source)));
+            }
+        }
+        for (const StageItem item : pass.bound.masks) lines.masks.push_back(tables_.mask(item));
+        for (const UniformSlot slot : pass.bound.uniforms.ids()) {
+            lines.uniforms.push_back(uniform(bound, slot, pass.bound.uniforms[slot], starts));
         }
         return write(lines);
     }
@@ -317,8 +274,8 @@ private:
         return false;
     }
 
-    std::string step_uniform(const StepProblem::Pass& bound, UniformSlot slot,
-                             const UniformSource& source) {
+    std::string uniform(const StepProblem::Pass& bound, UniformSlot slot,
+                        const UniformSource& source, bool starts) {
         const Overloaded text{
             [](StepProblem::CompleteSteps) -> std::string { return "(float)s->steps"; },
             [&](StepProblem::StepDraw) { return fmt::format("{}_draw(s->steps)", request_.name); },
@@ -335,7 +292,10 @@ private:
             },
         };
         for (const StepProblem::ChangingUniform& changing : bound.changing) {
-            if (changing.slot == slot) return std::visit(text, changing.value);
+            if (changing.slot != slot) continue;
+            // Step and time are 0 when a stage starts.
+            const bool is_aggregate = std::holds_alternative<AggregateId>(changing.value);
+            return starts && !is_aggregate ? "0" : std::visit(text, changing.value);
         }
         return tables_.number(std::get<StageItem>(source));
     }
@@ -356,6 +316,7 @@ private:
     std::uint32_t k_;
     const Stage& stage_;
     const System& system_;
+    std::vector<StageState> states_;
     CStage result_;
     CTables tables_;
     std::string error_;

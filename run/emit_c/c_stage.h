@@ -7,7 +7,6 @@
 #include "ir/cell_kernel.h"
 #include "lang/program/program.h"
 #include "run/domain/input_files.h"
-#include "run/emit_c/known_numbers.h"
 #include "solvers/scheme.h"
 
 #include <array>
@@ -17,6 +16,9 @@
 #include <vector>
 
 namespace cascade {
+
+/// By stage and item: the values of uniform items that can be computed without any field.
+using KnownNumbers = std::vector<IdVector<ItemId, std::optional<float>>>;
 
 /// An entry of a table: `identifier` is its index in C, as in NAME_PLANE_BETA.
 struct CEntry {

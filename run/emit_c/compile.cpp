@@ -2,12 +2,14 @@
 #include "run/emit_c/compile.h"
 
 #include "core/near_name.h"
+#include "ir/interpreter.h"
 #include "lang/calculus/side_values.h"
 #include "lang/lower/lower.h"
 #include "run/domain/metric_planes.h"
 #include "run/emit_c/c_header.h"
 #include "run/emit_c/c_stage.h"
 #include "run/simulation/stage_sizes.h"
+#include "run/stage/plan_runner.h"
 #include "run/stage/stage_time.h"
 #if CASCADE_HAS_JIT
 #include "jit/jit.h"
@@ -15,12 +17,58 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 
 namespace cascade {
 
 namespace {
+
+/// True if a formula reads a number that is unknown.
+bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbers& numbers,
+                   const Program& program) {
+    return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
+        const auto is_unknown = [&](StageItem item) {
+            return program.stages[item.stage].uniform[item.item] && !numbers[item.stage][item.item];
+        };
+        const auto* earlier = node.as<StageItem>();
+        if (earlier != nullptr) return is_unknown(*earlier);
+        return node.is<ItemId>() && is_unknown({stage, *node.as<ItemId>()});
+    });
+}
+
+/// For stages 0 … `last`: interprets the uniform starting values on one cell. A value that depends
+/// on an unknown one is unknown.
+KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
+    KnownNumbers numbers;
+    std::vector<StageState> states;
+    const InputFiles no_files;
+    const auto interpreter = make_interpreter();
+    const Grid one{1, 1, Boundary::periodic};
+    Team team(1);
+    const auto compile = [&](const CellKernel& kernel) {
+        return *interpreter->compile(kernel, one.stencil());
+    };
+    for (std::uint32_t k = 0; k <= last; ++k) {
+        const Stage& stage = program.stages[k];
+        const StepPlan plan = plan_uniform_start(program, k);
+        states.push_back(empty_state(program.system_of(k)));
+        const auto values = run_plan(plan, compile, {states, no_files, 0, one}, one, team);
+        auto& known = numbers.emplace_back(stage.items.size());
+        IdVector<ItemId, std::optional<float>> computed(stage.items.size());
+        for (std::size_t r = 0; r < values.size(); ++r) {
+            computed[plan.results[r]] = values[r].at(0, 0);
+            states[k].numbers[plan.results[r]] = values[r].at(0, 0);
+        }
+        // In the order of evaluation, so that operands come first.
+        for (const ItemId item : stage.order) {
+            if (!reads_unknown(stage.items[item], k, numbers, program))
+                known[item] = computed[item];
+        }
+    }
+    return numbers;
+}
 
 /// Marks parameters as varying, so that the kernel takes a plane for each.
 Result<void> make_per_cell(Program& program, std::uint32_t k,

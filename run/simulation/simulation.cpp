@@ -123,7 +123,7 @@ struct Simulation::Implementation {
             const Scheme scheme = make_scheme(stage.time.solver, species, steps_by_item(stage));
             for (const SweepForm& form : scheme.forms) {
                 for (const Pass& pass : environment().plans->sweep(later, form).passes) {
-                    kernels.expect(pass.bound.kernel);
+                    kernels.expect(*pass.bound.kernel);
                 }
             }
         }
@@ -298,16 +298,8 @@ StepWork Simulation::step_work(std::uint32_t k) {
     CHECK(state.started, "a stage is started before its steps are counted");
     const StepInvariants invariants = find_step_invariants(self_->stages->own_view(k));
     const StageView view(self_->stages->environment(k), self_->stages->states(k), k, &invariants);
-    KnownKernels kernels;
-    // Nothing is run, so nothing is compiled.
-    const Compile note = [&kernels, interpret = self_->environment().kernels->interpreted()](
-                             const CellKernel& kernel) {
-        KernelPointer made = interpret(kernel);
-        kernels.emplace(made.get(), kernel);
-        return made;
-    };
-    StageTimer timer(view.program(), k, state, stage_tools(view, note));
-    return work_of(timer.problem(), kernels);
+    StageTimer timer(view.program(), k, state, stage_tools(view, {}));  // Nothing is run.
+    return work_of(timer.problem());
 }
 
 const Program& Simulation::program() const { return *self_->environment().program; }

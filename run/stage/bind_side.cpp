@@ -16,7 +16,7 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId sp
     ChangingSide changing;
     changing.species = species;
     changing.side = side;
-    changing.kernel = compile(bound.kernel);
+    changing.kernel = compile(*bound.kernel);
     changing.precision = context.precision;
     changing.varies = !plans.each.is_uniform;
     const StageState& own = context.states[stage];

@@ -64,7 +64,7 @@ std::int64_t cells_inside(const BindingContext& context) {
 
 /// Does it read a component of a gradient on a model?
 bool reads_gradients(const Pass& pass) {
-    const auto& code = pass.bound.kernel.code;
+    const auto& code = pass.bound.kernel->code;
     return std::any_of(code.begin(), code.end(), [](const Instruction& instruction) {
         const Op op = instruction.op;
         return op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
@@ -129,7 +129,8 @@ public:
             for (const Solve& solve : pass.solves) {
                 problem_.passes.back().solves.push_back(bind_constraint(solve, compile));
             }
-            problem_.passes.back().kernel = compile(pass.bound.kernel);
+            problem_.passes.back().source = pass.bound.kernel;
+            if (compile) problem_.passes.back().kernel = compile(*pass.bound.kernel);
         }
         return std::move(problem_);
     }
@@ -288,11 +289,13 @@ private:
     void find_halos(const Pass& pass) {
         for (const FieldSlot slot : pass.bound.fields.ids()) {
             if (context_.grid.linked) continue;  // Links need no halo.
-            if (!pass.bound.kernel.reads_neighbours(slot)) continue;
+            if (!pass.bound.kernel->reads_neighbours(slot)) continue;
             const Overloaded note{
                 [&](SpeciesPlane own) { problem_.species_needs_halo[own.species.index()] = true; },
                 [&](TemporaryId id) { temporary_needs_halo_[id] = true; },
-                [&](const Field* field) { field->fill_halo(sides_of(pass.bound.fields[slot])); },
+                [&](const Field* field) {
+                    if (!field->empty()) field->fill_halo(sides_of(pass.bound.fields[slot]));
+                },
             };
             std::visit(note, bind_plane(pass.bound.fields[slot]));
         }
@@ -315,17 +318,17 @@ private:
         }
         if (context_.tissue) {
             bound.read_by_links.assign(bound.fields.size(), false);
-            for (const Instruction& each : pass.bound.kernel.code) {
+            for (const Instruction& each : pass.bound.kernel->code) {
                 CHECK(!is_link_sum(each.op), "links between cells that crawl have no weights");
                 if (each.op == Op::theirs) bound.read_by_links[each.field().index()] = true;
             }
         }
         for (const StageItem mask : pass.bound.masks) {
-            bound.masks.push_back(context_.states[mask.stage].frozen_cells().origin());
+            bound.masks.push_back(&context_.states[mask.stage].frozen_cells());
         }
         for (const UniformSource& source : pass.bound.uniforms) bind_uniform(source, bound);
         for (const PassTarget& target : pass.targets) bound.results.push_back(bind_result(target));
-        check_overwritten(pass.bound.kernel, bound);
+        check_overwritten(*pass.bound.kernel, bound);
         return bound;
     }
 

@@ -61,7 +61,8 @@ struct BindingContext {
 /// The plane of a slot whose values lie in one, other than a temporary.
 const Field& plane_of(const PlaneSource& source, const BindingContext& context);
 
-/// Creates a kernel that can be run.
+/// Creates a kernel that can be run. An empty function creates none: the problem then only
+/// describes a step, and stages that it reads need not have planes.
 using Compile = std::function<KernelPointer(const CellKernel&)>;
 
 /// The passes of a plan with all slots bound. Species of `stage` are those of the old register,

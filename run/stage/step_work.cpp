@@ -24,9 +24,8 @@ double links_of(const StepProblem& problem) {
 
 class WorkCounter {
 public:
-    WorkCounter(const StepProblem& problem, const KnownKernels& kernels)
+    explicit WorkCounter(const StepProblem& problem)
         : problem_(problem),
-          kernels_(kernels),
           word_(problem.precision == Precision::single ? sizeof(float) : sizeof(double)) {
         work_.links = links_of(problem);
     }
@@ -45,9 +44,8 @@ private:
         for (const StepProblem::Reduction& reduction : pass.reductions) add(reduction);
         if (pass.filter || !pass.convolutions.empty() || !pass.solves.empty())
             work_.has_waves = true;
-        const auto known = kernels_.find(pass.kernel.get());
-        CHECK(known != kernels_.end(), "the kernels of a problem are known");
-        const KernelCost cost = cost_of(known->second, problem_.grid.stencil(), work_.links);
+        CHECK(pass.source, "what a pass computes is known");
+        const KernelCost cost = cost_of(*pass.source, problem_.grid.stencil(), work_.links);
         work_.cost += cost;
         // Two slots may refer to one plane.
         const std::set<StepProblem::PlaneRef> read(pass.fields.begin(), pass.fields.end());
@@ -69,18 +67,15 @@ private:
     }
 
     const StepProblem& problem_;
-    const KnownKernels& kernels_;
     double word_;            ///< Bytes of a number.
     double link_bytes_ = 0;  ///< Per cell, for the pass that reads most.
     std::set<StepProblem::PlaneRef> touched_;
-    std::set<const std::uint8_t*> masks_;
+    std::set<const Mask*> masks_;
     StepWork work_;
 };
 
 }  // namespace
 
-StepWork work_of(const StepProblem& problem, const KnownKernels& kernels) {
-    return WorkCounter(problem, kernels).count();
-}
+StepWork work_of(const StepProblem& problem) { return WorkCounter(problem).count(); }
 
 }  // namespace cascade

@@ -5,7 +5,6 @@
 #include "solvers/step_problem.h"
 
 #include <cstddef>
-#include <unordered_map>
 
 namespace cascade {
 
@@ -23,10 +22,7 @@ struct StepWork {
     bool has_waves = false;  ///< The step also filters waves, which is not counted.
 };
 
-/// The source kernels of a problem.
-using KnownKernels = std::unordered_map<const Kernel*, CellKernel>;
-
-/// The work of a step; the source of every kernel of the problem must be known.
-StepWork work_of(const StepProblem& problem, const KnownKernels& kernels);
+/// The work of a step, all of whose passes have a source.
+StepWork work_of(const StepProblem& problem);
 
 }  // namespace cascade

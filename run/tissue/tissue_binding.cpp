@@ -39,7 +39,7 @@ Result<Links> links_between(const Tissue& tissue, const TissueStage& stage,
 bool reads_links(const StepPlan& plan) {
     const auto is_link = [](const Instruction& each) { return each.op == Op::theirs; };
     return std::ranges::any_of(plan.passes, [&](const Pass& pass) {
-        const auto& code = pass.bound.kernel.code;
+        const auto& code = pass.bound.kernel->code;
         return std::any_of(code.begin(), code.end(), is_link);
     });
 }

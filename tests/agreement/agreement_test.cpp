@@ -91,8 +91,8 @@ void compare_random_scripts(Precision precision, int scripts) {
         Script script = load_script("random", text, ".", overrides);
         for (std::uint32_t k = 0; k < script.program->stages.size(); ++k) {
             for (const Pass& pass : plan_step(*script.program, k).passes) {
-                EXPECT_EQ(verify(pass.bound.kernel), "") << text;
-                counts.add(pass.bound.kernel);
+                EXPECT_EQ(verify(*pass.bound.kernel), "") << text;
+                counts.add(*pass.bound.kernel);
             }
         }
     }

@@ -22,7 +22,7 @@ void lower_stages(const Program& program) {
                                      plan_step(program, stage), plan_rates(program, stage),
                                      plan_view(program, program.stages[stage].show, stage)}) {
             for (const Pass& pass : plan.passes) {
-                CHECK(verify(pass.bound.kernel).empty(),
+                CHECK(verify(*pass.bound.kernel).empty(),
                       "every kernel that lowering makes is sound");
             }
         }
@@ -37,7 +37,7 @@ void lower_picture(const ast::Script& script, Program& program, const Sources& s
     const auto view = check_view(script, *expression, last, last, program, sources, diagnostics);
     if (!view) return;
     for (const Pass& pass : plan_view(program, *view, last).passes) {
-        CHECK(verify(pass.bound.kernel).empty(), "the kernel of a picture is sound");
+        CHECK(verify(*pass.bound.kernel).empty(), "the kernel of a picture is sound");
     }
 }
 

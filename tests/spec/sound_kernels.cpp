@@ -13,7 +13,7 @@ void expect_sound_kernels(const Program& program) {
                                      plan_step(program, stage), plan_rates(program, stage),
                                      plan_view(program, program.stages[stage].show, stage)}) {
             for (const Pass& pass : plan.passes) {
-                EXPECT_EQ(verify(pass.bound.kernel), "") << "stage " << stage + 1;
+                EXPECT_EQ(verify(*pass.bound.kernel), "") << "stage " << stage + 1;
             }
         }
     }

@@ -107,7 +107,7 @@ public:
             }
             for (const StepPlan& plan : plans) {
                 for (std::size_t pass = 0; pass < plan.passes.size(); ++pass) {
-                    const CellKernel& kernel = plan.passes[pass].bound.kernel;
+                    const CellKernel& kernel = *plan.passes[pass].bound.kernel;
                     const std::uint64_t key = 16 * hash(kernel) + grid.stencil().number();
                     if (kernel.results.empty() || !known_.insert(key).second) continue;
                     add(kernel, grid, known_.size(),

@@ -114,7 +114,7 @@ void compare_random_formulas(std::uint64_t first_seed, std::uint64_t count) {
         auto jit = make_jit({std::array{4, 8, 16}[seed % 3], 2});
         ASSERT_TRUE(jit);
         for (const Pass& pass : plan_rates(*program, 0).passes) {
-            const CellKernel& kernel = pass.bound.kernel;
+            const CellKernel& kernel = *pass.bound.kernel;
             ASSERT_EQ(verify(kernel), "") << text;
             const Grid grid = rows_of_cells(20 + static_cast<std::int64_t>(seed % 50));
             EXPECT_EQ(same_bits(run_kernel(*interpreter, kernel, grid, seed),

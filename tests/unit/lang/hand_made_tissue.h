@@ -135,7 +135,7 @@ private:
     }
 
     std::vector<Values> run(const BoundKernel& bound) {
-        EXPECT_EQ(verify(bound.kernel), "");
+        EXPECT_EQ(verify(*bound.kernel), "");
         std::vector<Plane<double>> planes, results;
         std::vector<const double*> fields;
         std::vector<double*> targets;
@@ -144,11 +144,11 @@ private:
             fields.push_back(planes.emplace_back(plane_of(source(each))).origin());
         }
         for (const UniformSource& each : bound.uniforms) uniforms.push_back(uniform(each));
-        for (std::size_t k = 0; k < bound.kernel.results.size(); ++k) {
+        for (std::size_t k = 0; k < bound.kernel->results.size(); ++k) {
             targets.push_back(results.emplace_back(layout_).origin());
         }
         const KernelPointer kernel =
-            make_interpreter()->compile(bound.kernel, Stencil::linked).value();
+            make_interpreter()->compile(*bound.kernel, Stencil::linked).value();
         kernel->run({fields, {}, uniforms, targets, layout_, links_.table<double>()},
                     {0, layout_.height});
         std::vector<Values> values(results.size(), Values(count_));

@@ -114,7 +114,7 @@ private:
 
     std::vector<Field> run(const BoundKernel& bound, std::uint32_t stage,
                            const PlaneLayout& layout) {
-        EXPECT_EQ(verify(bound.kernel), "");
+        EXPECT_EQ(verify(*bound.kernel), "");
         const FlushDenormals environment;
         std::vector<const float*> fields;
         for (const PlaneSource& source : bound.fields) {
@@ -145,12 +145,12 @@ private:
         }
         std::vector<Field> results;
         std::vector<float*> origins;
-        for (std::size_t k = 0; k < bound.kernel.results.size(); ++k) {
+        for (std::size_t k = 0; k < bound.kernel->results.size(); ++k) {
             results.emplace_back(layout);
             origins.push_back(results.back().origin());
         }
         const Stencil stencil = Grid{layout.width, layout.height, {}, layout.depth}.stencil();
-        const KernelPointer kernel = make_interpreter()->compile(bound.kernel, stencil).value();
+        const KernelPointer kernel = make_interpreter()->compile(*bound.kernel, stencil).value();
         kernel->run({fields, mask_origins, uniforms, origins, layout}, {0, layout.row_count()});
         return results;
     }

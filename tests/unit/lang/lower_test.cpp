@@ -78,9 +78,10 @@ TEST(Lower, StepsClampAndFreeze) {
     }
     const BoundKernel step = only_pass(plan_step(*checked->program, 0));
     ASSERT_EQ(step.masks.size(), 1u);
-    EXPECT_THAT(step.kernel.mask_names, ElementsAre("frozen"));
-    EXPECT_THAT(step.kernel.field_names, ElementsAre("u"));
-    EXPECT_THAT(step.kernel.uniform_names, ::testing::UnorderedElementsAre("rate", "speed", "low"));
+    EXPECT_THAT(step.kernel->mask_names, ElementsAre("frozen"));
+    EXPECT_THAT(step.kernel->field_names, ElementsAre("u"));
+    EXPECT_THAT(step.kernel->uniform_names,
+                ::testing::UnorderedElementsAre("rate", "speed", "low"));
     EXPECT_THAT(step.results, ElementsAre(ItemId(0)));
 }
 
@@ -89,7 +90,7 @@ TEST(Lower, UniformFrozenIsNotInTheKernel) {
     ASSERT_TRUE(checked->program);
     const BoundKernel step = only_pass(plan_step(*checked->program, 0));
     EXPECT_TRUE(step.masks.empty());
-    EXPECT_THAT(step.kernel.uniform_names, ::testing::Not(::testing::Contains("frozen")));
+    EXPECT_THAT(step.kernel->uniform_names, ::testing::Not(::testing::Contains("frozen")));
 }
 
 TEST(Lower, TimeAndStep) {
@@ -209,14 +210,14 @@ TEST(Lower, UniformParametersAreSlotsAndNeverConstants) {
     const auto checked = check_text("system_name: turing_spots\n");
     ASSERT_TRUE(checked->program);
     const BoundKernel step = only_pass(plan_step(*checked->program, 0));
-    EXPECT_THAT(step.kernel.uniform_names,
+    EXPECT_THAT(step.kernel->uniform_names,
                 ::testing::UnorderedElementsAre("speed", "ka", "diff_a", "diff_b"));
-    EXPECT_THAT(step.kernel.field_names, ElementsAre("a", "b", "beta"));
-    EXPECT_TRUE(step.kernel.reads_neighbours(FieldSlot(0)));
-    EXPECT_FALSE(step.kernel.reads_neighbours(FieldSlot(2)));
+    EXPECT_THAT(step.kernel->field_names, ElementsAre("a", "b", "beta"));
+    EXPECT_TRUE(step.kernel->reads_neighbours(FieldSlot(0)));
+    EXPECT_FALSE(step.kernel->reads_neighbours(FieldSlot(2)));
     const BoundKernel view =
         only_pass(plan_view(*checked->program, checked->program->stages[0].show, 0));
-    EXPECT_THAT(view.kernel.field_names, ElementsAre("b"));
+    EXPECT_THAT(view.kernel->field_names, ElementsAre("b"));
 }
 
 TEST(Lower, LongFormulas) {
@@ -231,7 +232,7 @@ TEST(Lower, LongFormulas) {
     for (int i = 1; i < 100'000; ++i) definitions += fmt::format("d{} = d{} + 1\n", i, i - 1);
     const auto checked = check_text(definitions + "}\nstage one: s {}\n");
     ASSERT_TRUE(checked->program);
-    EXPECT_EQ(verify(only_pass(plan_step(*checked->program, 0)).kernel), "");
+    EXPECT_EQ(verify(*only_pass(plan_step(*checked->program, 0)).kernel), "");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ StepPlan step_of(const std::string& statements,
     EXPECT_TRUE(checked->program) << statements;
     if (!checked->program) return {};
     StepPlan plan = plan_step(*checked->program, 0, options);
-    for (const Pass& pass : plan.passes) EXPECT_EQ(verify(pass.bound.kernel), "") << statements;
+    for (const Pass& pass : plan.passes) EXPECT_EQ(verify(*pass.bound.kernel), "") << statements;
     return plan;
 }
 

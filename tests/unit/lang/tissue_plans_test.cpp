@@ -297,7 +297,7 @@ TEST(TissuePlans, StartAgainAfterADivision) {
 CellKernel last_kernel(const std::string& script) {
     const auto checked = check_text(script);
     for (const std::string& fault : checked->faults()) ADD_FAILURE() << fault;
-    return plan_rates(*checked->program, 0).passes.back().bound.kernel;
+    return *plan_rates(*checked->program, 0).passes.back().bound.kernel;
 }
 
 std::ptrdiff_t count_of(const CellKernel& kernel, Op op) {

@@ -40,7 +40,7 @@ struct Mixture {
         problem.species_needs_halo[2] = false;
         problem.passes[0].results[2].needs_halo = false;
         problem.passes[0].fields.push_back(fixed_plane(parameter));
-        problem.passes[0].masks = {frozen.origin()};
+        problem.passes[0].masks = {&frozen};
         problem.passes[0].uniforms = {7, -1};
         problem.passes[0].changing = {{UniformSlot(1), StepProblem::CompleteSteps{}}};
     }
@@ -176,7 +176,7 @@ TEST(Advance, NeighboursReadFrozenCells) {
     });
     Mask frozen{PlaneLayout(grid)};
     frozen.at(0, 0) = 1;
-    problem.passes[0].masks = {frozen.origin()};
+    problem.passes[0].masks = {&frozen};
     std::vector<Field> species;
     species.push_back(make_field(grid, [](auto i, auto) { return i == 0 ? 8.0 : 0.0; }));
     advance_quietly(problem, {.last_step = 2}, species);
@@ -329,7 +329,7 @@ StepProblem exploding(const Grid& grid, const Mask& where) {
         results[0] = cell.field(0);
         results[1] = cell.mask(0) ? cell.field(1) * 4 : cell.field(1);
     });
-    problem.passes[0].masks = {where.origin()};
+    problem.passes[0].masks = {&where};
     return problem;
 }
 

@@ -38,7 +38,7 @@ StepProblem heat(const Grid& grid, const Mask* frozen) {
     }
     builder.result("c", next);
     StepProblem problem = make_problem(grid, 1, interpreted(std::move(builder), grid));
-    if (frozen) problem.passes[0].masks = {frozen->origin()};
+    if (frozen) problem.passes[0].masks = {frozen};
     problem.passes[0].uniforms = {0.125f};
     return problem;
 }

@@ -225,7 +225,7 @@ private:
             pass.fields.push_back(plane);
             own_only.push_back(is_result || !dice_.often());
         }
-        if (dice_.below(3) == 0) pass.masks = {mask_.origin()};
+        if (dice_.below(3) == 0) pass.masks = {&mask_};
         pass.uniforms = {0.1};
         if (dice_.often()) pass.changing = {{UniformSlot(0), StepProblem::MomentAt{0.5}}};
         pass.kernel = std::make_shared<SumKernel<Number>>(own_only, problem_.grid.stencil());
