@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/option_values.h"
+#include "core/file_format.h"
 #include "core/result.h"
 
 #include <CLI/CLI.hpp>
@@ -48,6 +49,10 @@ inline auto odd_number(std::int64_t low, std::int64_t high) {
         }
         return number;
     };
+}
+
+inline auto path_of(FormatKind kind) {
+    return [=](const std::string& text) { return parse_path_of(kind, text); };
 }
 
 inline auto one_of(std::vector<std::string> choices) {

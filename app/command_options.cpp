@@ -2,6 +2,7 @@
 #include "app/command_options.h"
 
 #include "app/option_groups.h"
+#include "core/file_format.h"
 
 #include <CLI/CLI.hpp>
 
@@ -105,7 +106,8 @@ void palettes(CLI::App& command, Options& options) {
         .add_option("WORDS", options.words,
                     "Names of palettes, or colours of one's own in quotes; without them all")
         ->type_name("");
-    add_output(command, options.sheet, "A sheet of them, .png, .svg or .pdf");
+    add_output(command, options.sheet,
+               "A sheet of them, " + endings_of(FormatTrait::drawing, "or"));
 }
 
 void format(CLI::App& command, Options& options) {

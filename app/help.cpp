@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+#include <sstream>
+
 namespace cascade::help {
 
 const std::string_view about =
@@ -153,6 +156,11 @@ std::string in_lines(const std::vector<std::string>& names) {
         text += name;
     }
     return text;
+}
+
+std::string in_lines(const std::string& text) {
+    std::istringstream words(text);
+    return in_lines(std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
 }
 
 std::string version_text() {

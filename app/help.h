@@ -26,6 +26,8 @@ extern const std::string_view view, view_examples;
 
 /// The names in lines that fit into the column of descriptions.
 std::string in_lines(const std::vector<std::string>& names);
+/// The same for the words of a text.
+std::string in_lines(const std::string& text);
 
 std::string version_text();
 

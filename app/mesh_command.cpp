@@ -3,6 +3,7 @@
 #include "app/exit_status.h"
 #include "app/interrupt.h"
 #include "core/enough_memory.h"
+#include "core/file_format.h"
 #include "run/domain/describe_model.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/plain_model.h"
@@ -81,9 +82,9 @@ std::optional<Failure> misuse(const Options& options) {
     if (options.models.size() > 1) {
         return Failure{"-o is the file of one model, and several are given", ""};
     }
-    if (options.mesh_files.unwrap && !holds_texture(options.mesh_output)) {
+    if (options.mesh_files.unwrap && !can_hold(options.mesh_output, FormatTrait::texture)) {
         return Failure{"'" + options.mesh_output.string() + "' cannot hold texture coordinates",
-                       ".glb, .obj and .ply files can"};
+                       endings_of(FormatTrait::texture, "and") + " files can"};
     }
     return std::nullopt;
 }

@@ -1,6 +1,7 @@
 // Options of `cascade analyze`.
 #include "app/add_value.h"
 #include "app/option_groups.h"
+#include "core/file_format.h"
 
 namespace cascade::option_groups {
 
@@ -29,10 +30,13 @@ void add_analyze(CLI::App& app, Options& options) {
     app.add_flag("--json", analyze.as_json, "The result as JSON instead of words")->group(group);
     const auto parse_output = [](const std::string& text) -> Result<std::string> {
         if (is_analysis_output(text)) return text;
-        return failure(fmt::format("'{}' does not end in .svg, .pdf, .png or .json", text));
+        return failure(fmt::format("'{}' does not end in {} or {}", text,
+                                   endings_of(FormatTrait::drawing),
+                                   endings_of(FormatKind::report)));
     };
     add_value(app, "-o,--output", "FILE",
-              "FILE.svg, .pdf or .png, the dispersion relation or the\nmap as a plot; FILE.json",
+              fmt::format("FILE{}, the dispersion relation or the\nmap as a plot; FILE{}",
+                          endings_of(FormatTrait::drawing, "or"), endings_of(FormatKind::report)),
               parse_output, [&](auto path) { analyze.output = path; })
         ->group(group);
 }

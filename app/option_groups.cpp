@@ -3,6 +3,7 @@
 
 #include "app/add_value.h"
 #include "app/help.h"
+#include "core/file_format.h"
 #include "core/palette.h"
 #include "lang/program/models.h"
 #include "lang/program/program.h"
@@ -236,15 +237,18 @@ void add_files(CLI::App& app, RunRequest& run) {
                    run.outputs.emplace_back(value_or_throw(parse_output_path(path), "--output"));
                }
            },
-           "The picture, .png; without it SCRIPT.png in this\nfolder; a film, .gif, .webp, .apng, "
-           ".mp4, .webm; of a\nmodel also .ply, .obj, .glb, .vtp, .stl, and its cells .npz,\n.cells.vtp; "
-           "may be given again")
+           help::in_lines(fmt::format(
+               "The picture, {}; without it SCRIPT.png in this folder; a figure, {}; a film, {}; of a "
+               "model also {}, and its cells, {}; may be given again",
+               endings_of(FormatKind::picture), endings_of(FormatKind::figure),
+               endings_of(FormatKind::film), endings_of(FormatKind::model),
+               endings_of(FormatKind::cells))))
         ->allow_extra_args(false)
         ->trigger_on_parse()
         ->type_name("FILE")
         ->group(group);
     add_value(app, "--sheet", "FILE.png", "All species of all stages in one labelled picture",
-              parse_png_path, [&](auto path) { run.sheet = path; })
+              path_of(FormatKind::picture), [&](auto path) { run.sheet = path; })
         ->group(group);
     add_value(app, "--frames", "FOLDER", "A picture at each interval, all in one range",
               parse_frames_folder, [&](auto path) { run.frames = path; })
@@ -267,12 +271,12 @@ void add_files(CLI::App& app, RunRequest& run) {
         ->group(group);
     add_value(app, "--volume", "FILE",
               "All species of the last stage: .vti for ParaView, .vdb\nfor Blender and renderers",
-              parse_volume_path, [&](auto path) { run.volume = path; })
+              path_of(FormatKind::volume), [&](auto path) { run.volume = path; })
         ->group(group);
     add_value(
         app, "--series", "FILE.pvd",
         "All species at each interval, for ParaView: the list of\nfiles in a folder beside it",
-        parse_pvd_path, [&](auto path) { run.series = path; })
+        path_of(FormatKind::series), [&](auto path) { run.series = path; })
         ->group(group);
     CLI::Option* const save =
         add_value(app, "--save", "FOLDER", "Every field as STAGE.NAME.npy, to read or to resume",
@@ -290,9 +294,9 @@ void add_files(CLI::App& app, RunRequest& run) {
     app.add_flag("--retile", run.model_files.retile,
                  "Models as triangles between their cells, instead of\ntheir own triangles refined")
         ->group(group);
-    app.add_flag(
-           "--unwrap", run.model_files.unwrap,
-           "New texture coordinates in models .glb, .obj and .ply,\neven if the model has some")
+    app.add_flag("--unwrap", run.model_files.unwrap,
+                 fmt::format("New texture coordinates in models {},\neven if the model has some",
+                             endings_of(FormatTrait::texture, "and")))
         ->group(group);
     app.add_flag_callback(
            "--exr", [&run] { run.model_files.map_format = MapFormat::exr; },
@@ -399,8 +403,9 @@ void add_mesh(CLI::App& app, Options& options) {
               [&](auto count) { options.reshaping.simplify = static_cast<std::size_t>(count); });
     app.add_flag("--unwrap", options.mesh_files.unwrap,
                  "Make texture coordinates: charts of little distortion,\npacked into one texture");
-    add_value(app, "-o,--output", "FILE", "The repaired model: .glb, .obj, .ply, .vtp or .stl",
-              parse_model_path, [&](auto path) { options.mesh_output = path; });
+    add_value(app, "-o,--output", "FILE",
+              "The repaired model: " + endings_of(FormatKind::model, "or"),
+              path_of(FormatKind::model), [&](auto path) { options.mesh_output = path; });
     add_value(app, "--cells", "N|faces|vertices",
               "Spread N cells over the surface, or make cells of the\n"
               "model's faces or points, and describe them",

@@ -1,6 +1,8 @@
 // Options of `cascade sweep`.
 #include "app/add_value.h"
+#include "app/help.h"
 #include "app/option_groups.h"
+#include "core/file_format.h"
 
 namespace cascade::option_groups {
 
@@ -30,9 +32,11 @@ void add_sweep(CLI::App& app, Options& options) {
               whole_number(16, 1024), [&](auto side) { sweep.tile_side = static_cast<int>(side); })
         ->group(files);
     add_value(app, "--film", "FILE",
-              "A film of the ends of all runs, .gif, .webp, .apng, .mp4\nor .webm; its pictures as "
-              "large as --tile says",
-              parse_film_path, [&](auto path) { sweep.film = path; })
+              help::in_lines(
+                  fmt::format("A film of the ends of all runs, {}; its pictures as large as "
+                              "--tile says",
+                              endings_of(FormatKind::film, "or"))),
+              path_of(FormatKind::film), [&](auto path) { sweep.film = path; })
         ->group(files);
     add_film_pace(app, sweep.pace);
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")

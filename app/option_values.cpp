@@ -1,7 +1,7 @@
 // Numbers are read by from_chars(), which ignores the locale, and must use up the whole text.
 #include "app/option_values.h"
 
-#include "core/file_ending.h"
+#include "core/file_format.h"
 #include "core/near_name.h"
 #include "film/film.h"
 #include "run/pictures/frame_folder.h"
@@ -183,21 +183,6 @@ std::optional<double> read_with_unit(std::string_view text, std::span<const Unit
     return std::nullopt;
 }
 
-bool is_volume(const std::filesystem::path& path) {
-    const std::string ending = lower_ending(path);
-    return ending == ".vti" || ending == ".vdb";
-}
-
-Result<std::string> path_with_ending(std::string_view text, std::string_view wanted,
-                                     const char* why) {
-    const std::size_t dot = text.rfind('.');
-    std::string ending(dot == std::string_view::npos ? "" : text.substr(dot));
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    if (ending == wanted) return std::string(text);
-    return failure(fmt::format("'{}' does not end in {}", text, wanted), why);
-}
-
 }  // namespace
 
 Result<double> parse_duration(std::string_view text) {
@@ -276,9 +261,9 @@ Result<std::string> parse_output_path(std::string_view text) {
     if (output_kind(std::filesystem::path(text))) return std::string(text);
     if (is_called_like_a_movie(std::filesystem::path(text))) {
         return failure(fmt::format("'{}' is a film in a format that is not written", text),
-                       "the endings of films are .gif, .webp, .apng, .mp4 and .webm");
+                       "the endings of films are " + endings_of(FormatKind::film, "and"));
     }
-    if (is_volume(text)) {
+    if (is_of_kind(text, FormatKind::volume)) {
         return failure(fmt::format("'{}' is a volume, and -o writes what is seen of it", text),
                        fmt::format("--volume {} writes it", text));
     }
@@ -290,9 +275,11 @@ Result<std::string> parse_output_path(std::string_view text) {
     }
     return failure(
         fmt::format("'{}' has no ending of a file that can be written", text),
-        ".png is a picture, .svg or .pdf a figure with axes; .gif, .webp, .apng, .mp4 and .webm "
-        "are films; on a model, .ply, .obj, .glb, .vtp and .stl are models, .npz and .cells.vtp "
-        "their cells");
+        fmt::format("{} is a picture, {} a figure with axes; {} are films; on a model, {} are "
+                    "models, {} their cells",
+                    endings_of(FormatKind::picture), endings_of(FormatKind::figure, "or"),
+                    endings_of(FormatKind::film, "and"), endings_of(FormatKind::model, "and"),
+                    endings_of(FormatKind::cells, "and")));
 }
 
 Result<std::string> any_text(std::string_view text) {
@@ -317,30 +304,9 @@ Result<std::string> parse_frames_folder(std::string_view text) {
                                text));
 }
 
-Result<std::string> parse_png_path(std::string_view text) {
-    return path_with_ending(text, ".png", "pictures are written as PNG files");
-}
-
-Result<std::string> parse_model_path(std::string_view text) {
-    if (output_kind(std::filesystem::path(text)) == OutputKind::model) return std::string(text);
-    return failure(fmt::format("'{}' has no ending of a model that is written", text),
-                   "these endings are .glb, .obj, .ply, .vtp and .stl");
-}
-
-Result<std::string> parse_film_path(std::string_view text) {
-    if (film_format(std::filesystem::path(text))) return std::string(text);
-    return failure(fmt::format("'{}' has no ending of a film that is written", text),
-                   "the endings of films are .gif, .webp, .apng, .mp4 and .webm");
-}
-
-Result<std::string> parse_volume_path(std::string_view text) {
-    if (is_volume(text)) return std::string(text);
-    return failure(fmt::format("'{}' does not end in .vti or .vdb", text),
-                   "volumes are written as image data of VTK or by OpenVDB");
-}
-
-Result<std::string> parse_pvd_path(std::string_view text) {
-    return path_with_ending(text, ".pvd", "series are written as collections of ParaView");
+Result<std::string> parse_path_of(FormatKind kind, std::string_view text) {
+    if (is_of_kind(text, kind)) return std::string(text);
+    return failure(fmt::format("'{}' does not end in {}", text, endings_of(kind, "or")));
 }
 
 }  // namespace cascade

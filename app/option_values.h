@@ -1,6 +1,7 @@
 // Parsers for values of command-line options. Failures say what the option takes.
 #pragma once
 
+#include "core/file_format.h"
 #include "core/result.h"
 #include "picture/image.h"
 #include "picture/slice.h"
@@ -76,14 +77,7 @@ Result<std::string> any_text(std::string_view text);
 Result<std::string> parse_folder(std::string_view text);
 /// A folder for frames; a number alone is refused, since it was meant as the number of frames.
 Result<std::string> parse_frames_folder(std::string_view text);
-/// The path of a picture; it must end in .png.
-Result<std::string> parse_png_path(std::string_view text);
-/// The path of a model without a pattern; see is_model_ending().
-Result<std::string> parse_model_path(std::string_view text);
-/// The path of a film; see film_format() for the endings.
-Result<std::string> parse_film_path(std::string_view text);
-/// The path of a volume; it must end in .vti or .vdb.
-Result<std::string> parse_volume_path(std::string_view text);
-Result<std::string> parse_pvd_path(std::string_view text);
+/// The path of a file whose name ends as those of its kind do.
+Result<std::string> parse_path_of(FormatKind kind, std::string_view text);
 
 }  // namespace cascade

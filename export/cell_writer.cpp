@@ -46,13 +46,6 @@ std::vector<Link> links_of(const SurfaceCells& cells) {
     return links;
 }
 
-Result<std::string> encode(const std::filesystem::path& path, const SurfaceMesh& mesh,
-                           const SurfaceCells& cells, const CellResults& results) {
-    if (path.extension() == ".npz") return encode_npz(mesh, cells, results);
-    if (path.extension() == ".vtp") return encode_vtp(mesh, cells, results);
-    return failure("a file of cells has a name that ends in .npz or .vtp");
-}
-
 }  // namespace
 
 Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cells,
@@ -96,7 +89,7 @@ Result<void> write_cells(const std::filesystem::path& path, const SurfaceMesh& m
     for (const Channel& channel : results.channels) {
         CHECK(channel.values.size() == cells.places.size(), "a channel has a number for each cell");
     }
-    return write_encoded(path, [&] { return encode(path, mesh, cells, results); });
+    return write_encoded(path, [&] { return encode_cells(path, mesh, cells, results); });
 }
 
 }  // namespace cascade

@@ -1,6 +1,7 @@
 // Cells of a surface with their results, as files for other programs: NumPy's .npz and VTK's .vtp.
 #pragma once
 
+#include "core/file_format.h"
 #include "core/result.h"
 #include "export/channels.h"
 #include "surface/voronoi_cells.h"
@@ -35,8 +36,15 @@ Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cell
 std::string encode_vtp(const SurfaceMesh& mesh, const SurfaceCells& cells,
                        const CellResults& results);
 
-/// Writes the format of the name's extension, .npz or .vtp, atomically. Fails on other extensions,
-/// and as encode_npz and write_file do.
+/// The bytes of cells in the format of a name's ending, .npz or .vtp; fails on other endings.
+template <typename... Cells>
+Result<std::string> encode_cells(const std::filesystem::path& path, const Cells&... cells) {
+    if (is_of_format(path, FileFormat::npz)) return encode_npz(cells...);
+    if (lower_ending(path) == ".vtp") return encode_vtp(cells...);
+    return failure("a file of cells has a name that ends in .npz or .vtp");
+}
+
+/// Writes encode_cells() atomically. Fails as that, encode_npz and write_file do.
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const SurfaceCells& cells, const CellResults& results);
 

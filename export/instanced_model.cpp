@@ -2,7 +2,7 @@
 #include "export/instanced_model.h"
 
 #include "core/check.h"
-#include "core/file_ending.h"
+#include "core/file_format.h"
 #include "core/with_commas.h"
 #include "core/write_encoded.h"
 #include "export/channels.h"
@@ -250,19 +250,18 @@ Result<std::string> encode_merged_obj(const InstancedModel& model) {
 
 Result<void> write_instanced(const std::filesystem::path& path, const InstancedModel& model,
                              bool is_merged) {
-    const std::string ending = lower_ending(path);
-    if (ending != ".glb" && ending != ".obj") {
+    if (!can_hold(path, FormatTrait::copies)) {
         return failure(
             fmt::format("cannot write '{}': copies on a model go into files whose name "
-                        "ends in .glb or .obj",
-                        path.string()));
+                        "ends in {}",
+                        path.string(), endings_of(FormatTrait::copies, "or")));
     }
     if (!has_triangles(model)) {
         return failure(fmt::format("cannot write '{}': there is nothing to be seen", path.string()),
                        "no cell is drawn, and there is no surface below them");
     }
     return write_encoded(path, [&] {
-        if (ending == ".obj") return encode_merged_obj(model);
+        if (is_of_format(path, FileFormat::obj)) return encode_merged_obj(model);
         return is_merged ? encode_merged_glb(model) : encode_instanced_glb(model);
     });
 }

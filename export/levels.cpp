@@ -1,7 +1,7 @@
 // Simplifies level by level, and averages what has merged.
 #include "export/levels.h"
 
-#include "core/file_ending.h"
+#include "core/file_format.h"
 #include "core/write_encoded.h"
 #include "export/glb.h"
 #include "mesh/simplify.h"
@@ -126,7 +126,7 @@ Result<std::vector<std::filesystem::path>> write_levels(const std::filesystem::p
     const Vector3d origin = origin_of_file(path, levels.front().mesh);
     for (std::size_t k = 0; k < levels.size(); ++k) {
         paths.push_back(path_of_level(path, k));
-        const bool has_all = k == 0 && lower_ending(path) == ".glb";
+        const bool has_all = k == 0 && can_hold(path, FormatTrait::levels);
         const Result<void> done =
             has_all ? write_encoded(path, [&] { return encode_all(levels); })
                     : write_model(paths.back(), levels[k].mesh, levels[k].results(), origin);

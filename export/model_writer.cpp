@@ -2,7 +2,7 @@
 #include "export/model_writer.h"
 
 #include "core/check.h"
-#include "core/file_ending.h"
+#include "core/file_format.h"
 #include "core/write_encoded.h"
 #include "export/glb.h"
 
@@ -14,27 +14,44 @@ namespace cascade {
 
 namespace {
 
-Result<std::string> encode(const std::string& ending, const SurfaceMesh& mesh,
-                           const PointResults& results, Vector3d origin) {
-    if (ending == ".ply") return encode_ply(mesh, results);
-    if (ending == ".obj") return encode_obj(mesh, results);
-    if (ending == ".vtp") return encode_vtp(mesh, results);
-    if (ending == ".stl") return encode_stl(mesh, origin);
+struct ModelRow {
+    FileFormat format;
+    Result<std::string> (*encode)(const SurfaceMesh& mesh, const PointResults& results,
+                                  Vector3d origin);
+};
+
+template <auto encode>
+Result<std::string> with_results(const SurfaceMesh& mesh, const PointResults& results, Vector3d) {
+    return encode(mesh, results);
+}
+
+Result<std::string> glb(const SurfaceMesh& mesh, const PointResults& results, Vector3d) {
     GlbLook look;
     look.colours = results.colours;
     return encode_glb(mesh, look);
 }
 
-}  // namespace
-
-bool is_model_ending(const std::filesystem::path& path) {
-    const std::string ending = lower_ending(path);
-    return ending == ".ply" || ending == ".obj" || ending == ".glb" || ending == ".vtp" ||
-           ending == ".stl";
+Result<std::string> stl(const SurfaceMesh& mesh, const PointResults&, Vector3d origin) {
+    return encode_stl(mesh, origin);
 }
 
+Result<std::string> vtp(const SurfaceMesh& mesh, const PointResults& results, Vector3d) {
+    return encode_vtp(mesh, results);
+}
+
+constexpr std::array model_writers = {
+    ModelRow{FileFormat::ply, with_results<encode_ply>},
+    ModelRow{FileFormat::obj, with_results<encode_obj>},
+    ModelRow{FileFormat::glb, glb},
+    ModelRow{FileFormat::vtp, vtp},
+    ModelRow{FileFormat::stl, stl},
+};
+static_assert(has_all_of(model_writers, FormatKind::model));
+
+}  // namespace
+
 Vector3d origin_of_file(const std::filesystem::path& path, const SurfaceMesh& mesh) {
-    return lower_ending(path) == ".stl" ? stl_origin(mesh) : Vector3d{};
+    return is_of_format(path, FileFormat::stl) ? stl_origin(mesh) : Vector3d{};
 }
 
 std::vector<std::string> remarks_of_origin(const std::filesystem::path& path, Vector3d origin) {
@@ -52,14 +69,14 @@ Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& m
     for (const Channel& channel : results.channels) {
         CHECK(channel.values.size() == mesh.points.size(), "a channel has a number for each point");
     }
-    if (!is_model_ending(path)) {
-        return failure(
-            fmt::format("cannot write '{}': a model's name ends in .ply, .obj, .glb, "
-                        ".vtp or .stl",
-                        path.string()));
+    const FormatRow* const format = find_format(path);
+    const ModelRow* const writer = format ? row_of(model_writers, format->format) : nullptr;
+    if (!writer) {
+        return failure(fmt::format("cannot write '{}': a model's name ends in {}", path.string(),
+                                   endings_of(FormatKind::model, "or")));
     }
     const Vector3d begin = origin ? *origin : origin_of_file(path, mesh);
-    return write_encoded(path, [&] { return encode(lower_ending(path), mesh, results, begin); });
+    return write_encoded(path, [&] { return writer->encode(mesh, results, begin); });
 }
 
 }  // namespace cascade

@@ -50,7 +50,4 @@ std::vector<std::string> remarks_of_origin(const std::filesystem::path& path, Ve
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const PointResults& results, std::optional<Vector3d> origin = {});
 
-/// Whether write_model supports the extension.
-bool is_model_ending(const std::filesystem::path& path);
-
 }  // namespace cascade

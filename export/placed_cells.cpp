@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "core/write_encoded.h"
+#include "export/cell_writer.h"
 #include "export/npz_arrays.h"
 #include "export/vtp.h"
 
@@ -56,11 +57,7 @@ std::string encode_vtp(const PlacedCells& cells) {
 }
 
 Result<void> write_cells(const std::filesystem::path& path, const PlacedCells& cells) {
-    return write_encoded(path, [&]() -> Result<std::string> {
-        if (path.extension() == ".npz") return encode_npz(cells);
-        if (path.extension() == ".vtp") return encode_vtp(cells);
-        return failure("a file of cells has a name that ends in .npz or .vtp");
-    });
+    return write_encoded(path, [&] { return encode_cells(path, cells); });
 }
 
 }  // namespace cascade

@@ -39,8 +39,7 @@ Result<std::string> encode_npz(const PlacedCells& cells);
 /// the channels as point data.
 std::string encode_vtp(const PlacedCells& cells);
 
-/// Writes the format of the name's extension, .npz or .vtp, atomically. Fails on other extensions,
-/// and as encode_npz and write_file do.
+/// Writes encode_cells() atomically. Fails as that, encode_npz and write_file do.
 Result<void> write_cells(const std::filesystem::path& path, const PlacedCells& cells);
 
 }  // namespace cascade

@@ -110,15 +110,15 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<FilmWriter>> begin_apng(const std::filesystem::path& path,
-                                               const FilmSettings& settings, std::int64_t width,
-                                               std::int64_t height) {
+                                               const FilmSettings& settings,
+                                               std::span<const FilmFrame> samples) {
     if (auto checked = check_texts(settings.texts); !checked) {
         return tl::unexpected(checked.error());
     }
     auto file = GrowingFile::create(path);
     if (!file) return tl::unexpected(file.error());
     auto film = std::make_unique<ApngWriter>(*std::move(file), settings);
-    if (auto begun = film->begin(width, height, settings.texts); !begun) {
+    if (auto begun = film->begin(samples[0].width, samples[0].height, settings.texts); !begun) {
         return tl::unexpected(begun.error());
     }
     return film;

@@ -3,6 +3,7 @@
 #include "film/ffmpeg.h"
 
 #include "core/check.h"
+#include "core/file_format.h"
 #include "core/growing_file.h"
 #include "film/child_process.h"
 #include "film/frames_in_film.h"
@@ -31,7 +32,7 @@ std::filesystem::path program_named(const std::string& name) {
 
 /// How frames are given to ffmpeg, and what becomes of them.
 struct Stream {
-    FilmFormat format;
+    bool is_webm;
     double frames_per_second;
     std::int64_t width, height;
     bool has_alpha;
@@ -39,7 +40,7 @@ struct Stream {
 
 std::vector<std::string> encoder(const Stream& stream) {
     // The quality is such that noise of a pattern stays sharp; VP9 needs the bit rate 0 for it.
-    if (stream.format == FilmFormat::mp4) {
+    if (!stream.is_webm) {
         return {"-c:v",   "libx264",   "-crf",       "16", "-preset",
                 "medium", "-movflags", "+faststart", "-f", "mp4"};
     }
@@ -72,16 +73,17 @@ std::int64_t even(std::int64_t side) { return side + side % 2; }
 class FfmpegWriter : public FilmWriter {
 public:
     FfmpegWriter(std::filesystem::path path, Patience patience)
-        : path_(std::move(path)), patience_(patience) {}
+        : path_(std::move(path)),
+          patience_(patience),
+          is_webm_(is_of_format(path_, FileFormat::webm)) {}
 
     /// Without a file ffmpeg drops what it encodes.
-    Result<void> begin(FilmFormat format, const FilmSettings& settings, const FilmFrame& first,
+    Result<void> begin(const FilmSettings& settings, const FilmFrame& first,
                        std::unique_ptr<GrowingFile> file) {
         if (auto found = find_ffmpeg(path_); !found) return found;
-        format_ = format;
         file_ = std::move(file);
-        has_alpha_ = format == FilmFormat::webm && has_alpha(first);
-        auto words = arguments({format, settings.frames_per_second, even(first.width),
+        has_alpha_ = is_webm_ && has_alpha(first);
+        auto words = arguments({is_webm_, settings.frames_per_second, even(first.width),
                                 even(first.height), has_alpha_});
         if (!file_) words.insert(words.end(), {"-f", "null"});
         // "file:" keeps ffmpeg from reading a protocol or an option into a name.
@@ -106,7 +108,7 @@ public:
     Result<void> finish() override {
         if (auto done = outcome(); !done) return done;
         if (!file_) return {};
-        const auto held = frames_in_film(file_->temporary_path(), format_ == FilmFormat::webm);
+        const auto held = frames_in_film(file_->temporary_path(), is_webm_);
         if (!held) return failed("what it wrote is no whole film");
         if (*held != frames_)
             return failed(fmt::format("it wrote {} of {} frames", *held, frames_));
@@ -145,7 +147,7 @@ private:
 
     std::filesystem::path path_;
     Patience patience_;
-    FilmFormat format_ = FilmFormat::mp4;
+    bool is_webm_;
     std::int64_t frames_ = 0;
     bool has_alpha_ = false;
     std::unique_ptr<GrowingFile> file_;
@@ -162,23 +164,23 @@ Result<void> find_ffmpeg(const std::filesystem::path& film) {
                    "without it");
 }
 
-Result<void> try_ffmpeg(const std::filesystem::path& film, FilmFormat format, std::int64_t width,
-                        std::int64_t height, const std::atomic<bool>& cancel) {
+Result<void> try_ffmpeg(const std::filesystem::path& film, std::int64_t width, std::int64_t height,
+                        const std::atomic<bool>& cancel) {
     // Nothing is lost if it ends at once.
     FfmpegWriter writer(film, {cancel, std::chrono::seconds(0), std::chrono::seconds(0)});
     const FilmFrame first = film_frame(Image(width, height));
-    if (auto begun = writer.begin(format, {}, first, nullptr); !begun) return begun;
+    if (auto begun = writer.begin({}, first, nullptr); !begun) return begun;
     if (auto done = writer.add(first); !done) return done;
     return writer.finish();
 }
 
 Result<std::unique_ptr<FilmWriter>> begin_ffmpeg(const std::filesystem::path& path,
-                                                 FilmFormat format, const FilmSettings& settings,
-                                                 const FilmFrame& first) {
+                                                 const FilmSettings& settings,
+                                                 std::span<const FilmFrame> samples) {
     auto file = GrowingFile::create(path);
     if (!file) return tl::unexpected(file.error());
     auto film = std::make_unique<FfmpegWriter>(path, Patience{*settings.cancel});
-    if (auto begun = film->begin(format, settings, first, *std::move(file)); !begun) {
+    if (auto begun = film->begin(settings, samples[0], *std::move(file)); !begun) {
         return tl::unexpected(begun.error());
     }
     return film;

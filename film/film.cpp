@@ -2,7 +2,7 @@
 #include "film/film.h"
 
 #include "core/check.h"
-#include "core/file_ending.h"
+#include "core/file_format.h"
 #include "core/growing_file.h"
 #include "film/ffmpeg.h"
 
@@ -16,89 +16,74 @@
 namespace cascade {
 namespace {
 
-struct FormatOf {
-    std::string_view ending;
-    FilmFormat format;
-    std::string_view name;
+struct FilmRow {
+    FileFormat format;
+    BeginFilm* begin;
     std::int64_t longest_side;
+    double fastest = fastest_film;
 };
 
 constexpr std::int64_t unlimited = 0x7fffffff;
 
 // WebP's container has sides of up to 2^24 pixels, the pictures in it of 2^14 - 1. ffmpeg knows its
 // own limits.
-constexpr std::array formats = {
-    FormatOf{".gif", FilmFormat::gif, "GIF", 65535},
-    FormatOf{".webp", FilmFormat::webp, "WebP", 16383},
-    FormatOf{".apng", FilmFormat::apng, "APNG", unlimited},
-    FormatOf{".mp4", FilmFormat::mp4, "MP4", unlimited},
-    FormatOf{".webm", FilmFormat::webm, "WebM", unlimited},
+constexpr std::array films = {
+    FilmRow{FileFormat::gif, begin_gif, 65535, fastest_gif},
+    FilmRow{FileFormat::webp, begin_webp, 16383},
+    FilmRow{FileFormat::apng, begin_apng, unlimited},
+    FilmRow{FileFormat::mp4, begin_ffmpeg, unlimited},
+    FilmRow{FileFormat::webm, begin_ffmpeg, unlimited},
 };
+static_assert(has_all_of(films, FormatKind::film));
 
-const FormatOf* format_of(const std::filesystem::path& path) {
-    const std::string ending = lower_ending(path);
-    const auto found = std::find_if(formats.begin(), formats.end(), [&](const FormatOf& format) {
-        return format.ending == ending;
-    });
-    return found == formats.end() ? nullptr : found;
+const FilmRow& film_of(const std::filesystem::path& path) {
+    const FormatRow* const format = find_format(path);
+    const FilmRow* const row = format ? row_of(films, format->format) : nullptr;
+    CHECK(row != nullptr, "the name is that of a film");
+    return *row;
 }
 
-bool needs_ffmpeg(FilmFormat format) {
-    return format == FilmFormat::mp4 || format == FilmFormat::webm;
-}
+std::string_view name_of(const std::filesystem::path& path) { return find_format(path)->name; }
 
-Result<void> check_sides(const std::filesystem::path& path, const FormatOf& format,
-                         std::int64_t width, std::int64_t height) {
-    if (width <= format.longest_side && height <= format.longest_side) return {};
+Result<void> check_sides(const std::filesystem::path& path, std::int64_t width,
+                         std::int64_t height) {
+    const std::int64_t longest = film_of(path).longest_side;
+    if (width <= longest && height <= longest) return {};
     return failure(fmt::format("'{}' cannot hold frames of {} × {} pixels: a side of {} has at "
                                "most {}",
-                               path.string(), width, height, format.name, format.longest_side),
+                               path.string(), width, height, name_of(path), longest),
                    "use a smaller grid or --scale, or write .apng");
 }
 
 }  // namespace
 
-std::optional<FilmFormat> film_format(const std::filesystem::path& path) {
-    if (const FormatOf* format = format_of(path)) return format->format;
-    return std::nullopt;
-}
-
 Result<void> check_film(const std::filesystem::path& path) {
     if (auto can = check_can_grow(path); !can) return can;
-    return needs_ffmpeg(*film_format(path)) ? find_ffmpeg(path) : Result<void>();
+    return film_of(path).begin == begin_ffmpeg ? find_ffmpeg(path) : Result<void>();
 }
 
 Result<void> check_pace(const std::filesystem::path& path, double frames_per_second) {
-    if (film_format(path) != FilmFormat::gif || frames_per_second <= fastest_gif) return {};
-    return failure(fmt::format("a GIF shows at most {} frames a second", fastest_gif),
-                   ".webp and .apng show up to 60");
+    const double fastest = film_of(path).fastest;
+    if (frames_per_second <= fastest) return {};
+    return failure(fmt::format("a {} shows at most {} frames a second", name_of(path), fastest),
+                   fmt::format(".webp and .apng show up to {}", fastest_film));
 }
 
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
                              std::int64_t height, const std::atomic<bool>& cancel) {
-    const FormatOf& format = *format_of(path);
-    if (auto fits = check_sides(path, format, width, height); !fits) return fits;
-    if (!needs_ffmpeg(format.format)) return {};
-    return try_ffmpeg(path, format.format, width, height, cancel);
+    if (auto fits = check_sides(path, width, height); !fits) return fits;
+    if (film_of(path).begin != begin_ffmpeg) return {};
+    return try_ffmpeg(path, width, height, cancel);
 }
 
 Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path,
                                                const FilmSettings& settings,
                                                std::span<const FilmFrame> samples) {
     CHECK(!samples.empty(), "a film has a frame");
-    const FormatOf& format = *format_of(path);
-    const std::int64_t width = samples[0].width, height = samples[0].height;
-    if (auto fits = check_sides(path, format, width, height); !fits) {
+    if (auto fits = check_sides(path, samples[0].width, samples[0].height); !fits) {
         return tl::unexpected(fits.error());
     }
-    switch (format.format) {
-        case FilmFormat::gif: return begin_gif(path, settings, samples);
-        case FilmFormat::webp: return begin_webp(path, settings, width, height);
-        case FilmFormat::apng: return begin_apng(path, settings, width, height);
-        case FilmFormat::mp4:
-        case FilmFormat::webm: return begin_ffmpeg(path, format.format, settings, samples[0]);
-    }
-    CHECK(false, "every format has a writer");
+    return film_of(path).begin(path, settings, samples);
 }
 
 std::int64_t FrameTimes::next() {

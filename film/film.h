@@ -1,6 +1,8 @@
-// Films: frames that are written one after the other, in the format of the file's ending.
+// Films: frames that are written one after the other, in the format of the file's ending. GIF, WebP
+// and APNG are written by Cascade itself, the others by the program ffmpeg.
 #pragma once
 
+#include "core/file_format.h"
 #include "core/result.h"
 #include "core/run_control.h"
 #include "film/film_frame.h"
@@ -9,17 +11,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 
 namespace cascade {
-
-/// The formats by their endings. GIF, WebP and APNG are written by Cascade itself, the others by
-/// the program ffmpeg.
-enum class FilmFormat { gif, webp, apng, mp4, webm };
-
-/// By the ending, regardless of case; nothing for a file that is no film.
-std::optional<FilmFormat> film_format(const std::filesystem::path& path);
 
 inline constexpr double slowest_film = 0.1;  ///< Frames per second.
 inline constexpr double fastest_film = 60;
@@ -64,16 +58,11 @@ Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path
                                                const FilmSettings& settings,
                                                std::span<const FilmFrame> samples);
 
-/// Begins a film of one format.
-Result<std::unique_ptr<FilmWriter>> begin_gif(const std::filesystem::path& path,
-                                              const FilmSettings& settings,
-                                              std::span<const FilmFrame> samples);
-Result<std::unique_ptr<FilmWriter>> begin_apng(const std::filesystem::path& path,
-                                               const FilmSettings& settings, std::int64_t width,
-                                               std::int64_t height);
-Result<std::unique_ptr<FilmWriter>> begin_webp(const std::filesystem::path& path,
-                                               const FilmSettings& settings, std::int64_t width,
-                                               std::int64_t height);
+/// Begins a film of one format, as begin_film() does.
+using BeginFilm = Result<std::unique_ptr<FilmWriter>>(const std::filesystem::path& path,
+                                                      const FilmSettings& settings,
+                                                      std::span<const FilmFrame> samples);
+BeginFilm begin_gif, begin_apng, begin_webp;
 
 /// How long each frame is shown in whole ticks, so that rounding errors do not add up.
 class FrameTimes {

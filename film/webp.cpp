@@ -137,12 +137,13 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<FilmWriter>> begin_webp(const std::filesystem::path& path,
-                                               const FilmSettings& settings, std::int64_t width,
-                                               std::int64_t height) {
+                                               const FilmSettings& settings,
+                                               std::span<const FilmFrame> samples) {
     auto file = GrowingFile::create(path);
     if (!file) return tl::unexpected(file.error());
     auto film = std::make_unique<WebpWriter>(*std::move(file), settings);
-    if (auto begun = film->begin(width, height); !begun) return tl::unexpected(begun.error());
+    if (auto begun = film->begin(samples[0].width, samples[0].height); !begun)
+        return tl::unexpected(begun.error());
     return film;
 }
 

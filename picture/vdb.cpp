@@ -1,7 +1,6 @@
 // Loads the module that has OpenVDB.
 #include "picture/vdb.h"
 
-#include "core/file_ending.h"
 #include "core/version.h"
 #include "core/write_encoded.h"
 
@@ -41,8 +40,6 @@ const Result<VdbEncoder*>& encoder() {
 }
 
 }  // namespace
-
-bool is_vdb(const std::filesystem::path& path) { return lower_ending(path) == ".vdb"; }
 
 Result<void> check_vdb(const std::filesystem::path& path) {
     if (encoder()) return {};

@@ -33,9 +33,6 @@ inline constexpr const char* vdb_encoder_symbol = "cascade_vdb_encoder";
 using VdbEncoder = Result<std::string>(const VdbVolume& volume);
 using VdbEncoderEntry = VdbEncoder*(std::string_view version);
 
-/// Does the name end in .vdb?
-bool is_vdb(const std::filesystem::path& path);
-
 /// Loads the module. Fails, and says what to install, if this build has none or OpenVDB's library
 /// is missing.
 Result<void> check_vdb(const std::filesystem::path& path);

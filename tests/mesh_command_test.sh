@@ -147,7 +147,7 @@ says err "50,331,648 triangles would be made, more than the limit of 16,777,216 
 run 64 mesh cube.obj --subdivide 0
 says err "--subdivide"
 run 64 mesh cube.obj -o same.off
-says err "'same.off' has no ending of a model that is written"
+says err "'same.off' does not end in .ply, .obj, .glb, .vtp or .stl"
 run 64 mesh cube.obj new.obj --unwrap -o newer.glb
 says err "-o is the file of one model, and several are given"
 run 64 mesh cube.obj --unwrap -o new.vtp

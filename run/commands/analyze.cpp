@@ -8,6 +8,7 @@
 #include "analysis/outlook.h"
 #include "analysis/stage_analysis.h"
 #include "core/file.h"
+#include "core/file_format.h"
 #include "core/near_name.h"
 #include "run/commands/analyze_json.h"
 #include "run/simulation/other_cells.h"
@@ -155,8 +156,8 @@ private:
     }
 
     Result<void> write(const StageAnalysis& analysis) const {
-        const std::string ending = request_.output.extension().string();
-        if (ending == ".json") return write_file(request_.output, json(analysis));
+        if (is_of_kind(request_.output, FormatKind::report))
+            return write_file(request_.output, json(analysis));
         if (!map_ && analysis.states.empty()) {
             return failure(fmt::format("there is nothing to draw in {}: no flat state was found",
                                        request_.output.string()));
@@ -184,8 +185,7 @@ private:
 }  // namespace
 
 bool is_analysis_output(const std::filesystem::path& path) {
-    const std::string ending = path.extension().string();
-    return ending == ".svg" || ending == ".pdf" || ending == ".png" || ending == ".json";
+    return can_hold(path, FormatTrait::drawing) || is_of_kind(path, FormatKind::report);
 }
 
 Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request) {

@@ -2,6 +2,7 @@
 #include "run/commands/film_crew.h"
 
 #include "core/enough_memory.h"
+#include "core/file_format.h"
 
 #include <fmt/format.h>
 
@@ -52,7 +53,7 @@ FilmCrew::FilmCrew(std::vector<std::filesystem::path> films, FilmSettings settin
 
 bool FilmCrew::has_gif() const {
     return std::any_of(films_.begin(), films_.end(),
-                       [](const Film& film) { return film_format(film.path) == FilmFormat::gif; });
+                       [](const Film& film) { return is_of_format(film.path, FileFormat::gif); });
 }
 
 void FilmCrew::note(const Failure& failure) {

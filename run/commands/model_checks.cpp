@@ -1,6 +1,8 @@
 // Each refusal names the option, and the hint what would give it a meaning.
 #include "run/commands/model_checks.h"
 
+#include "core/file_format.h"
+
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -12,13 +14,18 @@ namespace {
 constexpr std::string_view not_a_model = "the domain is not a model";
 constexpr std::string_view how_to_get_a_model =
     "--mesh FILE, or mesh: \"FILE\" in the domain, makes it one";
-constexpr const char* how_to_write_maps = "-o NAME.glb --bake 2048 writes them";
 
 /// The option that asks for maps, if one does.
 const char* option_of_maps(const RunRequest& request) {
     return request.model_files.texels_per_cell > 0 ? "--texels-per-cell" : "--bake";
 }
-constexpr const char* how_to_write_one = "-o NAME.ply, .obj, .glb, .vtp or .stl writes one";
+template <typename Which>
+std::string how_to_write(Which which) {
+    return output_of(which) + " writes one";
+}
+std::string how_to_write_maps() {
+    return output_of(FormatTrait::maps) + " --bake 2048 writes them";
+}
 
 bool writes_exr(const RunRequest& request) {
     return request.model_files.map_format == MapFormat::exr;
@@ -26,7 +33,7 @@ bool writes_exr(const RunRequest& request) {
 
 bool writes_model(const RunRequest& request) {
     return std::any_of(request.outputs.begin(), request.outputs.end(),
-                       [](const auto& output) { return output_kind(output) == OutputKind::model; });
+                       [](const auto& output) { return output_kind(output) == FormatKind::model; });
 }
 
 /// What is done with the cells of a model alone.
@@ -52,6 +59,12 @@ void check_heights(OptionRefuser& options, const RunRequest& request, bool has_h
 
 void check_levels_of_cells(OptionRefuser& options, const RunRequest& request) {
     const std::string message = "cells that crawl are written as copies of shapes";
+    for (const auto& output : request.outputs) {
+        if (!is_of_kind(output, FormatKind::model) || can_hold(output, FormatTrait::copies))
+            continue;
+        options.refuse("-o", output.string(), message,
+                       output_of(FormatTrait::copies) + " writes them");
+    }
     options.refuse_if(request.model_files.levels > 1, "--lods", message,
                       "'detail' in the picture block says how fine the shapes are");
     options.refuse_if(request.picture.displace, "--displace", message,
@@ -80,7 +93,7 @@ void check_animated(OptionRefuser& options, const RunRequest& request) {
     const bool has_glb = std::any_of(outputs.begin(), outputs.end(),
                                      [&](const auto& output) { return files.is_animated(output); });
     options.refuse_if(!has_glb, "--animate", "no model is written that could move",
-                      "-o NAME.glb writes one");
+                      how_to_write(FormatTrait::growth));
     options.refuse_if(files.has_maps(), "--animate", "maps do not move",
                       std::string("leave out ") + option_of_maps(request) +
                           ": colours of points do");
@@ -98,26 +111,26 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
     bool has_picture = request.outputs.empty();
     bool is_baked = false, is_tiled = false, has_texture = false;
     for (const auto& output : request.outputs) {
-        has_picture = has_picture || output_kind(output) == OutputKind::picture || is_film(output);
+        has_picture = has_picture || output_kind(output) == FormatKind::picture || is_film(output);
         is_baked = is_baked || files.is_baked(output);
         is_tiled =
-            is_tiled || (output_kind(output) == OutputKind::model && !files.is_baked(output));
-        has_texture =
-            has_texture || files.is_baked(output) || (!files.retile && holds_texture(output));
+            is_tiled || (output_kind(output) == FormatKind::model && !files.is_baked(output));
+        has_texture = has_texture || files.is_baked(output) ||
+                      (!files.retile && can_hold(output, FormatTrait::texture));
     }
     options.refuse_if(files.retile && !is_tiled, "--retile",
-                      "no model is written that it could tile", how_to_write_one);
+                      "no model is written that it could tile", how_to_write(FormatKind::model));
     options.refuse_if(files.levels > 1 && !writes_model(request), "--lods", "no model is written",
-                      how_to_write_one);
+                      how_to_write(FormatKind::model));
     options.refuse_if(files.has_maps() && !is_baked, option_of_maps(request),
-                      "no model is written with its maps", "-o NAME.glb writes one");
+                      "no model is written with its maps", how_to_write(FormatTrait::maps));
     options.refuse_if(writes_exr(request) && !is_baked, "--exr", "no maps are written",
-                      how_to_write_maps);
+                      how_to_write_maps());
     options.refuse_if(files.unwrap && !has_texture, "--unwrap",
                       files.retile && is_tiled
                           ? "the triangles of --retile have no texture coordinates"
                           : "no model is written that has texture coordinates",
-                      "-o NAME.glb, .obj or .ply writes one");
+                      how_to_write(FormatTrait::texture));
     check_animated(options, request);
     options.refuse_if(request.turntable > 0 && !has_picture, "--turntable", "no picture is drawn",
                       "-o NAME.png draws pictures NAME-001.png, …, and -o NAME.gif a film");
@@ -125,24 +138,24 @@ void check_model_files(OptionRefuser& options, const RunRequest& request) {
 
 void check_of_body(OptionRefuser& options, const RunRequest& request) {
     for (const auto& output : request.outputs) {
-        if (output_kind(output) != OutputKind::cells) continue;
+        if (output_kind(output) != FormatKind::cells) continue;
         options.refuse("-o", output.string(), "only what grows on a model is written so",
                        "--volume FILE.vti has all species of a volume");
     }
     check_without_surface(options, request);
     check_cells_of_model(options, request);
     options.refuse_if(request.model_files.levels > 1 && !writes_model(request), "--lods",
-                      "no model is written", how_to_write_one);
+                      "no model is written", how_to_write(FormatKind::model));
 }
 
 void check_without_model(OptionRefuser& options, const RunRequest& request, bool is_plane) {
     const std::string message(not_a_model), hint(how_to_get_a_model);
     bool has_model = false;
     for (const auto& output : request.outputs) {
-        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
-        if (kind != OutputKind::model && kind != OutputKind::cells) continue;
+        const FormatKind kind = output_kind(output).value_or(FormatKind::picture);
+        if (kind != FormatKind::model && kind != FormatKind::cells) continue;
         has_model = true;
-        const bool has_maps = is_plane && ModelFileOptions{.bake = 1}.is_baked(output);
+        const bool has_maps = is_plane && can_hold(output, FormatTrait::maps);
         if (has_maps && request.model_files.has_maps()) continue;
         options.refuse("-o", output.string(),
                        "only what grows on a model is written so, and " + message,
@@ -153,10 +166,10 @@ void check_without_model(OptionRefuser& options, const RunRequest& request, bool
     if (!is_plane) return check_without_surface(options, request);
     options.refuse_if(request.model_files.unwrap, "--unwrap", message, hint);
     options.refuse_if(writes_exr(request) && !request.model_files.has_maps(), "--exr",
-                      "no maps are written", how_to_write_maps);
+                      "no maps are written", how_to_write_maps());
     options.refuse_if(request.model_files.has_maps() && !has_model, option_of_maps(request),
                       "no model is written with its maps",
-                      "-o NAME.glb writes a rectangle with them");
+                      output_of(FormatTrait::maps) + " writes a rectangle with them");
 }
 
 }  // namespace cascade

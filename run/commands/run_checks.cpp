@@ -3,6 +3,7 @@
 #include "run/commands/run_checks.h"
 
 #include "core/file.h"
+#include "core/file_format.h"
 #include "core/temporary_file.h"
 #include "export/levels.h"
 #include "export/material_maps.h"
@@ -64,10 +65,10 @@ struct OutputFile {
     std::string_view what;
 };
 
-std::string_view name_of(OutputKind kind) {
-    if (kind == OutputKind::picture) return "the picture";
-    if (kind == OutputKind::figure) return "the figure";
-    return kind == OutputKind::film ? "the film" : "the model";
+std::string_view name_of(FormatKind kind) {
+    if (kind == FormatKind::picture) return "the picture";
+    if (kind == FormatKind::figure) return "the figure";
+    return kind == FormatKind::film ? "the film" : "the model";
 }
 
 std::vector<OutputFile> files_of(const Script& script, const RunRequest& request,
@@ -80,8 +81,8 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
         for (const auto& path : paths) files.push_back({path, what});
     };
     for (const auto& output : outputs) {
-        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
-        if (kind == OutputKind::picture && request.turntable > 0) {
+        const FormatKind kind = output_kind(output).value_or(FormatKind::picture);
+        if (kind == FormatKind::picture && request.turntable > 0) {
             add(turntable_paths(output, request.turntable), "the picture");
         } else if (request.model_files.is_baked(output)) {
             for (std::size_t k = 0; k < levels; ++k) {
@@ -89,7 +90,7 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
                                        request.model_files.map_format),
                     "the baked model");
             }
-        } else if (kind == OutputKind::model) {
+        } else if (kind == FormatKind::model) {
             for (std::size_t k = 0; k < levels; ++k) {
                 const std::filesystem::path path = path_of_level(output, k);
                 add({&path, 1}, name_of(kind));
@@ -115,10 +116,10 @@ Result<void> check_outputs(const Script& script, const RunRequest& request,
     std::set<std::filesystem::path> folders;
     for (const OutputFile& file : files) {
         if (auto good = check_writable(file.path); !good) return good;
-        if (file.what == name_of(OutputKind::film)) {
+        if (is_film(file.path)) {
             if (auto good = check_film(file.path); !good) return good;
         }
-        if (is_vdb(file.path)) {
+        if (is_of_format(file.path, FileFormat::vdb)) {
             if (auto good = check_vdb(file.path); !good) return good;
         }
         folders.insert(file.path.parent_path());
@@ -268,7 +269,7 @@ void check_films(OptionRefuser& options, const RunRequest& request) {
     const bool has_film = film != request.outputs.end();
     const FilmRequest& wanted = request.film;
     const std::string message = "no film is written";
-    const std::string hint = "-o NAME.gif, .webp, .apng, .mp4 or .webm writes one";
+    const std::string hint = output_of(FormatKind::film) + " writes one";
     const bool has_pace = has_film || request.model_files.animate;
     options.refuse_if(wanted.frames_per_second > 0 && !has_pace, "--fps", message, hint);
     options.refuse_if(wanted.seconds > 0 && !has_pace, "--seconds", message, hint);
@@ -284,9 +285,11 @@ void check_films(OptionRefuser& options, const RunRequest& request) {
         if (auto good = check_pace(output, wanted.frames_per_second); !good) {
             options.refuse("--fps", "--fps", good.error().message, good.error().hint);
         }
-        options.refuse_if(!request.picture.background && film_format(output) == FilmFormat::mp4,
-                          "--background", "an MP4 film has no transparent pixels",
-                          "-o NAME.webm, .webp and .apng have them, or give a colour");
+        options.refuse_if(
+            !request.picture.background && !can_hold(output, FormatTrait::transparency),
+            "--background",
+            fmt::format("an {} film has no transparent pixels", find_format(output)->name),
+            output_of(FormatTrait::transparency) + " has them, or give a colour");
     }
     if (request.session && films_steps(request)) {
         options.refuse("-o", film->string(),
@@ -327,9 +330,9 @@ void check_panels(OptionRefuser& options, const RunRequest& request) {
     constexpr std::size_t most = 26;  // They have letters.
     const bool has_figure =
         std::any_of(request.outputs.begin(), request.outputs.end(),
-                    [](const auto& output) { return output_kind(output) == OutputKind::figure; });
+                    [](const auto& output) { return output_kind(output) == FormatKind::figure; });
     options.refuse_if(!request.panels.empty() && !has_figure, "--panel", "no figure is drawn",
-                      "-o NAME.svg or NAME.pdf draws one");
+                      output_of(FormatKind::figure) + " draws one");
     options.refuse_if(request.panels.size() > most, "--panel",
                       fmt::format("a figure has at most {} panels", most), "");
 }
@@ -362,7 +365,7 @@ Result<void> check_request(Script& script, const RunRequest& request) {
     options.refuse_if(is_called_like_a_movie(request.frames) &&
                           !std::filesystem::is_directory(request.frames, error),
                       "--frames", "frames are pictures in a folder, and this is named like a film",
-                      film_format(request.frames)
+                      is_film(request.frames)
                           ? fmt::format("-o {} writes a film", request.frames.string())
                           : "-o NAME.mp4 writes a film");
     for (const auto& [option, is_given] : {std::pair("--slice", request.picture.slice != Slice{}),
@@ -370,9 +373,13 @@ Result<void> check_request(Script& script, const RunRequest& request) {
         options.refuse_if(is_given && domain.grid.depth == 1, option, "a plane has no slices",
                           "grid: W, H, D makes a volume");
     }
-    options.refuse_if(is_vdb(request.volume) && domain.grid.depth == 1 && !domain.model, "--volume",
-                      "a .vdb file holds a volume, and this is a plane",
-                      "--volume NAME.vti writes planes, too; grid: W, H, D makes a volume");
+    options.refuse_if(
+        !request.volume.empty() && !can_hold(request.volume, FormatTrait::planes) &&
+            domain.grid.depth == 1 && !domain.model,
+        "--volume",
+        fmt::format("a {} file holds a volume, and this is a plane", lower_ending(request.volume)),
+        fmt::format("--volume NAME{} writes planes, too; grid: W, H, D makes a volume",
+                    endings_of(FormatTrait::planes, "or")));
     if (has_cells(script)) {
         check_with_cells(options, request);
         if (domain.model) check_model_files(options, request);

@@ -2,6 +2,7 @@
 #include "run/commands/run_results.h"
 
 #include "core/counted.h"
+#include "core/file_format.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/run_checks.h"
 #include "run/pictures/body_file.h"
@@ -33,16 +34,16 @@ Result<void> RunResults::write_picture(const std::filesystem::path& path, const 
     return done;
 }
 
-bool RunResults::has(OutputKind kind) const {
+bool RunResults::has(FormatKind kind) const {
     return std::any_of(outputs.begin(), outputs.end(), [&](const auto& output) {
-        return output_kind(output).value_or(OutputKind::picture) == kind;
+        return output_kind(output).value_or(FormatKind::picture) == kind;
     });
 }
 
 /// True for models and cells.
 static bool is_of_model(const std::filesystem::path& output) {
     const auto kind = output_kind(output);
-    return kind == OutputKind::model || kind == OutputKind::cells;
+    return kind == FormatKind::model || kind == FormatKind::cells;
 }
 
 void RunResults::say(std::string what) const {
@@ -217,17 +218,17 @@ Result<void> RunResults::write_plane_files(const Canvas& canvas) {
 Result<void> RunResults::write_outputs(const Canvas& canvas) {
     Result<void> result;
     for (const auto& output : outputs) {
-        const OutputKind kind = output_kind(output).value_or(OutputKind::picture);
-        if (kind != OutputKind::picture && kind != OutputKind::figure) continue;
-        auto done = kind == OutputKind::figure ? write_figure(output, canvas)
+        const FormatKind kind = output_kind(output).value_or(FormatKind::picture);
+        if (kind != FormatKind::picture && kind != FormatKind::figure) continue;
+        auto done = kind == FormatKind::figure ? write_figure(output, canvas)
                                                : write_final_picture(output, canvas);
         if (result) result = done;
     }
-    if (has(OutputKind::film)) {
+    if (has(FormatKind::film)) {
         auto done = write_films(canvas);
         if (result) result = done;
     }
-    if (!has(OutputKind::model) && !has(OutputKind::cells)) return result;
+    if (!has(FormatKind::model) && !has(FormatKind::cells)) return result;
     Result<void> done;
     if (canvas.cells) {
         done = write_cell_files(canvas);

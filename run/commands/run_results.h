@@ -1,6 +1,7 @@
 // The outputs of a run: pictures, models, frames, the log, a volume and the saved run.
 #pragma once
 
+#include "core/file_format.h"
 #include "film/film_frame.h"
 #include "picture/drawing.h"
 #include "run/commands/run.h"
@@ -69,7 +70,7 @@ private:
     Result<void> write_plane_files(const Canvas& canvas);
     std::vector<Channel> channels(const Canvas& canvas) const;
     bool shows_number(const Canvas& canvas) const;
-    bool has(OutputKind kind) const;
+    bool has(FormatKind kind) const;
     void say(std::string what) const;
     Result<void> write_frames();
     Result<void> write_figure(const std::filesystem::path& path, const Canvas& canvas);

@@ -1,6 +1,7 @@
 // Scripts know models upright and of length 1; files have the coordinates of the model's file.
 #include "run/pictures/cell_files.h"
 
+#include "core/file_format.h"
 #include "core/run_control.h"
 #include "export/bake.h"
 #include "export/instanced_model.h"
@@ -148,7 +149,7 @@ Result<void> write_values(const std::filesystem::path& path, const GrownCells& c
 Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
                                  const MeshTexture& texture, const ModelFileOptions& options,
                                  const PngTexts& texts) {
-    const bool has_things = output_kind(path) == OutputKind::model;
+    const bool has_things = is_of_kind(path, FormatKind::model);
     if (has_things && options.is_baked(path)) {
         return write_maps(path, cells, texture, options, texts);
     }

@@ -1,8 +1,7 @@
 // Frames are recognised by the form of their names and by the script in their text chunks.
 #include "run/pictures/frame_folder.h"
 
-#include "core/file_ending.h"
-#include "film/film.h"
+#include "core/file_format.h"
 #include "run/script/embedded_script.h"
 
 #include <fmt/format.h>
@@ -37,7 +36,7 @@ std::filesystem::path file_name(const std::string& script) {
 }  // namespace
 
 bool is_called_like_a_movie(const std::filesystem::path& path) {
-    if (film_format(path)) return true;
+    if (is_film(path)) return true;
     constexpr std::array<std::string_view, 5> endings = {".mov", ".avi", ".mkv", ".ogv", ".m4v"};
     const std::string ending = lower_ending(path);
     return std::find(endings.begin(), endings.end(), ending) != endings.end();

@@ -3,12 +3,11 @@
 #include "run/pictures/model_files.h"
 
 #include "core/enough_memory.h"
-#include "core/file_ending.h"
+#include "core/file_format.h"
 #include "core/run_control.h"
 #include "export/cell_writer.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
-#include "film/film.h"
 #include "run/pictures/map_size.h"
 #include "run/pictures/model_maps.h"
 #include "run/pictures/model_picture.h"
@@ -32,30 +31,12 @@ constexpr double usual_cover = 0.6;  ///< The part of a map that an atlas of our
 
 }  // namespace
 
-std::optional<OutputKind> output_kind(const std::filesystem::path& path) {
-    const std::string ending = lower_ending(path);
-    if (ending == ".png") return OutputKind::picture;
-    if (ending == ".svg" || ending == ".pdf") return OutputKind::figure;
-    if (film_format(path)) return OutputKind::film;
-    if (ending == ".npz") return OutputKind::cells;
-    if (ending == ".vtp" && lower_ending(path.stem()) == ".cells") {
-        return OutputKind::cells;
-    }
-    if (is_model_ending(path)) return OutputKind::model;
-    return std::nullopt;
-}
-
-bool holds_texture(const std::filesystem::path& path) {
-    const std::string ending = lower_ending(path);
-    return ending == ".glb" || ending == ".obj" || ending == ".ply";
-}
-
 bool ModelFileOptions::is_baked(const std::filesystem::path& path) const {
-    return has_maps() && lower_ending(path) == ".glb";
+    return has_maps() && can_hold(path, FormatTrait::maps);
 }
 
 bool ModelFileOptions::is_animated(const std::filesystem::path& path) const {
-    return animate && lower_ending(path) == ".glb";
+    return animate && can_hold(path, FormatTrait::growth);
 }
 
 std::int64_t texture_side(const ModelFileOptions& options, std::int64_t cells) {
@@ -121,7 +102,7 @@ Result<WrittenFiles> ModelFileWriter::write(const std::filesystem::path& path) {
 }
 
 Result<WrittenFiles> ModelFileWriter::write_one(const std::filesystem::path& path) {
-    if (output_kind(path) == OutputKind::cells) {
+    if (is_of_kind(path, FormatKind::cells)) {
         if (auto done = write_cells(path); !done) return tl::unexpected(done.error());
         return WrittenFiles{{path}, {}};
     }

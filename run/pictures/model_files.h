@@ -2,6 +2,7 @@
 #pragma once
 
 #include "atlas/unwrap.h"
+#include "core/file_format.h"
 #include "core/result.h"
 #include "export/levels.h"
 #include "export/material_maps.h"
@@ -22,19 +23,6 @@ namespace cascade {
 class CellFilter;
 struct ModelLook;
 struct RefinedMesh;
-
-/// The kind of an output file.
-enum class OutputKind { picture, figure, film, model, cells };
-
-/// By the ending, regardless of case: .png; .svg; those of films (film_format); .ply, .obj, .glb,
-/// .vtp; .npz, .cells.vtp. Nothing for other names.
-std::optional<OutputKind> output_kind(const std::filesystem::path& path);
-inline bool is_film(const std::filesystem::path& path) {
-    return output_kind(path) == OutputKind::film;
-}
-
-/// Whether the file of this name is a model with texture coordinates: .ply, .obj, .glb.
-bool holds_texture(const std::filesystem::path& path);
 
 /// How to write models.
 struct ModelFileOptions {

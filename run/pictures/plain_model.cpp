@@ -2,10 +2,9 @@
 #include "run/pictures/plain_model.h"
 
 #include "core/enough_memory.h"
-#include "core/file_ending.h"
+#include "core/file_format.h"
 #include "export/model_writer.h"
 #include "picture/srgb.h"
-#include "run/pictures/model_files.h"
 
 #include <fmt/format.h>
 
@@ -58,14 +57,18 @@ struct PlainResults {
 
 std::vector<std::string> left_out(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                   const PlainResults& results) {
-    const std::string ending = lower_ending(path);
     std::vector<std::string> sentences;
     const auto say = [&](const std::string& what) {
-        sentences.push_back(fmt::format("without {}, which {} files cannot hold", what, ending));
+        sentences.push_back(
+            fmt::format("without {}, which {} files cannot hold", what, lower_ending(path)));
     };
-    if (!results.colours.empty() && ending == ".stl") say("its colours");
-    if (!results.channels.empty() && ending != ".ply" && ending != ".vtp") say(results.names());
-    if (!mesh.texture.empty() && !holds_texture(path)) say("its texture coordinates");
+    if (!results.colours.empty() && !can_hold(path, FormatTrait::colours)) say("its colours");
+    if (!results.channels.empty() && !can_hold(path, FormatTrait::numbers)) {
+        say(results.names());
+    }
+    if (!mesh.texture.empty() && !can_hold(path, FormatTrait::texture)) {
+        say("its texture coordinates");
+    }
     return sentences;
 }
 

@@ -1,8 +1,10 @@
 // The list is the collection of ParaView: XML with a time and a file for each moment.
 #include "run/pictures/series.h"
 
+#include "core/check.h"
 #include "core/enough_memory.h"
 #include "core/file.h"
+#include "core/file_format.h"
 #include "export/model_writer.h"
 #include "export/point_values.h"
 #include "picture/vdb.h"
@@ -15,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <system_error>
@@ -80,6 +83,25 @@ std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model)
     return {values.begin(), values.end()};
 }
 
+namespace {
+
+struct VolumeRow {
+    FileFormat format;
+    Result<void> (*write)(const std::filesystem::path& path, const VdbVolume& volume);
+};
+
+Result<void> as_vti(const std::filesystem::path& path, const VdbVolume& volume) {
+    return write_vti(path, volume.arrays, volume.spacing, volume.inside);
+}
+
+constexpr std::array volume_writers = {
+    VolumeRow{FileFormat::vti, as_vti},
+    VolumeRow{FileFormat::vdb, write_vdb},
+};
+static_assert(has_all_of(volume_writers, FormatKind::volume));
+
+}  // namespace
+
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation,
                           const std::map<std::string, std::string>& texts) {
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
@@ -92,11 +114,12 @@ Result<void> write_volume(const std::filesystem::path& path, const Simulation& s
         if (mask) copies.push_back(with_outside(field, *mask, nothing_outside));
         arrays.push_back({std::string(system.item_name(item)), mask ? &copies.back() : &field});
     }
-    const double spacing = simulation.grid().spacing;
-    const Mask* const inside = mask ? &mask->inside : nullptr;
-    if (!is_vdb(path)) return write_vti(path, arrays, spacing, inside);
-    return write_vdb(path, {arrays, spacing, inside, texts, simulation.program().stages[stage].name,
-                            simulation.state(stage).steps, time_of(simulation, stage)});
+    const FormatRow* const format = find_format(path);
+    const VolumeRow* const writer = format ? row_of(volume_writers, format->format) : nullptr;
+    CHECK(writer != nullptr, "the name is that of a volume");
+    return writer->write(path, {arrays, simulation.grid().spacing, mask ? &mask->inside : nullptr,
+                                texts, simulation.program().stages[stage].name,
+                                simulation.state(stage).steps, time_of(simulation, stage)});
 }
 
 /// The mesh that carries the values of cells.

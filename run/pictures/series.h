@@ -21,9 +21,8 @@ std::vector<Channel> species_channels(const Simulation& simulation, const FieldN
 /// The numbers of a field at the cells of a model, in the order of files.
 std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model);
 
-/// Writes the species of the stage that is shown, on a grid, as write_vdb() does if the path ends
-/// in .vdb, then with these texts, and else as write_vti() does: cells outside of the mask are
-/// hidden.
+/// Writes the species of the stage that is shown, on a grid, in the format of the path's ending,
+/// and these texts where it holds some. Cells outside of the mask are hidden.
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation,
                           const std::map<std::string, std::string>& texts = {});
 

@@ -230,7 +230,7 @@ TEST(InstancedModel, EndingsChooseTheFormat) {
     EXPECT_THAT(first_bytes("a.glb", true), ::testing::Not(HasSubstr("EXT_mesh")));
     const Result<void> refused = write_instanced(folder / "a.ply", {nullptr, {}, copies}, true);
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("ends in .glb or .obj"));
+    EXPECT_THAT(refused.error().message, HasSubstr("ends in .obj or .glb"));
     std::filesystem::remove_all(folder);
 }
 

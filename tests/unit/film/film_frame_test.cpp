@@ -57,16 +57,6 @@ TEST(FilmFrames, AreShownForWholeTicksThatAddUp) {
     EXPECT_EQ(sum, 100);
 }
 
-TEST(FilmFormats, AreKnownByTheirEndings) {
-    EXPECT_EQ(film_format("a/b.GIF"), FilmFormat::gif);
-    EXPECT_EQ(film_format("b.webp"), FilmFormat::webp);
-    EXPECT_EQ(film_format("b.apng"), FilmFormat::apng);
-    EXPECT_EQ(film_format("b.mp4"), FilmFormat::mp4);
-    EXPECT_EQ(film_format("b.webm"), FilmFormat::webm);
-    EXPECT_FALSE(film_format("b.png"));
-    EXPECT_FALSE(film_format("gif"));
-}
-
 TEST_F(FilmTest, HasSidesThatItsFormatHolds) {
     const auto refused = [&](const char* name, std::int64_t width, std::int64_t height) {
         const auto fits = check_film_size(path(name), width, height);

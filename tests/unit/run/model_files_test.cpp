@@ -1,6 +1,7 @@
 // Files of runs on models: what a name says, what travels in pictures, what the library makes of
 // cells.
 #include "cascade/cascade.h"
+#include "core/file_format.h"
 #include "run/commands/run_checks.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/painter.h"
@@ -14,18 +15,22 @@ using testing::ElementsAre;
 
 TEST(ModelFiles, the_ending_says_what_a_file_holds) {
     for (const char* name : {"a.png", "b/c.PNG", "a.cells.png"}) {
-        EXPECT_EQ(output_kind(name), OutputKind::picture) << name;
+        EXPECT_EQ(output_kind(name), FormatKind::picture) << name;
     }
     for (const char* name : {"a.gif", "a.WebP", "a.apng", "a.mp4", "a.cells.webm"}) {
-        EXPECT_EQ(output_kind(name), OutputKind::film) << name;
+        EXPECT_EQ(output_kind(name), FormatKind::film) << name;
     }
     for (const char* name : {"a.ply", "a.Obj", "a.glb", "a.vtp", "cells.vtp", "a.cells.b.vtp"}) {
-        EXPECT_EQ(output_kind(name), OutputKind::model) << name;
+        EXPECT_EQ(output_kind(name), FormatKind::model) << name;
+    }
+    for (const char* name : {"a.svg", "a.PDF"}) {
+        EXPECT_EQ(output_kind(name), FormatKind::figure) << name;
     }
     for (const char* name : {"a.npz", "a.cells.vtp", "b/a.Cells.VTP"}) {
-        EXPECT_EQ(output_kind(name), OutputKind::cells) << name;
+        EXPECT_EQ(output_kind(name), FormatKind::cells) << name;
     }
-    for (const char* name : {"a", "", "png", "a.fbx", "a.png.bak", ".ply", "a."}) {
+    for (const char* name :
+         {"a", "", "png", "gif", "a.fbx", "a.vti", "a.json", "a.png.bak", ".ply", "a."}) {
         EXPECT_FALSE(output_kind(name)) << name;
     }
 }

@@ -1,0 +1,112 @@
+// The formats that Cascade writes, and what a file's name says of its own (core/file_formats.def).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cascade {
+
+enum class FileFormat : std::uint8_t {
+#define CASCADE_FORMAT(id, ending, kind, name, traits) id,
+#include "core/file_formats.def"
+};
+
+/// What is written in a format; `run -o` writes those up to `cells`.
+enum class FormatKind : std::uint8_t {
+    picture,
+    figure,
+    film,
+    model,
+    cells,
+    volume,
+    series,
+    report
+};
+
+enum class FormatTrait : std::uint16_t {
+    none = 0,
+    drawing = 1 << 0,       ///< Diagrams can be written in it.
+    transparency = 1 << 1,  ///< Of films.
+    colours = 1 << 2,       ///< Of the points of a model, like the following two.
+    numbers = 1 << 3,
+    texture = 1 << 4,  ///< Texture coordinates.
+    copies = 1 << 5,   ///< A model with copies of shapes on it.
+    maps = 1 << 6,     ///< Textures.
+    growth = 1 << 7,   ///< How a model changed over time.
+    levels = 1 << 8,   ///< All levels of detail of a model in one file.
+    planes = 1 << 9,   ///< Of volumes: planes, too.
+};
+
+constexpr FormatTrait operator|(FormatTrait a, FormatTrait b) {
+    return static_cast<FormatTrait>(static_cast<std::uint16_t>(a) | static_cast<std::uint16_t>(b));
+}
+
+struct FormatRow {
+    FileFormat format;
+    std::string_view ending;
+    FormatKind kind;
+    std::string_view name;
+    FormatTrait traits;
+
+    constexpr bool has(FormatTrait trait) const {
+        return (static_cast<std::uint16_t>(traits) & static_cast<std::uint16_t>(trait)) != 0;
+    }
+};
+
+/// In the order of the table.
+consteval auto all_formats() {
+    using enum FormatTrait;
+    return std::array{
+#define CASCADE_FORMAT(id, ending, kind, name, traits) \
+    FormatRow{FileFormat::id, ending, FormatKind::kind, name, traits},
+#include "core/file_formats.def"
+    };
+}
+inline constexpr auto file_formats = all_formats();
+
+/// The row of the format that a file's name ends with, regardless of case; null for other names.
+const FormatRow* find_format(const std::filesystem::path& path);
+bool is_of_format(const std::filesystem::path& path, FileFormat format);
+bool is_of_kind(const std::filesystem::path& path, FormatKind kind);
+bool can_hold(const std::filesystem::path& path, FormatTrait trait);
+inline bool is_film(const std::filesystem::path& path) {
+    return is_of_kind(path, FormatKind::film);
+}
+/// The kind of a file that `run -o` writes; nothing for other names.
+std::optional<FormatKind> output_kind(const std::filesystem::path& path);
+
+/// The endings of a kind, or of formats with a trait, in the order of the table: ".svg or .pdf"
+/// with the joint "or", ".svg, .pdf" with none.
+std::string endings_of(FormatKind kind, std::string_view joint = "");
+std::string endings_of(FormatTrait trait, std::string_view joint = "");
+/// "-o NAME.svg or .pdf", for hints.
+template <typename Which>
+std::string output_of(Which which) {
+    return "-o NAME" + endings_of(which, "or");
+}
+
+/// The extension of a file's name with its letters A to Z in lower case, such as ".glb".
+std::string lower_ending(const std::filesystem::path& path);
+
+/// The row of a format in a table whose rows have a member `format`.
+template <typename Table>
+constexpr const auto* row_of(const Table& table, FileFormat format) {
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const auto& row) { return row.format == format; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+/// Whether a table of writers has one for each format of a kind.
+template <typename Table>
+constexpr bool has_all_of(const Table& table, FormatKind kind) {
+    return std::all_of(file_formats.begin(), file_formats.end(), [&](const FormatRow& row) {
+        return row.kind != kind || row_of(table, row.format) != nullptr;
+    });
+}
+
+}  // namespace cascade
