@@ -2,7 +2,7 @@
 #include "app/prompt_names.h"
 
 #include "app/prompt_text.h"
-#include "lang/check/known_names.h"
+#include "lang/service/known_names.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -50,7 +50,8 @@ std::vector<std::string> names_at_end(std::string_view line, const Program& prog
         return names;
     }
     std::vector<std::string> names;
-    for (KnownName& known : completions(line, program)) names.push_back(std::move(known.name));
+    for (KnownName& known : completions(line, line.size(), program))
+        names.push_back(std::move(known.name));
     return names;
 }
 

@@ -1,7 +1,7 @@
 // Counts brackets and looks at the last character, outside of comments and strings; does not parse.
 #include "app/prompt_text.h"
 
-#include "lang/check/known_names.h"
+#include "lang/service/known_names.h"
 #include "lang/vocabulary/greek_letters.h"
 
 #include <algorithm>

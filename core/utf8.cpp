@@ -58,6 +58,16 @@ std::size_t count_code_points(std::string_view text) {
     return count;
 }
 
+std::size_t count_utf16_units(std::string_view text) {
+    std::size_t count = 0;
+    for (std::size_t offset = 0; offset < text.size();) {
+        const CodePoint point = decode_utf8(text, offset);
+        count += point.value > 0xffff ? 2 : 1;
+        offset += point.size;
+    }
+    return count;
+}
+
 int display_width(char32_t code_point) {
     static constexpr Interval combining[] = {
         {0x300, 0x36f}, {0x1ab0, 0x1aff}, {0x20d0, 0x20ff}, {0xfe00, 0xfe0f}, {0xfe20, 0xfe2f}};

@@ -24,6 +24,10 @@ CodePoint decode_utf8(std::string_view text, std::size_t offset);
 /// The number of code points in a text; an invalid byte counts as one.
 std::size_t count_code_points(std::string_view text);
 
+/// The number of UTF-16 units of a text, in which JavaScript and editors count columns: two for
+/// code points above U+FFFF, else one.
+std::size_t count_utf16_units(std::string_view text);
+
 /// Terminal columns of a printable code point: 0 for combining marks, 2 for wide letters, else 1.
 int display_width(char32_t code_point);
 

@@ -26,23 +26,12 @@ std::string print(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Columns of JavaScript: UTF-16 units before a byte of a line, from 0.
-std::size_t utf16_column(std::string_view line, std::size_t byte) {
-    std::size_t column = 0;
-    for (std::size_t k = 0; k < std::min(byte, line.size());) {
-        const CodePoint point = decode_utf8(line, k);
-        column += point.value > 0xffff ? 2 : 1;
-        k += point.size;
-    }
-    return column;
-}
-
-/// A place in a text as line, from 1, and column, from 0.
+/// A position in a text as line, from 1, and column of JavaScript, from 0.
 Json place_of(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, byte);
     const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0.
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    return {line, utf16_column(text.substr(start), before.size() - start)};
+    return {line, count_utf16_units(before.substr(start))};
 }
 
 /// Their places are left out where they are in other texts, such as an option.

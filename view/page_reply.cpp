@@ -2,8 +2,8 @@
 #include "view/page_reply.h"
 
 #include "core/base64.h"
-#include "lang/check/known_names.h"
 #include "lang/equations/equations.h"
+#include "lang/service/known_names.h"
 #include "measure/spectrum.h"
 #include "picture/image.h"
 #include "run/pictures/body_picture.h"
@@ -35,7 +35,8 @@ Json reply_to(const AskForLog&, LiveRun& run) {
 
 Json reply_to(const AskForNames& question, LiveRun& run) {
     Json names = Json::array();
-    for (const KnownName& known : completions(question.text, *run.script().program)) {
+    const std::string& text = question.text;
+    for (const KnownName& known : completions(text, text.size(), *run.script().program)) {
         names.push_back(
             {{"name", known.name}, {"what", name_of(known.kind)}, {"note", known.note}});
     }
@@ -80,22 +81,22 @@ void add_values(Json& reply, const LiveRun& run, StageItem at) {
 Json reply_to(const AskAboutName& question, LiveRun& run) {
     const Script& script = run.script();
     const std::uint32_t stage = run.place().stage;
-    const auto mention = mention_at_end(question.text, *script.program, stage);
+    const auto found = mention(question.text, question.text.size(), *script.program, stage);
     Json reply = {{"kind", "explanation"}};
-    if (!mention) return reply;
-    const KnownName& known = mention->known;
+    if (!found) return reply;
+    const KnownName& known = found->known;
     reply["name"] = known.name;
     reply["what"] = name_of(known.kind);
     reply["note"] = known.note;
-    const std::uint32_t of = mention->item ? mention->item->stage : stage;
-    if (mention->item) {
-        add_values(reply, run, *mention->item);
+    const std::uint32_t of = found->item ? found->item->stage : stage;
+    if (found->item) {
+        add_values(reply, run, *found->item);
         const System& system = script.program->system_of(of);
-        if (const auto& range = system.quantities[mention->item->item].range) {
+        if (const auto& range = system.quantities[found->item->item].range) {
             reply["range"] = {range->low, range->high};
         }
     }
-    if (mention->item || known.kind == NameKind::definition) {
+    if (found->item || known.kind == NameKind::definition) {
         reply["equation"] = equation_in_mathml(script.tree, script.sources,
                                                script.program->system_of(of).name, known.name);
     }

@@ -105,13 +105,14 @@ Workspace workspace_of(const Program& program, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::optional<Program> check(const ast::Script& script, Sources& sources,
-                             Diagnostics& diagnostics) {
+std::optional<Program> check(const ast::Script& script, Sources& sources, Diagnostics& diagnostics,
+                             NameUses* uses) {
     Program program;
     Diagnostics own;
     {
         Workspace work{program, own, {}, {}, {}, {}, {}, 0};
         work.draft = &program;
+        work.uses = uses;
         const std::vector<LibraryScript> library = read_library(script, sources, own);
         ast::Script functions;
         if (has_cells(script, library)) {

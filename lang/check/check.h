@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/diagnostics.h"
+#include "lang/check/name_uses.h"
 #include "lang/program/program.h"
 #include "lang/syntax/ast.h"
 
@@ -15,7 +16,9 @@ namespace cascade {
 /// `diagnostics`; warnings may come with a result. Does not touch files: the paths in
 /// `field("a.npy")` are only collected. Accepts a script without stages, as `systems` and the
 /// prompt need; `run` refuses it.
-std::optional<Program> check(const ast::Script& script, Sources& sources, Diagnostics& diagnostics);
+/// `uses` receives what names refer to, also of a script with errors; null if nobody asks.
+std::optional<Program> check(const ast::Script& script, Sources& sources, Diagnostics& diagnostics,
+                             NameUses* uses = nullptr);
 
 /// Checks an expression for a picture (`--show`, `picture { color: … }`): bare names and `[p]` are
 /// items of `stage`, `other.p` one of any stage up to `last_stage`. Strings that it refers to by

@@ -140,11 +140,12 @@ void ExpressionChecker::visit(const ast::Name& name) {
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {
         return error(span, fmt::format("'{}' is known to cells that crawl only", name.name));
     }
-    take(resolve_bare(work_, scope_, name.name, span));
+    take(resolve_bare(work_, scope_, name.name, span), span);
 }
 
 void ExpressionChecker::visit(const ast::Bracketed& bracketed) {
-    take(resolve_bracketed(work_, scope_, bracketed.name, formula_.nodes.back().span));
+    take(resolve_bracketed(work_, scope_, bracketed.name, formula_.nodes.back().span),
+         bracketed.name.span);
 }
 
 void ExpressionChecker::visit(const ast::Qualified& qualified) {
@@ -152,18 +153,20 @@ void ExpressionChecker::visit(const ast::Qualified& qualified) {
         return error(formula_.nodes.back().span, "a text in quotes is expected here",
                      fmt::format("\"{}.{}\"", qualified.stage.text, qualified.name.text));
     }
-    take(resolve_qualified(work_, scope_, qualified, formula_.nodes.back().span));
+    take(resolve_qualified(work_, scope_, qualified, formula_.nodes.back().span),
+         qualified.name.span);
 }
 
 void ExpressionChecker::visit(const ast::RateOf& rate) {
-    take(resolve_rate(work_, scope_, rate.name, formula_.nodes.back().span));
+    take(resolve_rate(work_, scope_, rate.name, formula_.nodes.back().span), rate.name.span);
 }
 
-void ExpressionChecker::take(std::optional<Node> node) {
+void ExpressionChecker::take(std::optional<Node> node, Span name) {
     if (!node) {
         parts_.back().has_error = true;
         return;
     }
+    note_use(work_, scope_, *node, name);
     if (const auto* number = node->as<double>()) parts_.back() = {false, true, *number};
     if (const auto* id = node->as<DefinitionId>(); id != nullptr && work_.on_surface) {
         parts_.back().turned = is_turned(*id);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/diagnostics.h"
+#include "lang/check/name_uses.h"
 #include "lang/program/program.h"
 #include "lang/syntax/ast.h"
 #include "lang/vocabulary/words_elsewhere.h"
@@ -67,6 +68,7 @@ struct Workspace {
     std::vector<bool> cell_stages = {};  ///< By stage: is its system a block of cells?
     /// The functions of cells (lang/library/library.h); null if there are no cells.
     const ast::Script* cell_functions = nullptr;
+    NameUses* uses = nullptr;  ///< Receives what names refer to; null if nobody asks.
 };
 
 /// Is it a name of which every cell that crawls has a value? A function of a script with such cells
@@ -126,6 +128,17 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
                                       const ast::Qualified& qualified, Span span);
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span);
+
+/// Notes that the name at `use` refers to a declaration.
+void note_use(Workspace& work, Span use, Span declaration);
+/// The same for a name that means an item or a definition of a system.
+void note_use(Workspace& work, Span use, SystemId system,
+              const std::variant<ItemId, DefinitionId>& id);
+/// The same for a name in an expression, which has become `node`.
+void note_use(Workspace& work, const Scope& scope, const Node& node, Span use);
+
+/// Notes that each declaration of a system refers to itself, and to one of its name in a base.
+void note_declarations(Workspace& work, SystemId system);
 
 /// True where vectors are those of space: in systems of cells that crawl, and in shapes.
 bool is_of_cells(const Workspace& work, const Scope& scope);

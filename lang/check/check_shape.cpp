@@ -187,6 +187,7 @@ std::optional<ShapeForm> ShapeChecker::run() {
     declarations_ = system_declarations(work_, system(), derived_.statements);
     for (const Declaration& declaration : declarations_) declare(declaration);
     work_.names[index_] = names_of(system());
+    note_declarations(work_, index_);
     work_.items_read[index_].assign(system().item_count(), false);
     for (std::uint32_t k = 0; k < ShapeForm::known_count; ++k) {
         work_.items_read[index_][ItemId(k)] = true;
@@ -253,6 +254,7 @@ std::vector<ShapeForm> checked_shapes(Workspace& work, const ast::Script& script
     own.draft = &program;
     own.functions = work.functions;
     own.cell_functions = work.cell_functions;
+    own.uses = work.uses;
     std::vector<ShapeForm> shapes;
     const std::vector<DerivedSystem> derived = derive_systems(own, blocks);
     std::vector<SystemId> numbers;

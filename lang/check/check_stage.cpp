@@ -221,6 +221,7 @@ void StageChecker::set(const Declaration& declaration) {
     }
     if (meaning == nullptr) return report_unknown(declaration);
     if (meaning->has_error) return;
+    note_use(work_, statement.name.span, stage().system, meaning->id);
     if (meaning->is_definition()) {
         work_.diagnostics.error(statement.name.span,
                                 fmt::format("'{}' is a definition of {} and cannot be set", name,

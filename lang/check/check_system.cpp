@@ -15,6 +15,7 @@ void SystemChecker::run() {
     if (is_cells()) add_cell_quantities();
     for (const Declaration& declaration : declarations_) declare(declaration);
     find_unknowns();
+    note_declarations(work_, index_);
     report_families();
     work_.names[index_] = names_of(system());
     rates_.resize(system().quantities.size());
@@ -198,6 +199,7 @@ void SystemChecker::collect_rate(const Declaration& declaration) {
     if (meaning != nullptr && meaning->has_error) return;
     if (!is_quantity) return report_no_species(declaration, meaning);
     system().quantities[meaning->item()].is_species = true;
+    note_use(work_, declaration.span(), index_, meaning->id);
     add_statement_of_rate(rates_[meaning->item()], declaration);
 }
 

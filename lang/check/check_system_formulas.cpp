@@ -122,6 +122,7 @@ void SystemChecker::check_invariants() {
             report_not_species(work_, index_, declaration->name, declaration->span());
             continue;
         }
+        note_use(work_, declaration->span(), index_, *species);
         auto checked = check_value(*declaration, Context::bound);
         if (!checked) continue;
         system().invariants.push_back({*species,

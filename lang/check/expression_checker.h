@@ -74,7 +74,7 @@ private:
     void visit(const ast::Component& component);
     void visit(const ast::Garbage&) { parts_.back().has_error = true; }
 
-    void take(std::optional<Node> node);
+    void take(std::optional<Node> node, Span name);
     void apply(Function function, const Operands& operands, std::size_t count);
     void take_surface_value(Function function, const ast::Call& call);
     void take_convolution(const ast::Call& call);

@@ -187,6 +187,7 @@ private:
         if (!subject) {
             return report_not_species(work_, scope_.system, declaration.name, head_of(statement));
         }
+        note_use(work_, statement.name.span, scope_.system, *subject);
         const auto written = read_side(work_, script_, statement);
         if (!written || !is_for(*subject, *written, statement)) return;
         SideSetting setting{written->kind, {}, statement.span};

@@ -24,6 +24,7 @@ void add_stage(Workspace& work, const ast::Block& block, bool has_cells) {
         report_twice(work, stage.span, work.program.stages[first->second].span,
                      fmt::format("there are two stages '{}'", stage.name));
     }
+    note_use(work, stage.span, stage.span);
     work.draft->stages.push_back(std::move(stage));
     work.cell_stages.push_back(has_cells);
 }
@@ -78,6 +79,8 @@ void find_systems_of_stages(Workspace& work, const ast::Script& script, bool all
         const auto found = work.systems.find(std::string(name.text));
         if (found != work.systems.end()) {
             work.draft->stages[k].system = found->second;
+            if (found->second != unknown_system)
+                note_use(work, name.span, work.program.systems[found->second].span);
         } else if (all_are_known && !name.empty()) {
             report_unknown_system(work, name);
         }

@@ -58,7 +58,10 @@ std::optional<std::uint32_t> Derivation::find_base(std::uint32_t index, const as
         found = library->second;
     }
     const bool has_cells = blocks_[index].block->is_cells;
-    if (found && blocks_[*found].block->is_cells == has_cells) return found;
+    if (found && blocks_[*found].block->is_cells == has_cells) {
+        note_use(work_, base.span, blocks_[*found].block->name.span);
+        return found;
+    }
     is_known_[index] = false;
     if (!found && blocks_[index].block->kind == ast::BlockKind::shape) {
         report_unknown_shape(work_, *blocks_[index].script, base);

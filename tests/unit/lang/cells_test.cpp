@@ -1,6 +1,6 @@
 // Blocks of cells through the front end: the tree, the standard form, the program, the equations.
 #include "check_helpers.h"
-#include "lang/check/known_names.h"
+#include "lang/service/known_names.h"
 #include "lang/equations/equations.h"
 #include "lang/format/format_script.h"
 
@@ -194,7 +194,8 @@ TEST(CellsInEquations, TurnDivideAndStartAgain) {
 TEST(CellsInCompletions, AreKnown) {
     const auto script = check_text(scale);
     std::vector<std::string> names;
-    for (const KnownName& each : completions("cells more: scale {\n  di", *script->program)) {
+    const std::string_view text = "cells more: scale {\n  di";
+    for (const KnownName& each : completions(text, text.size(), *script->program)) {
         names.push_back(each.name);
     }
     for (const char* word : {"divide", "die", "ripe", "r", "p"}) EXPECT_THAT(names, Contains(word));

@@ -1,6 +1,6 @@
 // What can be typed next, and what a name means, depend on the place in the text.
 #include "check_helpers.h"
-#include "lang/check/known_names.h"
+#include "lang/service/known_names.h"
 
 #include <gmock/gmock.h>
 
@@ -25,8 +25,12 @@ protected:
                    ->program) {}
     std::vector<std::string> after(std::string_view text) const {
         std::vector<std::string> names;
-        for (KnownName& known : completions(text, program_)) names.push_back(std::move(known.name));
+        for (KnownName& known : completions(text, text.size(), program_))
+            names.push_back(std::move(known.name));
         return names;
+    }
+    std::optional<Mention> at_end(std::string_view text, std::uint32_t stage) const {
+        return mention(text, text.size(), program_, stage);
     }
     Program program_;
 };
@@ -74,23 +78,34 @@ TEST_F(KnownNames, SystemsItemsAndPalettesHaveTheirPlaces) {
 }
 
 TEST_F(KnownNames, NamesMeanWhatTheyDoInTheirStage) {
-    const auto k = mention_at_end("system s { u: 1; k", program_, 1);
+    const auto k = at_end("system s { u: 1; k", 1);
     ASSERT_TRUE(k && k->item);
     EXPECT_EQ(k->known.kind, NameKind::parameter);
     EXPECT_EQ(k->known.note, "how fast");
     EXPECT_EQ(k->item->stage, 0U);
     const auto at = [&](std::string_view text, std::uint32_t stage) {
-        return mention_at_end(text, program_, stage)->item->stage;
+        return at_end(text, stage)->item->stage;
     };
     EXPECT_EQ(at("u", 1), 1U);
     EXPECT_EQ(at("u", 0), 0U);
     EXPECT_EQ(at("stage two: w { u: one.u", 1), 0U);
     EXPECT_EQ(at("stage two: w { u", 0), 1U);
-    EXPECT_EQ(mention_at_end("u' = lap", program_, 0)->known.kind, NameKind::function);
-    EXPECT_EQ(mention_at_end("stage one: s { speed", program_, 0)->known.kind, NameKind::setting);
-    EXPECT_FALSE(mention_at_end("# u", program_, 0));
-    EXPECT_FALSE(mention_at_end("nobody", program_, 0));
-    EXPECT_FALSE(mention_at_end("", program_, 0));
+    EXPECT_EQ(at_end("u' = lap", 0)->known.kind, NameKind::function);
+    EXPECT_EQ(at_end("stage one: s { speed", 0)->known.kind, NameKind::setting);
+    EXPECT_FALSE(at_end("# u", 0));
+    EXPECT_FALSE(at_end("nobody", 0));
+    EXPECT_FALSE(at_end("", 0));
+}
+
+TEST_F(KnownNames, OnlyTheTextBeforeAPositionCounts) {
+    const std::string_view text = "stage one: s { speed: 1 }\n# u";
+    EXPECT_EQ(mention(text, text.find("eed"), program_, 0)->known.name, "speed");
+    EXPECT_EQ(mention(text, text.find("speed"), program_, 0)->known.name, "speed");
+    EXPECT_EQ(mention(text, text.find("s {"), program_, 0)->known.kind, NameKind::system);
+    std::vector<std::string> names;
+    for (KnownName& known : completions(text, text.find("eed"), program_))
+        names.push_back(std::move(known.name));
+    EXPECT_THAT(names, IsSupersetOf({"solver", "speed"}));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Every setting of the table is known to completion and to hints.
 #include "check_helpers.h"
-#include "lang/check/known_names.h"
+#include "lang/service/known_names.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>

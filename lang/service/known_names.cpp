@@ -1,7 +1,8 @@
 // Collects names from the tables of the language, and reads as much of a text as tells its place.
-#include "lang/check/known_names.h"
+#include "lang/service/known_names.h"
 
 #include "core/palette.h"
+#include "core/utf8.h"
 #include "lang/library/library.h"
 #include "lang/vocabulary/greek_letters.h"
 #include "lang/vocabulary/settings.h"
@@ -267,10 +268,10 @@ std::string_view last_word(std::string_view text) {
 }
 
 std::string_view name_of(NameKind kind) {
-    constexpr std::array<std::string_view, 11> names{"species", "parameter", "definition",
-                                                     "stage",   "system",    "function",
-                                                     "value",   "setting",   "word",
-                                                     "palette", "keyword"};
+    constexpr std::array<std::string_view, 12> names{"species",  "parameter", "definition",
+                                                     "stage",    "system",    "shape",
+                                                     "function", "value",     "setting",
+                                                     "word",     "palette",   "keyword"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -280,8 +281,18 @@ std::vector<KnownName> known_names(const Program& program) {
     return sorted(std::move(names));
 }
 
-std::vector<KnownName> completions(std::string_view typed, const Program& program) {
-    const std::string ascii = with_ascii_names(typed);
+std::size_t end_of_word(std::string_view text, std::size_t byte) {
+    while (byte < text.size()) {
+        const std::size_t next = byte + decode_utf8(text, byte).size;
+        if (last_letter_of_name(text.substr(0, next)) == 0) break;
+        byte = next;
+    }
+    return std::min(byte, text.size());
+}
+
+std::vector<KnownName> completions(std::string_view typed, std::size_t byte,
+                                   const Program& program) {
+    const std::string ascii = with_ascii_names(typed.substr(0, byte));
     std::string_view text = ascii;
     text.remove_suffix(last_word(text).size());
     const TextPlace place = place_at_end(text);
@@ -309,9 +320,9 @@ std::vector<KnownName> completions(std::string_view typed, const Program& progra
     return sorted(names_in_value(place.statement, program));
 }
 
-std::optional<Mention> mention_at_end(std::string_view typed, const Program& program,
-                                      std::uint32_t stage) {
-    const std::string ascii = with_ascii_names(typed);
+std::optional<Mention> mention(std::string_view typed, std::size_t byte, const Program& program,
+                               std::uint32_t stage) {
+    const std::string ascii = with_ascii_names(typed.substr(0, end_of_word(typed, byte)));
     std::string_view text = ascii;
     const std::string_view word = last_word(text);
     text.remove_suffix(word.size());
@@ -333,7 +344,7 @@ std::optional<Mention> mention_at_end(std::string_view typed, const Program& pro
             return Mention{{quantity.name, kind, quantity.doc}, StageItem{k, item}};
         }
     }
-    for (const auto& list : {completions(text, program), known_names(program)}) {
+    for (const auto& list : {completions(text, text.size(), program), known_names(program)}) {
         for (const KnownName& known : list) {
             if (known.name == word) return Mention{known, std::nullopt};
         }

@@ -1,0 +1,20 @@
+// What the names of a script refer to, as a check finds it out.
+#pragma once
+
+#include "core/source.h"
+
+#include <vector>
+
+namespace cascade {
+
+/// A name that is written at `use`, and the name of the statement or block that declares it. A
+/// declaration refers to itself, and to the inherited declaration that it replaces.
+struct NameUse {
+    Span use;
+    Span declaration;
+};
+
+/// In no order, some several times. A span of a use may hold more than the name: `[u]`, `u[i]`.
+using NameUses = std::vector<NameUse>;
+
+}  // namespace cascade

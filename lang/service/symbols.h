@@ -1,0 +1,23 @@
+// The outline of a script: its blocks and what they declare.
+#pragma once
+
+#include "core/source.h"
+#include "lang/service/known_names.h"
+#include "lang/syntax/ast.h"
+
+#include <string>
+#include <vector>
+
+namespace cascade {
+
+struct Symbol {
+    std::string name;  ///< `domain` and `picture` for these blocks.
+    NameKind kind = NameKind::keyword;
+    Span name_span, span;  ///< The name, and all of its block, function or statement.
+    std::vector<Symbol> inside;
+};
+
+/// The blocks and functions of one source of a tree, in the order of the text.
+std::vector<Symbol> symbols_of(const ast::Script& tree, SourceId source);
+
+}  // namespace cascade
