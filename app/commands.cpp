@@ -206,7 +206,7 @@ int compile_command(const Options& options, Console& console) {
             return exit_status::wrong_script;
         }
         console.fail(compiled.error());
-        return has_jit() ? exit_status::wrong_use : exit_status::failed_run;
+        return fastest_backend().is_native ? exit_status::wrong_use : exit_status::failed_run;
     }
     if (auto done = write_compiled(*compiled, object, header); !done) {
         console.fail(done.error());

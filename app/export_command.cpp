@@ -29,7 +29,7 @@ int export_command(const Options& options, Console& console) {
     RunControl control;
     const InterruptGuard interrupt(control.cancel);
     SimulationOptions simulation = options.run.simulation;
-    simulation.backend = BackendKind::interpreter;  // Only starting values are computed.
+    simulation.backend = "interp";  // Only starting values are computed.
     const auto run = LiveRun::begin(std::move(file->script), simulation, control);
     if (!run) {
         console.say(run.error().messages(console.error().colour));

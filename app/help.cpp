@@ -164,7 +164,7 @@ std::string in_lines(const std::string& text) {
 }
 
 std::string version_text() {
-    return fmt::format("cascade {}\n{}\n", version(), describe_backend());
+    return fmt::format("cascade {}\n{}\n", version(), fastest_backend().describe());
 }
 
 }  // namespace cascade::help

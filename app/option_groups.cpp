@@ -358,15 +358,16 @@ void add_log(CLI::App& app, RunRequest& run) {
 void add_simulation(CLI::App& app, Options& options, const std::string& threads) {
     const std::string group = execution_group;
     SimulationOptions& simulation = options.run.simulation;
-    if (!has_jit()) simulation.backend = BackendKind::interpreter;
     simulation.kernel_cache = usual_kernel_cache();
     simulation.starts_interpreted = true;
-    add_value(app, "--backend", "jit|interp", "Native code by LLVM, or the interpreter",
-              one_of(has_jit() ? std::vector<std::string>{"jit", "interp"}
-                               : std::vector<std::string>{"interp"}),
-              [&](const auto& name) {
-                  simulation.backend = name == "jit" ? BackendKind::jit : BackendKind::interpreter;
-              })
+    std::vector<std::string_view> names, meanings;
+    for (const BackendKind& each : backends()) {
+        names.push_back(each.name);
+        meanings.push_back(each.meaning);
+    }
+    add_value(app, "--backend", fmt::format("{}", fmt::join(names, "|")),
+              fmt::format("{}", fmt::join(meanings, ", or ")), one_of(available_backends()),
+              [&](const auto& name) { simulation.backend = backend_named(name).name; })
         ->group(group);
     add_value(app, "--threads", "N", threads, whole_number(1, 1024), [&](auto count) {
         simulation.threads = static_cast<int>(count);

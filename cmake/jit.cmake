@@ -5,7 +5,7 @@ set(jit_without_llvm code_cache code_image code_version generator jit kernel_key
 list(TRANSFORM jit_without_llvm PREPEND ${PROJECT_SOURCE_DIR}/jit/)
 list(TRANSFORM jit_without_llvm APPEND .cpp)
 file(GLOB jit_with_llvm CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp)
-list(REMOVE_ITEM jit_with_llvm ${jit_without_llvm})
+list(REMOVE_ITEM jit_with_llvm ${jit_without_llvm} ${PROJECT_SOURCE_DIR}/jit/no_jit.cpp)
 
 # Kernels on disk are reused only by programs with the same code generator.
 file(GLOB code_sources RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/jit/*.cpp

@@ -277,6 +277,8 @@ private:
 
 }  // namespace
 
+bool has_jit() { return true; }
+
 Result<std::unique_ptr<Backend>> make_jit(const JitOptions& options) {
     if (auto good = check_options(options); !good) return tl::unexpected(good.error());
     return std::make_unique<JitBackend>(options);

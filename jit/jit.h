@@ -22,6 +22,9 @@ struct JitOptions {
     std::filesystem::path cache = {};
 };
 
+/// Is LLVM part of this build? Without it, everything below that makes code fails.
+bool has_jit();
+
 /// A backend whose kernels are machine code in this process. Fails on options out of range. Its
 /// compile() may be called by several threads, which compile different kernels at the same time. It
 /// fails if LLVM cannot be loaded or does not support the host, and on kernels of more than about

@@ -41,7 +41,9 @@ target_compile_options(cascade_options INTERFACE -msimd128 -fno-exceptions -fno-
 
 cascade_room(core)
 target_compile_definitions(cascade_core PRIVATE CASCADE_VERSION="${PROJECT_VERSION}")
-foreach(room ir lang wasm solvers picture measure mesh surface atlas tissue render export run view)
+cascade_room(ir)
+include(cmake/no_jit.cmake)
+foreach(room lang wasm solvers picture measure mesh surface atlas tissue render export run view)
   cascade_room(${room})
 endforeach()
 include(lang/systems/embed.cmake)
@@ -49,7 +51,6 @@ foreach(room solvers measure)
   target_compile_definitions(cascade_${room} PRIVATE
     CASCADE_FFTW_LIBRARY="fftw3" CASCADE_FFTW_FLOAT_LIBRARY="fftw3f")
 endforeach()
-target_compile_definitions(cascade_run PRIVATE CASCADE_HAS_JIT=0)
 
 file(GLOB tab_sources CONFIGURE_DEPENDS tab/*.cpp tab/substitutes/*.cpp)
 add_executable(engine ${tab_sources})

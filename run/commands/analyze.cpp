@@ -190,7 +190,6 @@ bool is_analysis_output(const std::filesystem::path& path) {
 
 Result<AnalyzeReport> analyze(Script& script, const AnalyzeRequest& request) {
     SimulationOptions options;
-    options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
     options.kernel_cache = request.kernel_cache;
     const auto sized = sized_program(script, options);
     if (!sized) return tl::unexpected(sized.error());

@@ -216,7 +216,7 @@ private:
         bench.grid = simulation_->grid(k);
         bench.precision = script_.program->domain.precision;
         bench.fast = script_.program->domain.fast;
-        bench.is_native = request_.simulation.backend == BackendKind::jit;
+        bench.is_native = backend_named(request_.simulation.backend).is_native;
         bench.most_threads =
             request_.simulation.threads > 0 ? request_.simulation.threads : hardware_threads();
         if (stage.iterations == 0 && !stage.time.has_duration()) {
@@ -265,11 +265,11 @@ private:
 
     /// Measures the machine with the stage's number of threads, once per number.
     Result<void> find_limits(StageBench& bench) {
-        if (!request_.has_limits || !has_jit()) return {};
+        if (!request_.has_limits || !fastest_backend().is_native) return {};
         auto& known = limits_[bench.threads];
         if (!known) {
             SimulationOptions native = request_.simulation;
-            native.backend = BackendKind::jit;
+            native.backend = fastest_backend().name;
             auto backend = make_stepper(native);
             if (!backend) return tl::unexpected(backend.error());
             auto measured =

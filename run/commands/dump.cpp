@@ -6,9 +6,7 @@
 #include "lang/lower/lower.h"
 #include "lang/syntax/parse.h"
 #include "lang/syntax/token.h"
-#if CASCADE_HAS_JIT
 #include "jit/jit.h"
-#endif
 
 #include <fmt/format.h>
 
@@ -76,9 +74,7 @@ std::string dump_equations(const Script& script, Notation notation) {
     return text;
 }
 
-Result<std::string> dump_code([[maybe_unused]] const Program& program,
-                              [[maybe_unused]] bool assembly) {
-#if CASCADE_HAS_JIT
+Result<std::string> dump_code(const Program& program, bool assembly) {
     std::string text;
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         const StepPlan plan = plan_step(program, k, as_run);
@@ -93,10 +89,6 @@ Result<std::string> dump_code([[maybe_unused]] const Program& program,
         }
     }
     return text;
-#else
-    return failure("this build has no native compiler",
-                   "tokens, ast, program, graph, plan and ir can be shown");
-#endif
 }
 
 }  // namespace

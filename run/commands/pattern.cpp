@@ -82,8 +82,7 @@ namespace {
 
 SimulationOptions simulation_options(const PatternOptions& options) {
     SimulationOptions simulation;
-    simulation.backend =
-        options.native_code && has_jit() ? BackendKind::jit : BackendKind::interpreter;
+    if (!options.native_code) simulation.backend = "interp";
     simulation.threads = options.threads;
     return simulation;
 }

@@ -193,7 +193,7 @@ Result<void> Sweeper::choose_workers(const std::vector<std::size_t>& waiting) {
     }
     simulation_ = request_.simulation;
     simulation_.threads = 1;
-    if (simulation_.backend == BackendKind::interpreter) return {};
+    if (!backend_named(simulation_.backend).is_native) return {};
     auto stepper = make_stepper(simulation_);
     if (!stepper) return tl::unexpected(stepper.error());
     simulation_.stepper = std::move(*stepper);

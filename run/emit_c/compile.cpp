@@ -3,6 +3,7 @@
 
 #include "core/near_name.h"
 #include "ir/interpreter.h"
+#include "jit/jit.h"
 #include "lang/calculus/side_values.h"
 #include "lang/lower/lower.h"
 #include "run/domain/metric_planes.h"
@@ -11,9 +12,6 @@
 #include "run/simulation/stage_sizes.h"
 #include "run/stage/plan_runner.h"
 #include "run/stage/stage_time.h"
-#if CASCADE_HAS_JIT
-#include "jit/jit.h"
-#endif
 
 #include <fmt/format.h>
 
@@ -267,7 +265,6 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
                                       : request.function_name);
     auto compiled = describe_c_stage({program, *stage, numbers, *files, *metric, *scheme, name});
     if (!compiled) return tl::unexpected(compiled.error());
-#if CASCADE_HAS_JIT
     ObjectContent content;
     for (const CKernel& each : compiled->kernels)
         content.functions.push_back({each.name, each.kernel});
@@ -277,9 +274,6 @@ Result<CompiledStep> compile_step(Script& script, const CompileRequest& request)
     if (!object) return tl::unexpected(object.error());
     const std::string file = script.file.filename().string();
     return CompiledStep{std::move(*object), c_header(program, *stage, *compiled, file)};
-#else
-    return failure("this build has no native compiler");
-#endif
 }
 
 }  // namespace cascade

@@ -1,7 +1,6 @@
 // Starts stages and advances the one that runs.
 #include "run/simulation/simulation.h"
 
-#include "ir/interpreter.h"
 #include "lang/program/nodes_of_rates.h"
 #include "run/domain/field_values.h"
 #include "run/simulation/environment.h"
@@ -20,9 +19,6 @@
 #include "run/stage/stage_remarks.h"
 #include "run/tissue/ground.h"
 #include "tissue/tissue.h"
-#if CASCADE_HAS_JIT
-#include "jit/jit.h"
-#endif
 
 #include <fmt/format.h>
 
@@ -33,30 +29,10 @@
 
 namespace cascade {
 
-bool has_jit() { return CASCADE_HAS_JIT; }
-
-std::string describe_backend() {
-#if CASCADE_HAS_JIT
-    return "native code by " + describe_jit();
-#else
-    return "interpreter only, without LLVM";
-#endif
-}
-
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options) {
-    if (options.backend == BackendKind::interpreter) {
-        return std::make_shared<TieredBackend>(make_interpreter());
-    }
-#if CASCADE_HAS_JIT
-    JitOptions jit;
-    jit.lanes = options.lanes;
-    jit.cache = options.kernel_cache;
-    auto native = make_jit(jit);
-    if (!native) return tl::unexpected(native.error());
-    return std::make_shared<TieredBackend>(std::move(*native));
-#else
-    return failure("this build has no native compiler", "use --backend interp");
-#endif
+    auto backend = backend_named(options.backend).make({options.lanes, options.kernel_cache});
+    if (!backend) return tl::unexpected(backend.error());
+    return std::make_shared<TieredBackend>(std::move(*backend));
 }
 
 struct Simulation::Implementation {

@@ -9,6 +9,7 @@
 #include "run/domain/domain_mask.h"
 #include "run/domain/model_cells.h"
 #include "run/script/script.h"
+#include "run/simulation/backends.h"
 #include "run/simulation/stage_record.h"
 #include "run/stage/step_work.h"
 #include "run/stage/time_account.h"
@@ -21,21 +22,15 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cascade {
 
-enum class BackendKind { interpreter, jit };
-
-/// Is native code compiled into this build?
-bool has_jit();
-/// The backend of steps: LLVM's version, the processor and its vectors, or the interpreter alone.
-std::string describe_backend();
-
 struct SimulationOptions {
-    BackendKind backend = BackendKind::jit;
-    int lanes = 0;    ///< Vector width of the JIT; 0 takes the host's.
-    int threads = 0;  ///< 0: all threads of the machine.
+    std::string_view backend = fastest_backend().name;  ///< A name of the table of backends.
+    int lanes = 0;                                      ///< As in BackendOptions.
+    int threads = 0;                                    ///< 0: all threads of the machine.
     /// Compiles the steps of several simulations, so that equal kernels are compiled once; null:
     /// each simulation has its own.
     std::shared_ptr<TieredBackend> stepper = nullptr;
@@ -63,8 +58,7 @@ struct SimulationOptions {
     std::optional<Tiling> tiling = {};
 };
 
-/// The stepper of `options`, which simulations may share. Fails if it needs native code and this
-/// build has none.
+/// The stepper of `options`, which simulations may share. Fails if its backend is not available.
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
 struct SurfaceMesh;

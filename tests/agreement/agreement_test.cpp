@@ -70,8 +70,8 @@ void expect_same(const Outcome& expected, const Outcome& found, const std::strin
     EXPECT_EQ(same_bits(expected.fields, found.fields), "") << what;
 }
 
-SimulationOptions interpreted() { return {BackendKind::interpreter, 0, 1}; }
-SimulationOptions compiled(int lanes, int threads) { return {BackendKind::jit, lanes, threads}; }
+SimulationOptions interpreted() { return {"interp", 0, 1}; }
+SimulationOptions compiled(int lanes, int threads) { return {"jit", lanes, threads}; }
 
 void compare_random_scripts(Precision precision, int scripts) {
     OperationCounts counts;

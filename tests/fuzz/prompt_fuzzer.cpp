@@ -27,7 +27,7 @@ void type(const std::string& text) {
     static const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     Console console({nowhere, false, false}, {nowhere, false, true});
     SimulationOptions options;
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     options.threads = 1;
     options.memory_limit = std::uint64_t{16} << 20;
     PromptSession session(options, console, false, TerminalPictures());

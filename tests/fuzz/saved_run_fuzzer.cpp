@@ -31,7 +31,7 @@ bool has_reason(const Result<T>& result) {
 
 SimulationOptions small_options() {
     SimulationOptions options;
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     options.threads = 1;
     options.memory_limit = most_memory;
     return options;

@@ -71,8 +71,8 @@ protected:
 
 TEST_P(RecipeTest, LooksAsItShould) {
     // Without native code all of them would take minutes.
-    for (const int side : has_jit() ? std::vector{64, 128} : std::vector{64}) {
-        for (std::uint32_t seed = 1; seed <= (has_jit() ? 3U : 1U); ++seed) {
+    for (const int side : is_available("jit") ? std::vector{64, 128} : std::vector{64}) {
+        for (std::uint32_t seed = 1; seed <= (is_available("jit") ? 3U : 1U); ++seed) {
             SCOPED_TRACE(std::to_string(side) + " cells, seed " + std::to_string(seed));
             expect_looks(side, seed);
         }
@@ -81,7 +81,7 @@ TEST_P(RecipeTest, LooksAsItShould) {
 
 /// Solvers that promise the pattern of Euler's method.
 TEST_P(RecipeTest, LooksTheSameWithOtherSolvers) {
-    if (!has_jit()) GTEST_SKIP() << "without native code this would take minutes";
+    if (!is_available("jit")) GTEST_SKIP() << "without native code this would take minutes";
     for (const char* solver : {"symplectic", "rk2", "rk4", "rk23", "rk45", "rkl1", "rkl2"}) {
         SCOPED_TRACE(solver);
         expect_looks(64, 1, solver);

@@ -94,7 +94,6 @@ std::string source_file(const std::string& path) {
 
 SimulationOptions fastest_backend() {
     SimulationOptions options;
-    options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
     options.threads = 1;
     return options;
 }

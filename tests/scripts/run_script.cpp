@@ -23,7 +23,7 @@ namespace {
 std::shared_ptr<TieredBackend> native_stepper(int lanes) {
     static std::map<int, std::shared_ptr<TieredBackend>> steppers;
     auto& stepper = steppers[lanes];
-    if (!stepper) stepper = make_stepper({BackendKind::jit, lanes, 0}).value();
+    if (!stepper) stepper = make_stepper({"jit", lanes, 0}).value();
     return stepper;
 }
 
@@ -54,7 +54,7 @@ void Run::start(const Configuration& configuration) {
     // Vectors of 4 cells on one thread, of 16 on several.
     const int lanes = configuration.threads == 1 ? 4 : 16;
     SimulationOptions options{configuration.backend, lanes, configuration.threads};
-    if (configuration.backend == BackendKind::jit) options.stepper = native_stepper(lanes);
+    if (configuration.backend == "jit") options.stepper = native_stepper(lanes);
     RunControl control;
     control.warn = [&](const std::string& warning) { warnings.push_back(warning); };
     options.control = &control;
@@ -255,19 +255,19 @@ void compare_with_first(const Run& run, const ScriptCase& script,
 }  // namespace
 
 std::string Configuration::name() const {
-    return fmt::format("{}/{}/{}", backend == BackendKind::jit ? "jit" : "interpreter",
+    return fmt::format("{}/{}/{}", backend == "jit" ? "jit" : "interpreter",
                        precision == Precision::single ? "single" : "double", threads);
 }
 
 std::vector<Configuration> configurations_of(const ScriptCase& script) {
-    const BackendKind fastest = has_jit() ? BackendKind::jit : BackendKind::interpreter;
-    if (!script.is_interpreted && !has_jit()) return {};
+    const std::string_view fastest = fastest_backend().name;
+    if (!script.is_interpreted && !is_available("jit")) return {};
     if (script.is_only_checked() || script.runs_once) {
         return {{fastest, script.is_single ? Precision::single : Precision::binary64, 3}};
     }
     std::vector<Configuration> configurations;
-    for (const BackendKind backend : {BackendKind::interpreter, BackendKind::jit}) {
-        if (backend == BackendKind::jit ? !has_jit() : !script.is_interpreted) continue;
+    for (const std::string_view backend : {"interp", "jit"}) {
+        if (backend == "jit" ? !is_available("jit") : !script.is_interpreted) continue;
         for (const int threads : {1, 3}) {
             if (script.is_single) configurations.push_back({backend, Precision::single, threads});
             if (script.is_double) configurations.push_back({backend, Precision::binary64, threads});

@@ -12,7 +12,7 @@ namespace cascade::test {
 
 /// What takes the steps. `precision` is that of a script that does not say its own otherwise.
 struct Configuration {
-    BackendKind backend = BackendKind::interpreter;
+    std::string_view backend = "interp";
     Precision precision = Precision::single;
     int threads = 1;
 

@@ -51,7 +51,7 @@ Json state_of(Script script) {
     SimulationOptions options;
     options.threads = 1;
     // Native code counts on denormal numbers being flushed, and may do so early.
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     RunControl control;
     auto run = LiveRun::begin(std::move(script), options, control);
     if (!run) return nullptr;

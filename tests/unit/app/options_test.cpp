@@ -157,7 +157,7 @@ TEST(Options, run_takes_everything) {
     EXPECT_EQ(options.picture.depth, 16);
     EXPECT_EQ(options.run.simulation.threads, 3);
     EXPECT_EQ(options.run.simulation.lanes, 8);
-    EXPECT_EQ(options.run.simulation.backend, BackendKind::interpreter);
+    EXPECT_EQ(options.run.simulation.backend, "interp");
     EXPECT_EQ(options.run.save, "kept");
     EXPECT_EQ(options.run.frames, "film");
     EXPECT_EQ(options.run.sheet, "all.png");

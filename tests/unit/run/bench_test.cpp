@@ -15,7 +15,7 @@ protected:
         Script script = load(text);
         EXPECT_TRUE(script.program) << script.messages(false);
         SimulationOptions options;
-        options.backend = BackendKind::interpreter;
+        options.backend = "interp";
         options.threads = 1;
         auto simulation = Simulation::create(script, options);
         EXPECT_TRUE(simulation);
@@ -68,7 +68,7 @@ stage s: heat { iterations: 10; speed: 0.5; solver: rk4 }
 TEST_F(BenchTest, AllStagesAreMeasured) {
     Script script = load(two_stages);
     BenchRequest request;
-    request.simulation.backend = BackendKind::interpreter;
+    request.simulation.backend = "interp";
     request.simulation.threads = 1;
     request.seconds = 0.01;
     request.has_limits = false;
@@ -107,7 +107,7 @@ stage s: dot { founders: 4; duration: 8 }
 stage rest: dot { iterations: 50 }
 )");
     BenchRequest request;
-    request.simulation.backend = BackendKind::interpreter;
+    request.simulation.backend = "interp";
     request.simulation.threads = 1;
     request.seconds = 0.02;
     RunControl control;
@@ -129,7 +129,7 @@ stage rest: dot { iterations: 50 }
 TEST_F(BenchTest, ACancelEndsItWithoutATable) {
     Script script = load(two_stages);
     BenchRequest request;
-    request.simulation.backend = BackendKind::interpreter;
+    request.simulation.backend = "interp";
     request.seconds = 1000;
     RunControl control;
     control.cancel = true;

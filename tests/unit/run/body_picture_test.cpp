@@ -130,7 +130,7 @@ TEST(BodyPicture, IsTheSameInFrames) {
 TEST(BodyPicture, LeavesSnapshotsOfSessionsTheirCells) {
     Script script = load_script("test", ball("body: u; color: rgb(1, x, 0)"), ".");
     RunControl control;
-    auto run = LiveRun::begin(std::move(script), {BackendKind::interpreter, 0, 1}, control);
+    auto run = LiveRun::begin(std::move(script), {"interp", 0, 1}, control);
     ASSERT_TRUE(run);
     Turns turns(std::move(*run));
     for (const char* const shown : {"", "u"}) {

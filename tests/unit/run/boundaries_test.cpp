@@ -222,18 +222,18 @@ TEST(Boundaries, ThreadsLanesAndBreaksChangeNothing) {
         const Ran one = run_text(text);
         ASSERT_TRUE(one.simulation);
 #if CASCADE_HAS_JIT
-        for (const SimulationOptions& options : {SimulationOptions{BackendKind::jit, 4, 3},
-                                                 SimulationOptions{BackendKind::jit, 16, 2}}) {
+        for (const SimulationOptions& options :
+             {SimulationOptions{"jit", 4, 3}, SimulationOptions{"jit", 16, 2}}) {
             const Ran other = run_text(text, options);
             EXPECT_EQ(same_bits(one.state().species, other.state().species), "");
         }
 #endif
         Script script = load_script("test", text, ".");
-        auto first = Simulation::create(script, {BackendKind::interpreter, 0, 1}).value();
+        auto first = Simulation::create(script, {"interp", 0, 1}).value();
         RunControl control;
         ASSERT_TRUE(first->start_stage(0));
         ASSERT_TRUE(first->advance_stage(0, 11, control, {}));
-        auto second = Simulation::create(script, {BackendKind::interpreter, 0, 1}).value();
+        auto second = Simulation::create(script, {"interp", 0, 1}).value();
         ASSERT_TRUE(second->start_stage(0));
         second->restore(0, record_of(first->state(0), first->program(), 0));
         ASSERT_TRUE(second->advance_stage(0, 25, control, {}));
@@ -259,7 +259,7 @@ TEST(Boundaries, SpeciesOfOneKernelMayHaveSidesOfDifferentKinds) {
                 const Ran expected = run_text(text);
                 ASSERT_TRUE(expected.simulation);
                 for (const int lanes : {4, 8, 16}) {
-                    const Ran native = run_text(text, {BackendKind::jit, lanes, 1});
+                    const Ran native = run_text(text, {"jit", lanes, 1});
                     EXPECT_EQ(same_bits(expected.state().species, native.state().species), "")
                         << text;
                 }
@@ -272,7 +272,7 @@ TEST(Boundaries, SpeciesOfOneKernelMayHaveSidesOfDifferentKinds) {
 /// What is beyond a side of a function is made of what is beyond it of the species.
 TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
     const auto after_a_step = [](const std::string& rate, const PlanOptions& planning) {
-        SimulationOptions options{BackendKind::interpreter, 0, 1};
+        SimulationOptions options{"interp", 0, 1};
         options.planning = planning;
         const Ran ran = run_text("system s { u: 1 + x; u' = " + rate +
                                      "\n u.sides: fixed(3) }\n"

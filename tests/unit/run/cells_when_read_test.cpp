@@ -25,7 +25,7 @@ protected:
         std::filesystem::create_directories(cache_);
     }
     Ran grown(const std::string& stage) {
-        SimulationOptions options{BackendKind::interpreter, 0, 2};
+        SimulationOptions options{"interp", 0, 2};
         options.cell_cache = cache_;
         return run_text(
             "cells herd { p' += cling(1) + push(1) }\n"

@@ -28,7 +28,6 @@ double wavelength(const Field& field) {
 TEST(CoarseStart, GrowsAsGoodAPattern) {
     SimulationOptions options;
     options.threads = 1;
-    if (!has_jit()) options.backend = BackendKind::interpreter;
     const auto spots = [&](const std::string& settings) {
         return run_text("stage s: turing_spots { ka: 0.05/16; " + settings +
                             " }\ndomain { grid: 96, 96 }",

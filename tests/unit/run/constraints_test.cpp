@@ -23,8 +23,7 @@ std::vector<double> final_values(const std::string& text, int threads) {
     Script script = load_script("test", text, ".");
     EXPECT_TRUE(script.program) << script.messages(false) << text;
     if (!script.program) return {};
-    const auto simulation =
-        Simulation::create(script, {BackendKind::interpreter, 0, threads}).value();
+    const auto simulation = Simulation::create(script, {"interp", 0, threads}).value();
     EXPECT_TRUE(simulation->start_stage(0));
     RunControl control;
     EXPECT_TRUE(

@@ -100,7 +100,7 @@ TEST_F(DamagedTest, AStartThatIsNotFiniteIsToldAtAnyStep) {
     auto script = load_saved_script(path("saved"), {});
     ASSERT_TRUE(script);
     SimulationOptions options;
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     auto simulation = Simulation::create(*script, options);
     ASSERT_TRUE(simulation);
     ASSERT_TRUE((*simulation)->start_stage(0));

@@ -31,7 +31,7 @@ TEST(DomainLengthsInRuns, AgreeWithTheoryOnAnyGrid) {
     for (const std::int64_t columns : {32, 64, 128}) {
         Overrides overrides;
         overrides.grid = GridSize{columns, columns / 2, 1};
-        const Ran ran = run_text(lengths_of_domain, {BackendKind::interpreter, 0, 1}, overrides);
+        const Ran ran = run_text(lengths_of_domain, {"interp", 0, 1}, overrides);
         ASSERT_EQ(ran.failure, "");
         const double h = 3.0 / static_cast<double>(columns);
         EXPECT_DOUBLE_EQ(ran.simulation->grid().spacing, h);
@@ -48,7 +48,7 @@ TEST(DomainLengthsInRuns, AgreeWithTheoryOnAnyGrid) {
 
 TEST(DomainLengthsInRuns, InterpreterAndNativeCodeAgree) {
     const Ran interpreted = run_text(lengths_of_domain);
-    const Ran native = run_text(lengths_of_domain, {BackendKind::jit, 0, 2});
+    const Ran native = run_text(lengths_of_domain, {"jit", 0, 2});
     ASSERT_TRUE(interpreted.simulation && native.simulation);
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::int64_t x = 0; x < 32; ++x) {

@@ -28,7 +28,7 @@ Refusal refusal_of(const std::string& start, const std::function<void(RunRequest
         refusal.made_cells |= progress.doing.starts_with("spreading");
     };
     RunRequest request;
-    request.simulation.backend = BackendKind::interpreter;
+    request.simulation.backend = "interp";
     request.outputs = {std::filesystem::temp_directory_path() / "early_errors.npz"};
     ask(request);
     const auto report = run(script, request, control);

@@ -62,7 +62,7 @@ TEST(GrownBody, HasOneColourWithoutASkin) {
 TEST(GrownBody, IsGivenUpWhenItIsCancelled) {
     Script script = load_script("test", cell_on_ball(""), ".");
     ASSERT_TRUE(script.program) << script.messages(false);
-    auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 1});
+    auto simulation = Simulation::create(script, {"interp", 0, 1});
     ASSERT_TRUE(simulation);
     RunControl control;
     ASSERT_TRUE((*simulation)->start_stage(0));

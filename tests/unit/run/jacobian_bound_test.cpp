@@ -24,7 +24,7 @@ public:
         script_ = load_script("test", text, ".", {});
         EXPECT_TRUE(script_.program) << script_.messages(false);
         if (!script_.program) return;
-        auto made = Simulation::create(script_, {BackendKind::interpreter, 0, 1});
+        auto made = Simulation::create(script_, {"interp", 0, 1});
         EXPECT_TRUE(made);
         simulation_ = std::move(*made);
         EXPECT_TRUE(simulation_->start_stage(0));

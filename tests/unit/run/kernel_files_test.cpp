@@ -37,8 +37,7 @@ protected:
     };
 
     /// Runs the first stage.
-    std::unique_ptr<Grown> grown(const std::string& text,
-                                 BackendKind backend = BackendKind::interpreter) {
+    std::unique_ptr<Grown> grown(const std::string& text, std::string_view backend = "interp") {
         auto result = std::make_unique<Grown>(Grown{load(text), nullptr});
         EXPECT_TRUE(result->script.program) << result->script.messages(false);
         if (!result->script.program) return nullptr;
@@ -64,7 +63,7 @@ protected:
 
     std::string said(const std::string& text) {
         Script script = load(text);
-        const auto made = Simulation::create(script, {BackendKind::interpreter, 0, 1});
+        const auto made = Simulation::create(script, {"interp", 0, 1});
         return made ? "" : made.error().message + "\n" + script.messages(false);
     }
 };
@@ -113,7 +112,7 @@ TEST_F(KernelFiles, AreTheSameInWiderCellsAndInNativeCode) {
     const std::string plain =
         system + "domain { grid: 64, 32 }\nstage a: s { iterations: 4; speed: 0.1 }\n";
     const auto expected = grown(plain);
-    const auto native = grown(plain, has_jit() ? BackendKind::jit : BackendKind::interpreter);
+    const auto native = grown(plain, fastest_backend().name);
     const auto wide = grown(system +
                             "domain { grid: 128, 64; spacing: 1/2 }\n"
                             "stage a: s { grid: coarse(2); iterations: 4; speed: 0.1 }\n");

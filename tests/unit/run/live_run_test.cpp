@@ -62,7 +62,7 @@ TEST_F(LiveRunTest, ANumberActsOnTheRunningState) {
 }
 
 TEST_F(LiveRunTest, ANumberCompilesNothing) {
-    if (!has_jit()) GTEST_SKIP() << "nothing is compiled by this build";
+    if (!is_available("jit")) GTEST_SKIP() << "nothing is compiled by this build";
     SimulationOptions options;
     options.threads = 1;
     options.stepper = make_stepper(options).value();

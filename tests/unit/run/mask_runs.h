@@ -14,7 +14,7 @@
 
 namespace cascade::test {
 
-inline BackendKind stepper() { return has_jit() ? BackendKind::jit : BackendKind::interpreter; }
+inline std::string_view stepper() { return fastest_backend().name; }
 
 /// A script with a simulation whose stages have run.
 struct FinishedScript {
@@ -42,7 +42,7 @@ struct FinishedScript {
 
 /// Runs every stage to its end. The script stays where it is: the simulation refers to it.
 inline std::unique_ptr<FinishedScript> finished_script(const std::string& text,
-                                                       BackendKind backend = stepper()) {
+                                                       std::string_view backend = stepper()) {
     auto ran = std::make_unique<FinishedScript>();
     ran->script = load_script("test", text, ".");
     EXPECT_TRUE(ran->script.program) << text << ran->script.messages(false);

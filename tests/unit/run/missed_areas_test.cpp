@@ -26,7 +26,7 @@ protected:
         RunControl control;
         std::vector<std::string> said;
         control.warn = [&](const std::string& warning) { said.push_back(warning); };
-        SimulationOptions options{BackendKind::interpreter, 0, 1};
+        SimulationOptions options{"interp", 0, 1};
         options.control = &control;
         EXPECT_TRUE(Simulation::create(script, options)) << script.messages(false);
         return said;

@@ -75,7 +75,7 @@ TEST(ModelInput, MoreCellsThanMemoryAreRefusedBeforeTheyAreMade) {
                                 "stage one: turing_spots { }\n",
                                 ".");
     ASSERT_TRUE(script.program) << script.messages(false);
-    SimulationOptions options{BackendKind::interpreter, 0, 1};
+    SimulationOptions options{"interp", 0, 1};
     options.memory_limit = std::uint64_t{100} << 20;
     const auto made = Simulation::create(script, options);
     ASSERT_FALSE(made);
@@ -95,7 +95,7 @@ TEST(ModelInput, FacesAreCountedBeforeTheirMemoryIs) {
                                 "stage one: turing_spots { solver: rkl1 }\n",
                                 folder);
     ASSERT_TRUE(script.program) << script.messages(false);
-    SimulationOptions options{BackendKind::interpreter, 0, 1};
+    SimulationOptions options{"interp", 0, 1};
     const auto free = Simulation::create(script, options);
     ASSERT_TRUE(free) << free.error().message;
     EXPECT_EQ((*free)->grid(), rows_of_cells(4));

@@ -32,7 +32,7 @@ TEST_F(ModelLibraryTest, EverySystemTakesStepsOrIsRefusedInWords) {
             continue;
         }
         ++run;
-        auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 1});
+        auto simulation = Simulation::create(script, {"interp", 0, 1});
         ASSERT_TRUE(simulation) << each.system_name() << simulation.error().message;
         const auto started = (*simulation)->start_stage(0);
         ASSERT_TRUE(started) << each.system_name() << started.error().message;

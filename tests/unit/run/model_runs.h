@@ -18,7 +18,7 @@ namespace cascade::test {
 class ModelRun {
 public:
     explicit ModelRun(const std::string& text, Precision precision = Precision::single,
-                      SimulationOptions options = {BackendKind::interpreter, 0, 2}) {
+                      SimulationOptions options = {"interp", 0, 2}) {
         Overrides overrides;
         overrides.precision = precision;
         script_ = std::make_unique<Script>(load_script("test", text, ".", overrides));

@@ -36,8 +36,7 @@ constexpr std::array rates_on_models{
 };
 
 TEST(ModelSizes, EveryFunctionIsFiniteOnEverySize) {
-    for (const BackendKind backend :
-         {BackendKind::interpreter, has_jit() ? BackendKind::jit : BackendKind::interpreter}) {
+    for (const std::string& backend : available_backends()) {
         for (const int cells : sizes_of_models) {
             std::string text = fmt::format(
                 "domain {{ surface: sphere; cells: {}; unit: 1 }}\n"

@@ -27,7 +27,7 @@ public:
         : script_(load_script("test", text, ".")) {
         EXPECT_TRUE(script_.program) << script_.messages(false) << text;
         if (!script_.program) return;
-        simulation_ = Simulation::create(script_, {BackendKind::interpreter, 0, 2}).value();
+        simulation_ = Simulation::create(script_, {"interp", 0, 2}).value();
         for (std::uint32_t k = 0; k < script_.program->stages.size(); ++k) {
             EXPECT_TRUE(simulation_->start_stage(k)) << text;
             if (!runs) continue;

@@ -16,8 +16,7 @@ namespace {
 /// A script run to its end.
 class Finished {
 public:
-    Finished(const std::string& text, Precision precision,
-             BackendKind backend = BackendKind::interpreter) {
+    Finished(const std::string& text, Precision precision, std::string_view backend = "interp") {
         Overrides overrides;
         overrides.precision = precision;
         script_ = load_script("test", text, ".", overrides);
@@ -165,7 +164,7 @@ stage one: turing_spots {
 }
 )";
     EXPECT_EQ(Finished(text, Precision::binary64).species(),
-              Finished(text, Precision::binary64, BackendKind::jit).species());
+              Finished(text, Precision::binary64, "jit").species());
 }
 #endif
 

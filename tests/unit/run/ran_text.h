@@ -31,8 +31,7 @@ struct Ran {
     const Field& species(std::size_t number = 0) const { return last().species[number]; }
 };
 
-inline Ran run_text(const std::string& text,
-                    const SimulationOptions& options = {BackendKind::interpreter, 0, 1},
+inline Ran run_text(const std::string& text, const SimulationOptions& options = {"interp", 0, 1},
                     const Overrides& overrides = {}) {
     Ran ran;
     ran.script = load_script("test", text, ".", overrides);

@@ -49,7 +49,7 @@ protected:
     /// A request that writes into the test's folder.
     RunRequest request() const {
         RunRequest request;
-        request.simulation.backend = BackendKind::interpreter;
+        request.simulation.backend = "interp";
         request.simulation.threads = 1;
         request.outputs = {path("picture.png")};
         return request;

@@ -273,7 +273,7 @@ TEST_F(RunTest, NativeCodeGivesTheBitsOfTheInterpreter) {
         run_well(interpreted, first);
         Script compiled = load(two_stages);
         RunRequest second = request();
-        second.simulation.backend = BackendKind::jit;
+        second.simulation.backend = "jit";
         second.simulation.threads = threads;
         second.save = path("compiled");
         run_well(compiled, second);

@@ -31,7 +31,7 @@ constexpr const char* spots_of_session =
 std::unique_ptr<Session> begun(const std::string& text) {
     RunControl control;
     SimulationOptions options;
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     options.threads = 1;
     auto session = Session::begin(load_script("test", text, "."), options, control);
     EXPECT_TRUE(session) << session.error().messages(false);
@@ -232,7 +232,6 @@ TEST(SessionTest, ThreadsChangeNoBit) {
     reader.join();
     RunControl control;
     SimulationOptions options;
-    options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
     options.threads = 2;
     const auto again = LiveRun::play(log_of(*session), ".", options, control);
     ASSERT_TRUE(again) << again.error().messages(false);

@@ -17,7 +17,7 @@ namespace {
 /// The surface of a script whose values are those of `u`.
 std::shared_ptr<const Snapshot> shown_by(const std::string& domain, const std::string& u = "x") {
     SimulationOptions options;
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     options.threads = 1;
     RunControl control;
     const std::string text = "domain { " + domain + " }\nsystem s { u: " + u +
@@ -115,7 +115,7 @@ TEST(ShownSurface, ABodyLiesFlatAsItsCellsDo) {
         "stage two: still { body: one.u; founders: 20; r: 0.01; duration: 1 }\n"
         "picture { width: 0.02 }\n";
     SimulationOptions options;
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     options.threads = 1;
     RunControl control;
     auto session = Session::begin(load_script("s.cascade", text, "."), options, control);

@@ -97,7 +97,7 @@ TEST_F(SilentResults, SweepsRemarkOnTheirRuns) {
     SweepRequest wanted;
     wanted.varied.push_back(*parse_variation("s.c=-0.03,-0.1,0.0005"));
     wanted.folder = path("sweep");
-    wanted.simulation.backend = BackendKind::interpreter;
+    wanted.simulation.backend = "interp";
     SweepControl control;
     ASSERT_TRUE(sweep(script, wanted, control));
     std::ifstream table(path("sweep/features.csv"));

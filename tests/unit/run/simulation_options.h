@@ -5,11 +5,7 @@
 
 namespace cascade::test {
 
-inline SimulationOptions interpreted(int threads = 1) {
-    return {BackendKind::interpreter, 0, threads};
-}
-inline SimulationOptions compiled() {
-    return {has_jit() ? BackendKind::jit : BackendKind::interpreter, 0, 1};
-}
+inline SimulationOptions interpreted(int threads = 1) { return {"interp", 0, threads}; }
+inline SimulationOptions compiled() { return {fastest_backend().name, 0, 1}; }
 
 }  // namespace cascade::test

@@ -115,7 +115,7 @@ const std::vector<std::string>& all_settings() {
 TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
     const auto run = [](const std::string& settings) {
         return run_text("stage s: cahn_hilliard { " + settings + " }\ndomain { grid: 48, 48 }",
-                        {has_jit() ? BackendKind::jit : BackendKind::interpreter, 0, 1});
+                        {fastest_backend().name, 0, 1});
     };
     const Ran euler = run("speed: 0.025; iterations: 2000");
     for (const char* solver : {"rkl1", "rkl2"}) {
@@ -142,7 +142,7 @@ TEST(Solvers, LegendreTakesTensorsOnASurfaceInStages) {
         "(1 - sy) }\n"
         "system one: witkin_kass { i: 1..1; theta[i]: pi/3; e: 2; rho: 0 }\n"
         "stage s: one { iterations: 4000; speed: 0.005; tolerance: 0.03 }\n";
-    const Ran ran = run_text(text, {BackendKind::interpreter, 0, 1}, changes);
+    const Ran ran = run_text(text, {"interp", 0, 1}, changes);
     EXPECT_EQ(ran.failure, "");
     EXPECT_NEAR(ran.state().t, 20, 1e-5);
     EXPECT_LT(ran.state().steps * ran.state().time.stages, 800);
@@ -182,7 +182,6 @@ TEST(Solvers, LegendreGrowsTheSameSpotsAsEuler) {
     const auto spots = [](const Overrides& overrides) {
         SimulationOptions options;
         options.threads = 1;
-        if (!has_jit()) options.backend = BackendKind::interpreter;
         return run_text(
             "stage s: turing_spots { iterations: 12000; ka: 1/200 }\ndomain { grid: 48, 48 }",
             options, overrides);
@@ -209,7 +208,7 @@ TEST(Solvers, TheOptionKeepsTheTimeOfEachStage) {
     const Ran ran = run_text(
         "system decay { u: 1; u' = -u }\nstage s: decay { speed: 0.25; iterations: 8 }\ndomain { "
         "grid: 4, 1 }",
-        {BackendKind::interpreter, 0, 1}, changes);
+        {"interp", 0, 1}, changes);
     EXPECT_DOUBLE_EQ(ran.state().t, 2);
     EXPECT_NEAR(ran.state().species[0].at(0, 0), std::exp(-2.0), 1e-3);
 }

@@ -55,7 +55,6 @@ protected:
         EXPECT_TRUE(script.program) << script.messages(false);
         if (!script.program) return 0;
         SimulationOptions options;
-        options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
         auto made = Simulation::create(script, options);
         EXPECT_TRUE(made) << (made ? "" : made.error().message) << script.messages(false);
         if (!made) return 0;

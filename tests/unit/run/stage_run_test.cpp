@@ -31,7 +31,7 @@ protected:
     RunningStage() : script_(load_script("test", stages_with_rk2, ".")) {}
 
     std::unique_ptr<Simulation> made() {
-        return Simulation::create(script_, {BackendKind::interpreter, 0, 1}).value();
+        return Simulation::create(script_, {"interp", 0, 1}).value();
     }
     void advance(Simulation& simulation, std::uint32_t stage, std::int64_t last) {
         ASSERT_TRUE(simulation.advance_stage(stage, last, control_, {}));
@@ -108,7 +108,7 @@ constexpr const char* held_at_sides =
 class CopiedState : public ::testing::Test {
 protected:
     CopiedState() : script_(load_script("test", held_at_sides, ".")) {
-        environment_ = make_environment(script_, {BackendKind::interpreter, 0, 1}).value();
+        environment_ = make_environment(script_, {"interp", 0, 1}).value();
     }
     std::vector<StageState> started() {
         std::vector<StageState> states(1);

@@ -15,7 +15,6 @@ namespace {
 
 SimulationOptions fastest_options() {
     SimulationOptions options;
-    options.backend = has_jit() ? BackendKind::jit : BackendKind::interpreter;
     return options;
 }
 
@@ -107,7 +106,7 @@ std::vector<std::vector<double>> after_steps(const std::string& text, double fac
     EXPECT_TRUE(script.program) << script.messages(false);
     if (!script.program) return {};
     script.program = std::make_shared<const Program>(with_lengths(*script.program, 0, factor));
-    auto made = Simulation::create(script, {BackendKind::interpreter, 0, 1});
+    auto made = Simulation::create(script, {"interp", 0, 1});
     EXPECT_TRUE(made);
     EXPECT_TRUE((*made)->start_stage(0));
     RunControl control;

@@ -17,7 +17,7 @@ inline Script load(const std::string& text) { return load_script("test", text, "
 inline std::unique_ptr<Simulation> start(Script& script) {
     EXPECT_TRUE(script.program) << script.messages(false);
     if (!script.program) return nullptr;
-    auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 2});
+    auto simulation = Simulation::create(script, {"interp", 0, 2});
     EXPECT_TRUE(simulation) << (simulation ? "" : simulation.error().message);
     if (!simulation) return nullptr;
     EXPECT_TRUE((*simulation)->start_stage(0));

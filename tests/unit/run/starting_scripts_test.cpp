@@ -15,7 +15,7 @@ namespace {
 Ran run_start_of(const LibraryText& text) {
     Overrides few;
     few.steps = 3;
-    return run_text(starting_script(text), {BackendKind::interpreter, 0, 2}, few);
+    return run_text(starting_script(text), {"interp", 0, 2}, few);
 }
 
 TEST(StartingScripts, EverySystemRuns) {

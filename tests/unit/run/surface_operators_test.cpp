@@ -224,7 +224,7 @@ TEST(SurfaceOperators, SingularSurfacesAreRefusedBeforeTheFirstStep) {
         "domain { grid: 8, 4; surface: sx * sy, sx * sy, 2 * sx * sy }\n"
         "system_name: turing_spots\n");
     ASSERT_TRUE(script.program) << script.messages(false);
-    const auto simulation = Simulation::create(script, {BackendKind::interpreter, 0, 1});
+    const auto simulation = Simulation::create(script, {"interp", 0, 1});
     ASSERT_FALSE(simulation);
     EXPECT_THAT(simulation.error().message,
                 ::testing::StartsWith("the surface has no area at sx = 0.0625"));

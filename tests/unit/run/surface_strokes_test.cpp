@@ -19,7 +19,7 @@ class SurfaceStrokes : public ::testing::Test {
 protected:
     SurfaceStrokes() {
         SimulationOptions options;
-        options.backend = BackendKind::interpreter;
+        options.backend = "interp";
         auto begun = LiveRun::begin(load_script("test", script, "."), options, control_);
         EXPECT_TRUE(begun) << begun.error().messages(false);
         run_ = std::move(*begun);

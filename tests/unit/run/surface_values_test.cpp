@@ -21,7 +21,7 @@ protected:
         EXPECT_EQ(script_.messages(false), "");
         if (!script_.program) return nullptr;
         SimulationOptions options;
-        options.backend = BackendKind::interpreter;
+        options.backend = "interp";
         auto made = Simulation::create(script_, options);
         EXPECT_TRUE(made) << script_.messages(false);
         if (!made || !(*made)->start_stage(0)) return nullptr;

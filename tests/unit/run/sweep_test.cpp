@@ -36,7 +36,7 @@ protected:
         SweepRequest request;
         for (const std::string& text : varied) request.varied.push_back(*parse_variation(text));
         request.folder = path("sweep");
-        request.simulation.backend = BackendKind::interpreter;
+        request.simulation.backend = "interp";
         request.simulation.threads = 3;
         return request;
     }

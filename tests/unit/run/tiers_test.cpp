@@ -176,7 +176,7 @@ TEST(Tiers, WhatIsRefusedWhenTheRunIsOverIsSaidToo) {
 }
 
 TEST(Tiers, AShortRunCompilesNothing) {
-    if (!has_jit()) GTEST_SKIP() << "there is no compiler";
+    if (!is_available("jit")) GTEST_SKIP() << "there is no compiler";
     const std::string text =
         "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 3 }\n"
         "stage b: gray_scott { iterations: 3 }";
@@ -186,7 +186,7 @@ TEST(Tiers, AShortRunCompilesNothing) {
 }
 
 TEST(Tiers, LaterStagesAreCompiledAhead) {
-    if (!has_jit()) GTEST_SKIP() << "there is no compiler";
+    if (!is_available("jit")) GTEST_SKIP() << "there is no compiler";
     Script script =
         load_script("test",
                     "domain { grid: 64, 64 }\nstage a: turing_spots { iterations: 1000 }\n"

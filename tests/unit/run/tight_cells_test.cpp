@@ -28,7 +28,7 @@ protected:
                              domain, steps, speed));
         EXPECT_TRUE(script.program) << script.messages(false);
         if (!script.program) return {};
-        auto made = Simulation::create(script, {BackendKind::interpreter, 0, 2});
+        auto made = Simulation::create(script, {"interp", 0, 2});
         EXPECT_TRUE(made) << (made ? "" : made.error().message);
         if (!made) return {};
         Simulation& simulation = **made;

@@ -30,13 +30,13 @@ struct TiledRun {
 
 /// How a run is stepped.
 struct Way {
-    BackendKind backend = BackendKind::interpreter;
+    std::string_view backend = "interp";
     int threads = 1;
     Tiling tiling;
 };
 
 std::string name_of(const Way& way) {
-    return std::string(way.backend == BackendKind::jit ? "jit" : "interpreter") + ", " +
+    return std::string(way.backend == "jit" ? "jit" : "interpreter") + ", " +
            std::to_string(way.threads) + " threads, " + std::to_string(way.tiling.levels) +
            " levels on layers of " + std::to_string(way.tiling.outer_layer) + ", " +
            std::to_string(way.tiling.inner_bands) + " bands";
@@ -98,16 +98,11 @@ std::vector<std::uint64_t> words_of(const TiledRun& ran) {
     return words;
 }
 
-std::vector<BackendKind> backends() {
-    if (!has_jit()) return {BackendKind::interpreter};
-    return {BackendKind::interpreter, BackendKind::jit};
-}
-
 /// Runs a script in tiles of several shapes and compares with its plain steps. `is_tiled`: does one
 /// thread take more than one sweep at once? The bands of several may be too narrow for that.
 void expect_same_bits(const std::string& text, std::optional<bool> is_tiled = true) {
     SCOPED_TRACE(text);
-    for (const BackendKind backend : backends()) {
+    for (const std::string& backend : available_backends()) {
         const auto plain = run_in_tiles(text, {backend, 1, {}});
         EXPECT_EQ(plain->failure, "");
         const std::vector<std::uint64_t> expected = words_of(*plain);
@@ -261,7 +256,7 @@ const char* const blow_up =
     "stage s: grow { iterations: 500; speed: 0.02 }\n";
 
 TEST(TiledRuns, BlowUpsAreFoundAtTheSameStepAndCell) {
-    for (const BackendKind backend : backends()) {
+    for (const std::string& backend : available_backends()) {
         const auto plain = run_in_tiles(blow_up, {backend, 1, {}});
         ASSERT_NE(plain->failure.find("step"), std::string::npos) << plain->failure;
         for (const int threads : {1, 3}) {
@@ -287,12 +282,12 @@ TEST(TiledRuns, ACancelLeavesACompleteStep) {
         control.report = [&](const Progress& progress) {
             if (progress.step > 0 && ++seen == 2) control.cancel = true;
         };
-        const Way way{BackendKind::interpreter, threads, {7, 2}};
+        const Way way{"interp", threads, {7, 2}};
         const auto stopped = run_in_tiles(text(1000000), way, control);
         EXPECT_EQ(stopped->end, StageEnd::cancelled);
         EXPECT_GT(stopped->steps, 0);
         ASSERT_LT(stopped->steps, 1000000);
-        const auto plain = run_in_tiles(text(stopped->steps), {BackendKind::interpreter, 1, {}});
+        const auto plain = run_in_tiles(text(stopped->steps), {"interp", 1, {}});
         EXPECT_EQ(plain->steps, stopped->steps);
         EXPECT_TRUE(words_of(*stopped) == words_of(*plain));
     }
@@ -308,7 +303,7 @@ TEST(TiledRuns, ObserversSeeTheSameSteps) {
         auto ran = std::make_unique<TiledRun>();
         ran->script = load_script("test", text, ".");
         SimulationOptions options;
-        options.backend = BackendKind::interpreter;
+        options.backend = "interp";
         options.threads = 3;
         options.tiling = tiling;
         auto made = Simulation::create(ran->script, options);

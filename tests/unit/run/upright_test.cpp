@@ -62,7 +62,7 @@ protected:
                        overrides);
         EXPECT_TRUE(script_.program) << script_.messages(false);
         if (!script_.program) return nullptr;
-        auto made = Simulation::create(script_, {BackendKind::interpreter, 0, 1});
+        auto made = Simulation::create(script_, {"interp", 0, 1});
         EXPECT_TRUE(made) << script_.messages(false);
         if (!made || !(*made)->start_stage(0)) return nullptr;
         RunControl control;

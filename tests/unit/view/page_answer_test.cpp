@@ -30,7 +30,7 @@ stage two: waves { k: 0.5; iterations: 5 }
 
 SimulationOptions interpreted() {
     SimulationOptions options;
-    options.backend = BackendKind::interpreter;
+    options.backend = "interp";
     options.threads = 1;
     return options;
 }

@@ -23,7 +23,7 @@ protected:
     void SetUp() override { begin(fading_waves); }
     void begin(std::string_view text) {
         SimulationOptions options;
-        options.backend = BackendKind::interpreter;
+        options.backend = "interp";
         options.threads = 1;
         RunControl control;
         auto run =

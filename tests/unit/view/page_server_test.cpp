@@ -18,7 +18,7 @@ class PageServerTest : public testing::Test {
 protected:
     void SetUp() override {
         SimulationOptions options;
-        options.backend = BackendKind::interpreter;
+        options.backend = "interp";
         options.threads = 1;
         RunControl control;
         auto run = LiveRun::begin(
