@@ -143,7 +143,7 @@ Stepper CascadeSide::fresh_stepper() const { return Stepper(problem_, start_spec
 
 void CascadeSide::advance(std::int64_t count) {
     if (!stepper_->advance(steps_, count, true)) give_up("a value is not finite");
-    stepper_->planes().keep();
+    stepper_->keep();
     steps_ += count;
 }
 

@@ -45,7 +45,7 @@ public:
     /// Another stepper at the starting values. Needs this object alive.
     Stepper fresh_stepper() const;
 
-    std::span<const Field> species() { return stepper_->planes().current(); }
+    std::span<const Field> species() { return stepper_->species(); }
     const StageState& start() const { return simulation_->state(0); }
     const Grid& grid() const { return simulation_->grid(); }
     /// A parameter that varies, by name.

@@ -83,7 +83,7 @@ void later_use(Backend& backend) {
               Stepper stepper = prepared.fresh_stepper();
               for (int n = 0; n < 2000; n += 50) {
                   stepper.advance(n, 50, true);
-                  stepper.planes().keep();
+                  stepper.keep();
               }
           }),
           10);

@@ -104,10 +104,10 @@ public:
         problem_.species_needs_halo.assign(2, true);
         stepper_.emplace(problem_, std::move(ours_), 1);
         if (choices.levels > 0) {
-            Tiling tiling = stepper_->team().fitting_tiling();
+            Tiling tiling = stepper_->executor().tilings_to_try().front();
             tiling.levels = choices.levels;
             tiling.outer_layer = std::max(tiling.outer_layer, rows_reached(problem_));
-            stepper_->team().use_tiling(tiling);
+            stepper_->executor().use_tiling(tiling);
         }
     }
 
@@ -128,7 +128,7 @@ public:
         }
     }
     double ours(std::size_t cell) {
-        return (stepper_->planes().current()[0].plane<float>().origin())[place(cell)];
+        return (stepper_->species()[0].plane<float>().origin())[place(cell)];
     }
     double theirs(std::size_t cell) const { return theirs_[0].origin()[place(cell)]; }
     /// Entries of all slices over links: how much is filled up.

@@ -38,15 +38,15 @@ public:
           steps_of_stage_(progress_.steps) {
         CHECK(schedule_.check_every > 0, "steps between two looks");
         if (clock_.has_end_time()) progress_.duration = schedule_.end_time;
-        stepper_.planes().lend(species_);
+        stepper_.lend(species_);
     }
 
     StageOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
                          const Observer& observe) {
         outcome_ = {};
-        stepper_.planes().take_back(species_);
+        stepper_.take_back(species_);
         if (!is_known_to_be_finite_ && !stepper_.is_finite()) {
-            stepper_.planes().lend(species_);
+            stepper_.lend(species_);
             outcome_.not_finite = find_not_finite(species_, clock_.step, clock_.step);
             outcome_.steps = clock_.step;
             return std::move(outcome_);
@@ -58,7 +58,7 @@ public:
         schedule_.interval = interval;
         progress_.steps = std::max(steps_of_stage_, last_step);
         may_check_later_ =
-            control.checks_later && last_step < steps_of_stage_ && stepper_.planes().keeps();
+            control.checks_later && last_step < steps_of_stage_ && stepper_.roles().keeps();
         clock_.go_on();
         tuner_.go_on();
         report(control, false);
@@ -77,7 +77,7 @@ public:
         outcome_.t = clock_.now();
         outcome_.threads = tuner_.threads();
         outcome_.time = lengths_.time();
-        stepper_.planes().lend(species_);
+        stepper_.lend(species_);
         report(control, true);
         return std::move(outcome_);
     }
@@ -102,7 +102,7 @@ private:
         if (tuner_.pace().report_due(now)) report(control, false);
         if (look && !do_what_is_due(observe)) return false;
         if (is_kept && !outcome_.ended) {
-            const SpeciesLoan loan(stepper_.planes(), species_);
+            const SpeciesLoan loan(stepper_, species_);
             schedule_.keep(clock_.step, clock_.now(), lengths_.time());
         }
         return true;
@@ -138,7 +138,7 @@ private:
     }
 
     void found_finite() {
-        stepper_.planes().keep();
+        stepper_.keep();
         clock_.last_look = clock_.step;
         is_checked_ = true;
     }
@@ -155,7 +155,7 @@ private:
         outcome_.ended = clock_.is_over();
         const bool asks_end = schedule_.check > 0 && step % schedule_.check == 0;
         {
-            const SpeciesLoan loan(stepper_.planes(), species_);
+            const SpeciesLoan loan(stepper_, species_);
             if (schedule_.onlooker) schedule_.onlooker(step, t, species_);
             if (clock_.observation_due() && observe && !observe(step, t, species_)) return false;
             if (asks_end && schedule_.ends(step, t, species_)) {

@@ -11,14 +11,14 @@ BatchTuner::BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& step
       clock_(clock),
       stepper_(stepper),
       pace_(Clock::now(), clock.step),
-      thread_tuner_(stepper.team().most_threads()),
+      thread_tuner_(stepper.executor().most_threads()),
       tile_tuner_(tuner_of(tilings_to_try())) {}
 
 void BatchTuner::go_on() { pace_.go_on(Clock::now(), clock_.step); }
 
 std::int64_t BatchTuner::begin_batch(std::int64_t most) {
-    stepper_.team().use_threads(thread_tuner_.threads());
-    stepper_.team().use_tiling(tile_tuner_.tiling());
+    stepper_.executor().use_threads(thread_tuner_.threads());
+    stepper_.executor().use_tiling(tile_tuner_.tiling());
     std::int64_t steps = std::min(pace_.batch(steps_at_once()), most);
     if (tile_tuner_.is_trying()) {
         const std::int64_t sweeps = sweeps_of_step();
@@ -81,17 +81,17 @@ bool BatchTuner::renew_tile_tuner() {
 }
 
 Stepping BatchTuner::stepping() const {
-    Stepping stepping = stepper_.team().stepping();
+    Stepping stepping = stepper_.executor().stepping();
     if (const std::string how = tile_tuner_.how_found(); !how.empty()) stepping.why = how;
     return stepping;
 }
 
 std::vector<Tiling> BatchTuner::tilings_to_try() const {
-    return schedule_.tiling ? std::vector{*schedule_.tiling} : stepper_.team().tilings_to_try();
+    return schedule_.tiling ? std::vector{*schedule_.tiling} : stepper_.executor().tilings_to_try();
 }
 
 TileTuner BatchTuner::tuner_of(std::vector<Tiling> tilings) const {
-    return TileTuner(std::move(tilings), schedule_.tilings, stepper_.team().most_threads());
+    return TileTuner(std::move(tilings), schedule_.tilings, stepper_.executor().most_threads());
 }
 
 std::int64_t BatchTuner::sweeps_of_step() const {
@@ -101,7 +101,7 @@ std::int64_t BatchTuner::sweeps_of_step() const {
 /// Steps that share one pass through memory, at least 1.
 std::int64_t BatchTuner::steps_at_once() const {
     const std::int64_t sweeps = sweeps_of_step();
-    return (stepper_.team().levels() + sweeps - 1) / sweeps;
+    return (stepper_.executor().levels() + sweeps - 1) / sweeps;
 }
 
 /// The time of the remaining steps. If their number is unknown, the time so far.

@@ -18,22 +18,21 @@ std::optional<NotFinite> find_not_finite(const std::vector<Field>& species, std:
 
 std::int64_t replay(Stepper& stepper, std::int64_t last_finite, std::int64_t spoiled,
                     StageOutcome& outcome) {
-    StepPlanes& planes = stepper.planes();
-    if (!planes.keeps()) {
-        outcome.not_finite = find_not_finite(planes.current(), spoiled, last_finite);
+    if (!stepper.roles().keeps()) {
+        outcome.not_finite = find_not_finite(stepper.species(), spoiled, last_finite);
         return spoiled;
     }
     // For a replay that is abandoned.
-    outcome.not_finite = find_not_finite(planes.current(), spoiled, last_finite);
+    outcome.not_finite = find_not_finite(stepper.species(), spoiled, last_finite);
     stepper.back();
-    for (const Field& field : planes.current()) outcome.last_checked.push_back(field.clone());
+    for (const Field& field : stepper.species()) outcome.last_checked.push_back(field.clone());
     for (std::int64_t step = last_finite; step < spoiled; ++step) {
-        const CopyRoles before = planes.roles();
+        const CopyRoles before = stepper.roles();
         bool is_finite = false;
         if (!complete([&] { is_finite = stepper.advance(step, 1, true); })) return step;
         if (is_finite) continue;
-        outcome.not_finite = find_not_finite(planes.current(), step + 1, step);
-        planes.set_roles(before);
+        outcome.not_finite = find_not_finite(stepper.species(), step + 1, step);
+        stepper.set_roles(before);
         return step;
     }
     CHECK(false, "a replay takes the same steps");

@@ -1,7 +1,6 @@
 // Tries steps and judges them by their errors.
 #include "solvers/step_lengths.h"
 
-#include "core/floating_point.h"
 #include "solvers/spoiled_step.h"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ TimeState StepLengths::time() const {
 
 void StepLengths::choose(bool rejected) {
     if (!schedule_.choose) return;
-    const SpeciesLoan loan(stepper_.planes(), species_);
+    const SpeciesLoan loan(stepper_, species_);
     const StepChoice choice = schedule_.choose(clock_.step, clock_.time, rejected);
     plain_ = choice.problem;
     judged_ = choice.judged;
@@ -43,7 +42,7 @@ bool StepLengths::take_judged_step(StageOutcome& outcome) {
         clock_.set_step(length);
         stepper_.use(*judged_);
         stepper_.set_clock(clock_.time.clock);
-        const CopyRoles before = stepper_.planes().roles();
+        const CopyRoles before = stepper_.roles();
         const double error = stepper_.attempt(clock_.step, schedule_.tolerance);
         if (control_.judge(length, error)) break;
         if (length <= clock_.time.least_step) {
@@ -52,10 +51,10 @@ bool StepLengths::take_judged_step(StageOutcome& outcome) {
         }
         if (control_.step() < least_step()) {
             outcome.too_short = where_error_is_largest();
-            stepper_.planes().set_roles(before);
+            stepper_.set_roles(before);
             return false;
         }
-        stepper_.planes().set_roles(before);
+        stepper_.set_roles(before);
         if (schedule_.choose) {
             clock_.time.control = control_.state();
             choose(true);
@@ -78,10 +77,7 @@ void StepLengths::pass_jump() {
     const double t = clock_.now(), after = schedule_.time_after(t);
     if (!(after > t)) return;
     clock_.time.clock.base_time = after;
-    stepper_.forget_rates();
-    const FlushDenormals environment;
-    const SpeciesLoan loan(stepper_.planes(), species_);
-    stepper_.problem().fill_halos(species_, {clock_.step, after});
+    stepper_.pass_jump({clock_.step, after});
 }
 
 double StepLengths::wanted_step() const {
@@ -97,15 +93,14 @@ double StepLengths::least_step() const {
 /// Goes back to the state before the step just tried, which spoiled a value; `last_checked`
 /// receives it.
 bool StepLengths::fail_after(CopyRoles before, StageOutcome& outcome) {
-    StepPlanes& planes = stepper_.planes();
-    outcome.not_finite = find_not_finite(planes.current(), clock_.step + 1, clock_.step);
-    planes.set_roles(before);
+    outcome.not_finite = find_not_finite(stepper_.species(), clock_.step + 1, clock_.step);
+    stepper_.set_roles(before);
     // The values are finite, but their rates are not.
     if (!outcome.not_finite) {
         outcome.too_short = where_error_is_largest();
         return false;
     }
-    for (const Field& field : planes.current()) outcome.last_checked.push_back(field.clone());
+    for (const Field& field : stepper_.species()) outcome.last_checked.push_back(field.clone());
     return false;
 }
 

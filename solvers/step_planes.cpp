@@ -16,22 +16,12 @@ StepPlanes::StepPlanes(const PlaneLayout& layout, Precision precision, std::vect
         copies_[1].emplace_back(layout_, precision_);
         if (keeps) copies_[2].emplace_back(layout_, precision_);
     }
-    if (!keeps) roles_.kept = CopyRoles::none;
 }
 
-void StepPlanes::back() {
-    CHECK(keeps(), "there is a copy to go back to");
-    if (roles_.current != roles_.kept) roles_.last = std::exchange(roles_.current, roles_.kept);
-}
-
-void StepPlanes::lend(std::vector<Field>& to) {
-    to = std::move(copies_[static_cast<std::size_t>(roles_.current)]);
-}
-
-void StepPlanes::take_back(std::vector<Field>& from) {
-    CHECK(from.size() == species_, "all species come back");
-    for (const Field& field : from) check(field);
-    copies_[static_cast<std::size_t>(roles_.current)] = std::move(from);
+void StepPlanes::put(int number, std::vector<Field> species) {
+    CHECK(species.size() == species_, "all species come back");
+    for (const Field& field : species) check(field);
+    copy(number) = std::move(species);
 }
 
 void StepPlanes::make_registers(std::uint32_t count) {

@@ -1,16 +1,17 @@
-// Takes steps: a team of threads runs the passes over planes that are swapped. Used by the time
-// loop, which decides the number of steps and when to check values.
+// Takes steps: an executor runs their passes over copies of the species that are swapped. Used by
+// the time loop, which decides the number of steps and when to check values.
 #pragma once
 
 #include "core/plane.h"
-#include "solvers/pass_team.h"
+#include "solvers/executor.h"
 #include "solvers/stage_clock.h"
-#include "solvers/step_planes.h"
 #include "solvers/step_problem.h"
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace cascade {
@@ -22,12 +23,29 @@ public:
     Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
             bool keeps = true);
 
-    StepPlanes& planes() { return planes_; }
-    PassTeam& team() { return team_; }
-    const PassTeam& team() const { return team_; }
+    Executor& executor() { return *executor_; }
+    const Executor& executor() const { return *executor_; }
+
+    CopyRoles roles() const { return roles_; }
+    /// To undo a step.
+    void set_roles(CopyRoles roles) { roles_ = roles; }
+    /// Makes the current copy the kept one, if one is kept.
+    void keep() { roles_.keep(); }
+    /// Goes back to the kept copy.
+    void back();
+
+    /// The current values, which may be read until the next step.
+    const std::vector<Field>& species() const { return executor_->fetch(roles_.current); }
+    /// Lends them to the caller's vector; they must come back before the next step.
+    void lend(std::vector<Field>& to) { to = executor_->take(roles_.current); }
+    void take_back(std::vector<Field>& from) { executor_->put(roles_.current, std::move(from)); }
+    /// The planes of a scratch register, which may be read until the next step.
+    const std::vector<Field>& scratch(RegisterId id) const { return executor_->fetch(id); }
+    /// The planes of the error estimate, one for each species.
+    const std::vector<Field>& error_planes() const { return scratch(*problem().error_register); }
 
     /// The passes in use.
-    const StepProblem& problem() const { return team_.problem(); }
+    const StepProblem& problem() const { return executor_->problem(); }
     /// Uses the passes of another problem from now on. It must outlive its use.
     void use(const StepProblem& problem);
     /// Sets time and length of the steps from now on.
@@ -41,12 +59,7 @@ public:
     /// whether the new values are all finite; without it, true.
     bool advance(std::int64_t complete, std::int64_t count, bool look);
     /// Are all current values finite?
-    bool is_finite();
-    /// Goes back to the kept copy.
-    void back() {
-        planes_.back();
-        knows_first_rates_ = false;
-    }
+    bool is_finite() { return executor_->is_finite(roles_.current); }
 
     /// Tries one step of a problem with an error register and returns its error in units of the
     /// tolerance: for each species the root mean square of the error, divided by that of its new
@@ -57,29 +70,31 @@ public:
     void accept();
     /// Must be called when current values have been changed from outside.
     void forget_rates() { knows_first_rates_ = false; }
-    /// The planes of the error estimate, one for each species.
-    const std::vector<Field>& error_planes() const {
-        return planes_.scratch(*problem().error_register);
-    }
+    /// Goes on at a later moment with the same values: fills their halo for it.
+    void pass_jump(SideMoment moment);
 
 private:
-    /// Sums of squares by row.
-    struct Squares {
-        std::vector<double> of_errors, of_values;
-    };
-
-    PassTeam::OwnCells look_at(int copy);
-    bool all_finite() const;
-    void add_squares(RowRange rows);
-
-    StepPlanes planes_;
-    PassTeam team_;
+    std::unique_ptr<Executor> executor_;
+    CopyRoles roles_;
     StageClock clock_;
     const std::atomic<bool>* cancel_ = nullptr;
     /// The register of first rates holds the rates of the current copy.
     bool knows_first_rates_ = false;
-    std::vector<Squares> squares_;      ///< By species.
-    std::vector<std::uint8_t> finite_;  ///< By thread: are its cells finite?
+};
+
+/// Lends the current species to the caller's vector while it exists.
+class SpeciesLoan {
+public:
+    SpeciesLoan(Stepper& stepper, std::vector<Field>& to) : stepper_(stepper), to_(to) {
+        stepper_.lend(to_);
+    }
+    ~SpeciesLoan() { stepper_.take_back(to_); }
+    SpeciesLoan(const SpeciesLoan&) = delete;
+    SpeciesLoan& operator=(const SpeciesLoan&) = delete;
+
+private:
+    Stepper& stepper_;
+    std::vector<Field>& to_;
 };
 
 }  // namespace cascade

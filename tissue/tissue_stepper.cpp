@@ -120,8 +120,8 @@ Result<void> TissueStepper::cells_changed(bool has_moved, std::span<const std::u
         rules_.bind(tissue_, lists_.links());
         const StepProblem& first = problem(stages(0));
         stepper_.emplace(first, std::move(tissue_.species), schedule_.threads, false);
-        stepper_->team().use_tiling(Tiling{});
-        stepper_->planes().lend(tissue_.species);
+        stepper_->executor().use_tiling(Tiling{});
+        stepper_->lend(tissue_.species);
     }
     stepper_->forget_rates();
     return {};
@@ -172,16 +172,16 @@ Result<TriedStep> TissueStepper::attempt(double length) {
         }
         links_changed();
         lists_.begin_step(tissue_);
-        stepper_->planes().take_back(tissue_.species);
+        stepper_->take_back(tissue_.species);
         stepper_->use(problem(stages(length)));
         stepper_->set_clock(clock(length));
-        TriedStep tried{stepper_->planes().roles()};
+        TriedStep tried{stepper_->roles()};
         if (schedule_.tolerance > 0) {
             stepper_->attempt(tissue_.time.steps, schedule_.tolerance);
         } else if (!stepper_->advance(tissue_.time.steps, 1, true)) {
             tried.error = NAN;
         }
-        stepper_->planes().lend(tissue_.species);
+        stepper_->lend(tissue_.species);
         lists_.end_step(tissue_);
         if (!lists_.watch()->left_lists() || is_full) {
             if (schedule_.tolerance > 0) tried.error = error();
@@ -222,8 +222,7 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
     Result<void> found;
     const std::optional<RateRegisters>& rates = stepper_->problem().rate_registers;
     if (rates) {
-        found =
-            find(stepper_->planes().scratch(rates->first), stepper_->planes().scratch(rates->last));
+        found = find(stepper_->scratch(rates->first), stepper_->scratch(rates->last));
     } else {
         const auto rates_at = [&](std::vector<Field>& state, double t) {
             StepMoment then = now;
@@ -280,27 +279,25 @@ void TissueStepper::accept() {
 }
 
 void TissueStepper::undo(const TriedStep& tried) {
-    stepper_->planes().take_back(tissue_.species);
-    stepper_->planes().set_roles(tried.before);
-    stepper_->planes().lend(tissue_.species);
+    stepper_->take_back(tissue_.species);
+    stepper_->set_roles(tried.before);
+    stepper_->lend(tissue_.species);
 }
 
 std::vector<Field> TissueStepper::lend_beginning(const TriedStep& tried) {
-    StepPlanes& planes = stepper_->planes();
-    const CopyRoles now = planes.roles();
+    const CopyRoles now = stepper_->roles();
     std::vector<Field> values;
-    planes.set_roles(tried.before);
-    planes.lend(values);
-    planes.set_roles(now);
+    stepper_->set_roles(tried.before);
+    stepper_->lend(values);
+    stepper_->set_roles(now);
     return values;
 }
 
 void TissueStepper::take_beginning(const TriedStep& tried, std::vector<Field> values) {
-    StepPlanes& planes = stepper_->planes();
-    const CopyRoles now = planes.roles();
-    planes.set_roles(tried.before);
-    planes.take_back(values);
-    planes.set_roles(now);
+    const CopyRoles now = stepper_->roles();
+    stepper_->set_roles(tried.before);
+    stepper_->take_back(values);
+    stepper_->set_roles(now);
 }
 
 }  // namespace cascade

@@ -254,7 +254,7 @@ template <typename Number>
 std::string steps_of(const RandomSystem<Number>& system, const Tiling& tiling, int threads) {
     const FlushDenormals environment;
     Stepper stepper(system.problem(), system.start(), threads);
-    stepper.team().use_tiling(tiling);
+    stepper.executor().use_tiling(tiling);
     StageClock clock;
     clock.step = 0.01;
     clock.precision = precision_of<Number>;
@@ -266,19 +266,19 @@ std::string steps_of(const RandomSystem<Number>& system, const Tiling& tiling, i
     };
     go(1, true);
     go(5, true);
-    stepper.planes().keep();
+    stepper.keep();
     go(6, false);
     go(3, true);
-    const std::string before = system.cells(stepper.planes().current());
+    const std::string before = system.cells(stepper.species());
     stepper.back();
     complete = 6;
     go(6, false);
     go(3, true);
     // The kept copy was not written.
-    EXPECT_TRUE(before == system.cells(stepper.planes().current()));
-    stepper.planes().keep();
+    EXPECT_TRUE(before == system.cells(stepper.species()));
+    stepper.keep();
     go(4, true);
-    return system.cells(stepper.planes().current());
+    return system.cells(stepper.species());
 }
 
 template <typename Number>

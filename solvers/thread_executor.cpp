@@ -1,0 +1,315 @@
+// Threads that run the passes of steps, several of them together if tiles save memory traffic.
+// Every thread runs all passes on its rows and waits for the others where a pass reads their rows.
+#include "core/check.h"
+#include "core/floating_point.h"
+#include "core/parallel.h"
+#include "solvers/executor.h"
+#include "solvers/field_norms.h"
+#include "solvers/finite.h"
+#include "solvers/pass_runner.h"
+#include "solvers/step_planes.h"
+#include "solvers/tile_runner.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace cascade {
+namespace {
+
+/// With fewer values than this per thread and step, a barrier costs more than a thread saves:
+/// computing them takes about 10 µs, a barrier about 1. Cells with links take longer.
+constexpr std::int64_t least_values_per_thread = 16384;
+constexpr std::int64_t least_linked_values_per_thread = 8192;
+
+int worthwhile_threads(const Grid& grid, std::size_t species, int most) {
+    const std::int64_t values = grid.cell_count() * static_cast<std::int64_t>(species);
+    const std::int64_t least =
+        grid.linked ? least_linked_values_per_thread : least_values_per_thread;
+    const std::int64_t parts =
+        has_few_rows(grid) ? grid.width / PlaneLayout::row_pad : grid.height * grid.depth;
+    const std::int64_t worth = std::min(values / least, parts);
+    return static_cast<int>(std::clamp<std::int64_t>(worth, 1, std::max(most, 1)));
+}
+
+StepMoment moment_of(std::int64_t complete, const StageClock& clock,
+                     const std::atomic<bool>* cancel) {
+    return {complete, clock.at(complete), clock.step, clock.at(complete + 1), cancel};
+}
+
+void go_on(StepPass& next, std::size_t passes) {
+    if (++next.pass < passes) return;
+    next.pass = 0;
+    ++next.complete;
+    next.roles.go_on();
+}
+
+class ThreadExecutor final : public Executor {
+public:
+    ThreadExecutor(const StepProblem& problem, std::vector<Field> species, int most_threads,
+                   bool keeps);
+
+    const StepProblem& problem() const override { return *problem_; }
+    void prepare(const StepProblem& problem) override;
+
+    const std::vector<Field>& fetch(int copy) override { return planes_.copy(copy); }
+    const std::vector<Field>& fetch(RegisterId scratch) override {
+        return planes_.scratch(scratch);
+    }
+    std::vector<Field> take(int copy) override { return planes_.take(copy); }
+    void put(int copy, std::vector<Field> species) override {
+        planes_.put(copy, std::move(species));
+    }
+    void exchange(RegisterId one, RegisterId other) override { planes_.exchange(one, other); }
+    void fill_halos(int copy, SideMoment moment) override {
+        const FlushDenormals environment;
+        problem_->fill_halos(planes_.copy(copy), moment);
+    }
+
+    bool run(const StageClock& clock, StepPass first, std::size_t count, bool check,
+             const std::atomic<bool>* cancel) override;
+    std::vector<ErrorOfStep> run_judged(const StageClock& clock, StepPass first,
+                                        const std::atomic<bool>* cancel) override;
+    bool is_finite(int copy) override;
+
+    int most_threads() const override { return team_.size(); }
+    void use_threads(int threads) override;
+    std::vector<Tiling> tilings_to_try() const override {
+        return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here(), most_threads());
+    }
+    void use_tiling(const Tiling& tiling) override;
+    int levels() const override { return tiles_->levels(); }
+    Stepping stepping() const override {
+        return stepping_with(*problem_, tiling_, tiles_->levels(), tiles_->phases());
+    }
+
+private:
+    /// The work of a thread on its share of the cells.
+    using OwnCells = std::function<void(int thread, const Patch& cells)>;
+    struct Worker {
+        PassRunner::Worker passes;
+        std::vector<std::span<Field>> registers;
+    };
+    /// The arguments of all threads.
+    struct Given {
+        const StageClock& clock;
+        const std::atomic<bool>* cancel = nullptr;
+        const RowsWritten* written_by_last =
+            nullptr;  ///< For the last pass of a step; may be null.
+    };
+    /// Sums of squares by row.
+    struct Squares {
+        std::vector<double> of_errors, of_values;
+    };
+
+    void set_tiling(const Tiling& tiling);
+    void run(const Given& given, const StepPass& first, std::size_t count, const OwnCells& after);
+    void run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
+                    bool meets);
+    std::size_t passes_together(const StepPass& next, std::size_t left) const;
+    void run_together(Worker& worker, const Given& given, StepPass& next, std::size_t count);
+    OwnCells check_of(int copy);
+    bool all_finite() const;
+    void add_squares(RowRange rows, const std::vector<Field>& values);
+
+    const StepProblem* problem_;
+    StepPlanes planes_;
+    Team team_;
+    std::optional<PassRunner> runner_;
+    std::int64_t reach_ = 1;  ///< The number of rows that links reach.
+    Tiling tiling_;
+    bool is_tiling_given_ = false;
+    std::optional<TileRunner> tiles_;
+    std::vector<Worker> workers_;       ///< One for each thread in use.
+    std::vector<Squares> squares_;      ///< By species.
+    std::vector<std::uint8_t> finite_;  ///< By thread: are its cells finite?
+};
+
+ThreadExecutor::ThreadExecutor(const StepProblem& problem, std::vector<Field> species,
+                               int most_threads, bool keeps)
+    : problem_(&problem),
+      planes_(PlaneLayout(problem.grid), problem.precision, std::move(species), keeps),
+      team_(worthwhile_threads(problem.grid, planes_.copy(0).size(), most_threads)),
+      runner_(std::in_place, problem),
+      finite_(static_cast<std::size_t>(team_.size())) {
+    planes_.make_registers(problem.registers);
+    if (problem.grid.linked) reach_ = rows_reached(problem);
+    tiling_ = choose_tiling(problem, reach_, CacheSizes::here());
+    use_threads(team_.size());
+}
+
+void ThreadExecutor::prepare(const StepProblem& problem) {
+    if (&problem == problem_) return;
+    CHECK(problem.grid == problem_->grid, "passes of one grid");
+    problem_ = &problem;
+    planes_.make_registers(problem.registers);
+    runner_.emplace(problem);
+    for (Worker& worker : workers_) {
+        runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
+    }
+    set_tiling(is_tiling_given_ ? tiling_ : choose_tiling(problem, reach_, CacheSizes::here()));
+}
+
+void ThreadExecutor::use_threads(int threads) {
+    if (static_cast<std::size_t>(threads) == workers_.size()) return;
+    workers_.resize(static_cast<std::size_t>(threads));
+    for (int index = 0; index < threads; ++index) {
+        runner_->prepare(workers_[static_cast<std::size_t>(index)].passes, index, threads);
+    }
+    set_tiling(tiling_);
+}
+
+void ThreadExecutor::use_tiling(const Tiling& tiling) {
+    if (is_tiling_given_ && tiling == tiling_) return;
+    is_tiling_given_ = true;
+    set_tiling(tiling);
+}
+
+void ThreadExecutor::set_tiling(const Tiling& tiling) {
+    tiling_ = tiling;
+    Tiling reaching = tiling;
+    if (problem_->grid.linked) reaching.outer_layer = std::max(reaching.outer_layer, reach_);
+    tiles_.emplace(*runner_, reaching, static_cast<int>(workers_.size()));
+}
+
+bool ThreadExecutor::run(const StageClock& clock, StepPass first, std::size_t count, bool check,
+                         const std::atomic<bool>* cancel) {
+    if (!check) {
+        run({clock, cancel}, first, count, nullptr);
+        return true;
+    }
+    CopyRoles roles = first.roles;
+    for (std::size_t step = 0; step < count / problem_->passes.size(); ++step) roles.go_on();
+    run({clock, cancel}, first, count, check_of(roles.current));
+    return all_finite();
+}
+
+std::vector<ErrorOfStep> ThreadExecutor::run_judged(const StageClock& clock, StepPass first,
+                                                    const std::atomic<bool>* cancel) {
+    const std::vector<Field>& values = planes_.copy(first.roles.target());
+    squares_.resize(values.size());
+    for (Squares& squares : squares_) {
+        squares.of_errors.resize(static_cast<std::size_t>(planes_.layout().row_count()));
+        squares.of_values.resize(squares.of_errors.size());
+    }
+    const RowsWritten written = [&](RowRange rows) { add_squares(rows, values); };
+    run({clock, cancel, &written}, first, problem_->passes.size() - first.pass, nullptr);
+    const std::int64_t cells = problem_->counted_cells();
+    std::vector<ErrorOfStep> errors;
+    for (const Squares& squares : squares_) {
+        errors.push_back({root_mean_square(squares.of_errors, cells),
+                          root_mean_square(squares.of_values, cells)});
+    }
+    return errors;
+}
+
+bool ThreadExecutor::is_finite(int copy) {
+    const OwnCells check = check_of(copy);
+    team_.run(
+        [&](int thread) { check(thread, workers_[static_cast<std::size_t>(thread)].passes.cells); },
+        static_cast<int>(workers_.size()));
+    return all_finite();
+}
+
+/// What threads do while they check values.
+ThreadExecutor::OwnCells ThreadExecutor::check_of(int copy) {
+    std::fill(finite_.begin(), finite_.end(), std::uint8_t{1});
+    return [this, copy](int thread, const Patch& cells) {
+        for (const Field& field : planes_.copy(copy)) {
+            if (!are_finite(field, cells)) finite_[static_cast<std::size_t>(thread)] = 0;
+        }
+    };
+}
+
+bool ThreadExecutor::all_finite() const {
+    return std::all_of(finite_.begin(), finite_.end(), [](std::uint8_t is) { return is != 0; });
+}
+
+/// Sums the squares of some rows of the step just computed.
+void ThreadExecutor::add_squares(RowRange rows, const std::vector<Field>& values) {
+    const std::vector<Field>& errors = planes_.scratch(*problem_->error_register);
+    for (std::size_t k = 0; k < squares_.size(); ++k) {
+        for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+            const auto place = static_cast<std::size_t>(row);
+            const std::int64_t cells = problem_->counted_in_row(row);
+            squares_[k].of_errors[place] = sum_of_squares(errors[k], row, cells);
+            squares_[k].of_values[place] = sum_of_squares(values[k], row, cells);
+        }
+    }
+}
+
+void ThreadExecutor::run(const Given& given, const StepPass& first, std::size_t count,
+                         const OwnCells& after) {
+    team_.run(
+        [&](int thread) {
+            Worker& worker = workers_[static_cast<std::size_t>(thread)];
+            run_passes(worker, given, first, count, after != nullptr);
+            if (after) after(thread, worker.passes.cells);
+        },
+        static_cast<int>(workers_.size()));
+}
+
+/// Runs `left` passes from `next` on. `meets`: each thread's own cells must be complete at the end.
+void ThreadExecutor::run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
+                                bool meets) {
+    while (left > 0) {
+        const std::size_t together = passes_together(next, left);
+        run_together(worker, given, next, together);
+        left -= together;
+        // One barrier is enough: after it no thread reads the copy that the next pass overwrites,
+        // and every thread has filled the halo that copies its own rows. Tiles and columns may end
+        // in any thread's cells.
+        const bool is_elsewhere = tiles_->levels() > 1 || has_few_rows(problem_->grid);
+        if (left > 0 || (meets && is_elsewhere)) team_.barrier();
+    }
+    if (given.written_by_last == nullptr || !tiles_->is_along_columns()) return;
+    team_.barrier();
+    (*given.written_by_last)(worker.passes.rows);
+}
+
+/// The number of passes to run together if `left` remain: tiles of nearly equal heights, up to a
+/// pass that needs all rows.
+std::size_t ThreadExecutor::passes_together(const StepPass& next, std::size_t left) const {
+    const auto most = static_cast<std::size_t>(tiles_->levels());
+    const std::size_t passes = problem_->passes.size();
+    std::size_t free = 1;
+    while (free < left && !needs_all_rows(problem_->passes[(next.pass + free) % passes])) {
+        if (++free > 2 * most) return most;
+    }
+    const std::size_t tiles = (free + most - 1) / most;
+    return (free + tiles - 1) / tiles;
+}
+
+void ThreadExecutor::run_together(Worker& worker, const Given& given, StepPass& next,
+                                  std::size_t count) {
+    const std::size_t passes = problem_->passes.size();
+    for (std::size_t number = 0; number < count; ++number) {
+        if (number == 0 || next.pass == 0) planes_.list(next.roles, worker.registers);
+        const StepMoment moment = moment_of(next.complete, given.clock, given.cancel);
+        if (number == 0) {
+            runner_->prepare_pass(worker.passes, team_, next.pass, worker.registers, moment);
+        }
+        // The first pass of a tile brings the data of the others into the cache.
+        runner_->bind(worker.passes, number, next.pass, worker.registers, moment,
+                      tiling_.is_near && number > 0,
+                      next.pass + 1 == passes && !tiles_->is_along_columns() ? given.written_by_last
+                                                                             : nullptr);
+        go_on(next, passes);
+    }
+    if (count == 1 && !tiles_->is_along_columns()) {
+        runner_->run_cells(worker.passes, 0, {worker.passes.rows});
+    } else {
+        tiles_->run(worker.passes, team_, static_cast<int>(count));
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Executor> make_thread_executor(const StepProblem& problem,
+                                               std::vector<Field> species, int most_threads,
+                                               bool keeps) {
+    return std::make_unique<ThreadExecutor>(problem, std::move(species), most_threads, keeps);
+}
+
+}  // namespace cascade
