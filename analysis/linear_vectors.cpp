@@ -1,6 +1,9 @@
 // Vectors have slopes at the faces across each axis, where factors are averaged, by the rules of
 // lang/lower/lower_vectors.cpp.
 #include "analysis/lineariser.h"
+#include "lang/program/vector_functions.h"
+
+#include <span>
 
 namespace cascade::analysis {
 
@@ -29,55 +32,55 @@ Result<void> Lineariser::add_tensor(const Node& node, Part& part) {
     return {};
 }
 
-Result<void> Lineariser::add_vector(const Node& node, Part& part) {
-    const Part& a = this->part(node, 0);
-    const Part& b = parts_[node.reads().back()];
-    const auto type = [&](std::size_t n) { return types_[node.operands[n]]; };
-    switch (node.function) {
-        case Function::grad:
-            at_each_face([&](std::size_t axis, std::size_t component) {
-                part.at_faces[axis][component] =
-                    axis == component
-                        ? through(a.slopes, Kind::across, axis)
-                        : through(through(a.slopes, Kind::average, axis), Kind::central, component);
-            });
-            return {};
-        case Function::vector:
-            for (std::size_t n = 0; n < node.operand_count; ++n) {
-                part.value[n] = this->part(node, n).value[0];
-            }
-            at_each_face([&](std::size_t axis, std::size_t component) {
-                if (component >= node.operand_count) return;
-                part.at_faces[axis][component] =
-                    through(this->part(node, component).slopes, Kind::average, axis);
-            });
-            return {};
-        case Function::negate: combine(part, a, algebra_.number(-1)); return {};
-        case Function::add:
-            combine(part, a, one_);
-            combine(part, b, one_);
-            return {};
-        case Function::subtract:
-            combine(part, a, one_);
-            combine(part, b, algebra_.number(-1));
-            return {};
-        case Function::divide: {
-            const NodeId factor = algebra_.quotient(one_, b.value[0]);
-            scale(part, a, factor, b.slopes, algebra_.negative(algebra_.product(factor, factor)));
-            return {};
-        }
-        case Function::multiply:
-            if (type(0) == ValueType::tensor) {
-                turn(part, a, b);
-            } else if (type(0) == ValueType::vector) {
-                scale(part, a, b.value[0], b.slopes, one_);
-            } else {
-                scale(part, b, a.value[0], a.slopes, one_);
-            }
-            return {};
-        default: break;
+/// Writes a vector into a part, from its operands.
+struct Lineariser::OfVectors {
+    Lineariser& own;
+    Part& part;
+
+    const Part& of(NodeId id) const { return own.parts_[id]; }
+    void gradient(NodeId id) const {
+        own.at_each_face([&](std::size_t axis, std::size_t component) {
+            const Slopes& slopes = of(id).slopes;
+            part.at_faces[axis][component] =
+                axis == component ? own.through(slopes, Kind::across, axis)
+                                  : own.through(own.through(slopes, Kind::average, axis),
+                                                Kind::central, component);
+        });
     }
-    return without_rule(node);
+    void components(std::span<const NodeId> parts) const {
+        for (std::size_t n = 0; n < parts.size(); ++n) part.value[n] = of(parts[n]).value[0];
+        own.at_each_face([&](std::size_t axis, std::size_t component) {
+            if (component >= parts.size()) return;
+            part.at_faces[axis][component] =
+                own.through(of(parts[component]).slopes, Kind::average, axis);
+        });
+    }
+    void negative(NodeId vector) const { own.combine(part, of(vector), own.algebra_.number(-1)); }
+    void sum(NodeId a, NodeId b) const {
+        own.combine(part, of(a), own.one_);
+        own.combine(part, of(b), own.one_);
+    }
+    void difference(NodeId a, NodeId b) const {
+        own.combine(part, of(a), own.one_);
+        negative(b);
+    }
+    void quotient(NodeId vector, NodeId by) const {
+        Algebra& algebra = own.algebra_;
+        const NodeId factor = algebra.quotient(own.one_, of(by).value[0]);
+        own.scale(part, of(vector), factor, of(by).slopes,
+                  algebra.negative(algebra.product(factor, factor)));
+    }
+    void product(NodeId a, NodeId b, bool is_vector_first) const {
+        const Part& number = of(is_vector_first ? b : a);
+        own.scale(part, of(is_vector_first ? a : b), number.value[0], number.slopes, own.one_);
+    }
+    void turned(NodeId tensor, NodeId vector) const { own.turn(part, of(tensor), of(vector)); }
+};
+
+Result<void> Lineariser::add_vector(const Node& node, Part& part) {
+    if (!makes_flux(node.function)) return without_rule(node);
+    vector_by(OfVectors{*this, part}, nodes_, node);
+    return {};
 }
 
 void Lineariser::combine(Part& sum, const Part& vector, NodeId factor) {

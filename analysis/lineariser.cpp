@@ -22,7 +22,7 @@ Lineariser::Lineariser(LinearModel& model)
 /// Adds a part; fails with words for the user.
 Result<void> Lineariser::add(const Node& node) {
     if (algebra_.size() > most_calculus_nodes) return failure("its rates are too large");
-    types_.push_back(node.type);
+    nodes_.push_back(node);
     parts_.push_back(nothing());
     Part& part = parts_.back();
     if (const auto* number = node.as<double>()) {

@@ -59,6 +59,7 @@ private:
     Result<void> without_rule(const Node& node) const;
 
     // Vectors and tensors (linear_vectors.cpp).
+    struct OfVectors;
     template <typename Act>
     void at_each_face(const Act& act) const;
     Result<void> add_tensor(const Node& node, Part& part);
@@ -73,7 +74,7 @@ private:
     Slopes flat_;  ///< Of what does not change.
     std::array<bool, 3> axes_;
     IdVector<NodeId, Part> parts_;
-    IdVector<NodeId, ValueType> types_;
+    Nodes nodes_;
 };
 
 inline bool is_flat(const Slopes& slopes) {

@@ -3,12 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 
 namespace cascade {
 
+/// Numbers are floats, doubles, or what has their operators, `sqrt` and `inverse`, such as the
+/// terms of lang/program/terms.h.
 template <typename Number>
 struct BasicVector3 {
-    Number x = 0, y = 0, z = 0;
+    Number x{}, y{}, z{};
+
+    Number& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+    const Number& operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+
     friend bool operator==(const BasicVector3&, const BasicVector3&) = default;
 
     friend BasicVector3 operator+(BasicVector3 a, BasicVector3 b) {
@@ -24,12 +32,16 @@ struct BasicVector3 {
     friend BasicVector3 cross(BasicVector3 a, BasicVector3 b) {
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     }
-    friend Number length(BasicVector3 a) { return std::sqrt(dot(a, a)); }
+    friend Number length(BasicVector3 a) {
+        using std::sqrt;
+        return sqrt(dot(a, a));
+    }
 
     /// `a` scaled to length 1; the zero vector stays zero.
     friend BasicVector3 unit(BasicVector3 a) {
         const Number size = length(a);
-        return size > 0 ? a * (1 / size) : a;
+        if constexpr (std::floating_point<Number>) return size > 0 ? a * (1 / size) : a;
+        else return a * inverse(size);
     }
 };
 

@@ -14,23 +14,17 @@ namespace cascade {
 std::optional<NodeId> Algebra::simpler(Function function, const Operands& operands) {
     const auto [a, b, c] = std::array{operands[0], operands[1], operands[2]};
     const Node& first = (*this)[a];
+    if (const auto known = without_zeros(function, a, b)) return known;
     switch (function) {
-        case Function::add:
-            if (is_number(a, 0)) return b;
-            if (is_number(b, 0)) return a;
-            break;
         case Function::subtract:
-            if (is_number(b, 0)) return a;
-            if (is_number(a, 0)) return negative(b);
             if (a == b) return number(0);
             break;
         case Function::multiply:
-            if (is_number(a, 0) || is_number(b, 0)) return number(0);
             if (is_number(a, 1)) return b;
             if (is_number(b, 1)) return a;
             break;
         case Function::divide:
-            if (is_number(a, 0) || is_number(b, 1)) return a;
+            if (is_number(b, 1)) return a;
             break;
         case Function::negate:
             if (first.calls(Function::negate)) return first.operands[0];

@@ -119,8 +119,8 @@ private:
     /// it is known for each wave; between others dxy makes other waves of a wave.
     Operators directed(const Node& node) {
         Operators result = nothing();
-        const NodeId own = found_[node.operands[0]].own;
-        if (algebra_.is_number(own, 0)) return result;
+        const Term own{&algebra_, found_[node.operands[0]].own};
+        if (own.is(0)) return result;
         const auto [a11, mixed, a22] =
             tensor_entries(algebra_, node.operands[1], node.operands[2], node.operands[3]);
         const Boundaries& sides = program_.domain.grid.boundary;

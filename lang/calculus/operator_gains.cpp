@@ -11,10 +11,12 @@ OperatorGains::OperatorGains(Algebra& algebra, const Program& program, const Mod
     : algebra_(algebra),
       grid_(model ? model->grid : program.domain.grid),
       has_metric_(program.domain.surface && program.domain.surface->has_metric),
-      on_model_(program.domain.model.has_value()),
       stencil_(program.domain.stencil),
       links_(model ? std::optional(model->largest_weight) : std::nullopt),
-      zero_(algebra.number(0)) {}
+      zero_(algebra.number(0)),
+      vectors_(algebra, {{has_axis(0), has_axis(1), has_axis(2)},
+                         has_metric_,
+                         program.domain.model.has_value()}) {}
 
 bool OperatorGains::has_axis(std::size_t axis) const {
     if (links_) return true;  // Gradients on a model have three components.
@@ -114,52 +116,7 @@ std::optional<NodeId> OperatorGains::of_other(const Node& node) {
 
 NodeId OperatorGains::derivative(NodeId of, std::size_t axis) {
     if (algebra_.is_number(of) || !has_axis(axis)) return zero_;
-    constexpr std::array functions{Function::dx, Function::dy, Function::dz};
-    return algebra_.call(functions[axis], {of});
-}
-
-void OperatorGains::note_components(NodeId vector, const Node& node) {
-    if (!components_.contains(vector)) components_.emplace(vector, components_of(node));
-}
-
-std::array<NodeId, 3> OperatorGains::components_of(const Node& node) {
-    const NodeId a = node.operands[0], b = node.operands[1];
-    const auto each = [&](const auto& make) {
-        return std::array<NodeId, 3>{make(std::size_t{0}), make(std::size_t{1}),
-                                     make(std::size_t{2})};
-    };
-    const auto of = [&](NodeId vector, std::size_t axis) { return components_.at(vector)[axis]; };
-    const bool by_tensor = algebra_[a].type == ValueType::tensor;
-    switch (node.function) {
-        case Function::grad: return each([&](auto axis) { return derivative(a, axis); });
-        case Function::vector:
-            return each(
-                [&](auto axis) { return axis < node.operand_count ? node.operands[axis] : zero_; });
-        case Function::negate:
-            return each([&](auto axis) { return algebra_.negative(of(a, axis)); });
-        case Function::add:
-            return each([&](auto axis) { return algebra_.sum(of(a, axis), of(b, axis)); });
-        case Function::subtract:
-            return each([&](auto axis) { return algebra_.difference(of(a, axis), of(b, axis)); });
-        case Function::divide:
-            return each([&](auto axis) { return algebra_.quotient(of(a, axis), b); });
-        case Function::multiply: break;
-        default: CHECK(false, "every vector has components");
-    }
-    if (!by_tensor) {
-        const bool is_first = algebra_[a].type == ValueType::vector;
-        return each([&](auto axis) {
-            return is_first ? algebra_.product(of(a, axis), b) : algebra_.product(a, of(b, axis));
-        });
-    }
-    const TensorMatrix matrix = tensor_matrix(algebra_, a, on_model_);
-    return each([&](auto row) {
-        NodeId sum = zero_;
-        for (std::size_t k = 0; k < 3; ++k) {
-            sum = algebra_.sum(sum, algebra_.product(matrix[row][k], of(b, k)));
-        }
-        return sum;
-    });
+    return algebra_.call(first_derivatives[axis], {of});
 }
 
 }  // namespace cascade

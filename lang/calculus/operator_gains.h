@@ -5,10 +5,8 @@
 #include "lang/calculus/algebra.h"
 #include "lang/program/models.h"
 
-#include <array>
 #include <cstddef>
 #include <optional>
-#include <unordered_map>
 
 namespace cascade {
 
@@ -29,25 +27,22 @@ public:
     NodeId of_gradient(std::size_t axis);
     NodeId of_derivative(std::size_t axis);
 
-    /// Records the components of a vector at the cell itself. Operands come before their readers.
-    void note_components(NodeId vector, const Node& node);
-    /// Those of a vector that was noted.
-    const std::array<NodeId, 3>& components(NodeId vector) const { return components_.at(vector); }
+    /// The components of a vector at the cell itself.
+    const SparseVector& components(NodeId vector) { return vectors_.components(vector); }
     /// The central difference of a number along an axis; 0 along one that the grid does not have.
     NodeId derivative(NodeId of, std::size_t axis);
 
 private:
     NodeId metric(MetricPlane plane);
     double of_stencil(int axes) const;
-    std::array<NodeId, 3> components_of(const Node& node);
 
     Algebra& algebra_;
     const Grid& grid_;
-    bool has_metric_, on_model_;
+    bool has_metric_;
     StencilKind stencil_;
     std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
     NodeId zero_;
-    std::unordered_map<NodeId, std::array<NodeId, 3>> components_;
+    FieldVectors vectors_;
 };
 
 }  // namespace cascade

@@ -2,8 +2,10 @@
 #include "lang/calculus/slopes.h"
 
 #include "lang/calculus/derivative_rules.h"
+#include "lang/program/vector_functions.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace cascade {
@@ -74,7 +76,6 @@ std::optional<Slopes> SlopeRules::slopes_of(NodeId id, ItemId species,
     Slopes slopes{zero(), zero(), zero()};
     if (node.is(species)) slopes[0].own = algebra_.number(1);
     if (!node.is<Call>()) return slopes;
-    if (node.type == ValueType::vector) gains_.note_components(id, node);
     bool depends = false;
     for (const NodeId operand : node.reads()) {
         for (const Slope& slope : before[operand]) depends |= !is_zero(slope);
@@ -206,56 +207,73 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
     return slope;
 }
 
-std::optional<Slopes> SlopeRules::of_vector(const Node& node,
-                                            const IdVector<NodeId, Slopes>& before) {
+template <typename Make>
+Slopes SlopeRules::along_axes(const Make& make) {
     Slopes slopes{zero(), zero(), zero()};
-    const auto operand = [&](std::size_t n) -> const Slopes& { return before[node.operands[n]]; };
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!gains_.has_axis(axis)) continue;
-        switch (node.function) {
-            case Function::grad:
-                slopes[axis] = through_diffusion(operand(0)[0], gains_.of_gradient(axis));
-                break;
-            case Function::vector:
-                if (axis < node.operand_count) {
-                    slopes[axis] = as_other(operand(axis)[0], algebra_.number(1));
-                }
-                break;
-            case Function::negate:
-                slopes[axis] = scaled(operand(0)[axis], algebra_.number(-1));
-                break;
-            case Function::add:
-            case Function::subtract:
-                slopes[axis] = operand(0)[axis];
-                add(slopes[axis], scaled(operand(1)[axis],
-                                         algebra_.number(node.function == Function::add ? 1 : -1)));
-                break;
-            case Function::multiply:
-            case Function::divide: return of_product(node, before);
-            default: return std::nullopt;
-        }
+        if (gains_.has_axis(axis)) slopes[axis] = make(axis);
     }
     return slopes;
 }
 
-std::optional<Slopes> SlopeRules::of_product(const Node& node,
-                                             const IdVector<NodeId, Slopes>& before) {
-    NodeId vector = node.operands[0], factor = node.operands[1];
-    if (algebra_[vector].type == ValueType::tensor) {
-        return times_tensor(vector, before[factor]);
+/// The slopes of a vector from those of its operands.
+struct SlopeRules::OfVectors {
+    SlopeRules& own;
+    const IdVector<NodeId, Slopes>& before;
+
+    NodeId number(double value) const { return own.algebra_.number(value); }
+    Slopes gradient(NodeId of) const {
+        return own.along_axes([&](std::size_t axis) {
+            return own.through_diffusion(before[of][0], own.gains_.of_gradient(axis));
+        });
     }
-    if (algebra_[vector].type != ValueType::vector) std::swap(vector, factor);
-    const bool divides = node.function == Function::divide;
-    const NodeId by = divides ? algebra_.quotient(algebra_.number(1), factor) : factor;
-    Slopes slopes{zero(), zero(), zero()};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!gains_.has_axis(axis)) continue;
-        slopes[axis] = scaled(before[vector][axis], by);
-        NodeId value = gains_.components(vector)[axis];
-        if (divides) value = algebra_.negative(algebra_.product(value, algebra_.product(by, by)));
-        add(slopes[axis], as_other(before[factor][0], value));
+    Slopes components(std::span<const NodeId> parts) const {
+        return own.along_axes([&](std::size_t axis) {
+            return axis < parts.size() ? own.as_other(before[parts[axis]][0], number(1))
+                                       : own.zero();
+        });
     }
-    return slopes;
+    Slopes scaled(NodeId vector, NodeId by) const {
+        return own.along_axes(
+            [&](std::size_t axis) { return own.scaled(before[vector][axis], by); });
+    }
+    Slopes negative(NodeId vector) const { return scaled(vector, number(-1)); }
+    Slopes joined(NodeId a, const Slopes& b) const {
+        return own.along_axes([&](std::size_t axis) {
+            Slope slope = before[a][axis];
+            own.add(slope, b[axis]);
+            return slope;
+        });
+    }
+    Slopes sum(NodeId a, NodeId b) const { return joined(a, before[b]); }
+    Slopes difference(NodeId a, NodeId b) const { return joined(a, negative(b)); }
+    Slopes quotient(NodeId vector, NodeId factor) const {
+        const NodeId by = own.algebra_.quotient(number(1), factor);
+        const NodeId change = own.algebra_.negative(own.algebra_.product(by, by));
+        return multiple(vector, by, factor, change);
+    }
+    Slopes product(NodeId a, NodeId b, bool is_vector_first) const {
+        const NodeId factor = is_vector_first ? b : a;
+        return multiple(is_vector_first ? a : b, factor, factor, number(1));
+    }
+    /// A vector times `by`, which changes by `change` times the change of `factor`.
+    Slopes multiple(NodeId vector, NodeId by, NodeId factor, NodeId change) const {
+        return own.along_axes([&](std::size_t axis) {
+            Slope slope = own.scaled(before[vector][axis], by);
+            const NodeId value = own.gains_.components(vector)[axis].term;
+            own.add(slope, own.as_other(before[factor][0], own.algebra_.product(value, change)));
+            return slope;
+        });
+    }
+    Slopes turned(NodeId tensor, NodeId vector) const {
+        return own.times_tensor(tensor, before[vector]);
+    }
+};
+
+std::optional<Slopes> SlopeRules::of_vector(const Node& node,
+                                            const IdVector<NodeId, Slopes>& before) {
+    if (!makes_flux(node.function)) return std::nullopt;
+    return vector_by(OfVectors{*this, before}, algebra_, node);
 }
 
 /// Waves of a gradient decay at most as fast as if the larger of a1² and a2² held in all directions

@@ -61,7 +61,9 @@ private:
     Slope of_advection(const Node& node, const IdVector<NodeId, Slopes>& before);
     Slope of_divergence(const Slopes& flux);
     std::optional<Slopes> of_vector(const Node& node, const IdVector<NodeId, Slopes>& before);
-    std::optional<Slopes> of_product(const Node& node, const IdVector<NodeId, Slopes>& before);
+    struct OfVectors;
+    template <typename Make>
+    Slopes along_axes(const Make& make);
     Slopes times_model_tensor(const Node& tensor, const Slopes& flux);
     Slopes times_tensor(NodeId tensor, const Slopes& flux);
 

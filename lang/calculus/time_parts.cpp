@@ -25,13 +25,13 @@ bool keeps_apart(const Node& node, const IdVector<NodeId, TimeFacts>& before) {
     const auto reads_both = [&](std::size_t operand) {
         return before[node.reads()[operand]].reads_both();
     };
-    switch (node.function) {
-        case Function::negate:
-        case Function::add:
-        case Function::subtract: return true;
-        case Function::multiply: return !reads_both(0) || !reads_both(1);
-        case Function::divide: return !reads_both(1);
-        default: return false;
+    const FunctionInfo& row = info(node.function);
+    if (row.kind != FunctionKind::arithmetic) return false;
+    const std::size_t last = node.operand_count - 1u;
+    switch (row.linear) {
+        case Linear::each: return last == 0 || !reads_both(0) || !reads_both(last);
+        case Linear::first: return !reads_both(last);
+        default: return true;
     }
 }
 

@@ -5,7 +5,6 @@
 #include "lang/check/check_blocks.h"
 #include "lang/check/system_checker.h"
 #include "lang/check/user_functions.h"
-#include "lang/program/linear_functions.h"
 
 #include <fmt/format.h>
 
@@ -97,7 +96,7 @@ const Node* nonlinear_part(const Formula& formula) {
         for (std::size_t k = 0; k < node.operand_count; ++k) {
             if (!depends[node.operands[k]]) continue;
             ++count;
-            is_linear = is_linear && is_linear_in(node, k);
+            is_linear = is_linear && is_linear_in(node.function, k, node.operand_count);
         }
         if (count > 0 && (!is_linear || (count > 1 && !is_jointly_linear(node.function))))
             return &node;

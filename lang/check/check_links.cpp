@@ -60,10 +60,8 @@ std::optional<Node> resolve_cell_value(Workspace& work, const Scope& scope, Cell
 void ExpressionChecker::check_link(Node& node) {
     const Node& operand = formula_.nodes[node.operands[0]];
     if (node.operand_count == 2) need(node.operands[1], ValueType::number);
-    const bool is_ordered =
-        node.function == Function::touching_min || node.function == Function::touching_max ||
-        node.function == Function::near_min || node.function == Function::near_max;
-    if (operand.type != ValueType::vector || is_ordered) {
+    const bool takes_vectors = info(node.function).result == ResultKind::like;
+    if (operand.type != ValueType::vector || !takes_vectors) {
         return need(node.operands[0], ValueType::number);
     }
     node.type = ValueType::vector;

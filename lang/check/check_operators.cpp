@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace cascade::checking {
 
 TypeWords words_of(ValueType type, bool in_cells) {
@@ -26,20 +28,17 @@ TypeWords words_of(ValueType type, bool in_cells) {
 
 namespace {
 
-/// The type of an operator applied to numbers, vectors and tensors; nothing where it has no
-/// meaning.
-std::optional<ValueType> type_of_result(Function function, ValueType left, ValueType right) {
+/// Has arithmetic a meaning for numbers, vectors and tensors? Sums take two of a type, products a
+/// number or a tensor and a vector, and only numbers divide.
+bool fits(Function function, ValueType left, ValueType right) {
     const bool is_left_number = left == ValueType::number,
                is_right_number = right == ValueType::number;
-    switch (function) {
-        case Function::negate: return left;
-        case Function::multiply:
-            if (is_left_number) return right;
-            if (is_right_number) return left;
-            if (left == ValueType::tensor && right == ValueType::vector) return right;
-            return std::nullopt;
-        case Function::divide: return is_right_number ? std::optional(left) : std::nullopt;
-        default: return left == right ? std::optional(left) : std::nullopt;
+    switch (info(function).linear) {
+        case Linear::each:
+            return is_left_number || is_right_number ||
+                   (left == ValueType::tensor && right == ValueType::vector);
+        case Linear::first: return is_right_number;
+        default: return left == right;
     }
 }
 
@@ -54,16 +53,15 @@ bool ExpressionChecker::check_vectors(const Node& node) {
     const NodeId first = node.operands[0], last = node.reads().back();
     const ValueType left = formula_.nodes[first].type, right = formula_.nodes[last].type;
     if (!is_geometric(left) && !is_geometric(right)) return false;
-    const auto type = is_geometric(left) || left == ValueType::number
-                          ? type_of_result(node.function, left, right)
-                          : std::nullopt;
+    const bool has_meaning = (is_geometric(left) || left == ValueType::number) &&
+                             (node.operand_count == 1 || fits(node.function, left, right));
     const bool by_tensor = left == ValueType::tensor && right == ValueType::vector;
     const bool is_turned = parts_[first].turned || parts_[last].turned;
-    if (type && by_tensor && is_turned && work_.on_surface) {
+    if (has_meaning && by_tensor && is_turned && work_.on_surface) {
         error(node.span, "on a surface a tensor cannot multiply what a tensor has multiplied",
               "make one tensor of the two");
-    } else if (type) {
-        formula_.nodes.back().type = *type;
+    } else if (has_meaning) {
+        formula_.nodes.back().type = type_of_result(node.function, std::array{left, right});
         parts_.back().turned = by_tensor || is_turned;
     } else {
         refuse_product(node.function, node.span, left, right);
@@ -133,10 +131,10 @@ void ExpressionChecker::check_geometry(Node& node) {
                      "grad(e).x is the first component of a vector");
     }
     for (const NodeId operand : node.reads()) need_vector(operand);
-    const bool is_vector = node.function == Function::cross || node.function == Function::unit;
-    if (is_vector) node.type = ValueType::vector;
+    node.type = type_of_result(node.function, {});
     for (const NodeId operand : node.reads()) {
-        if (is_vector) parts_.back().turned = parts_.back().turned || parts_[operand].turned;
+        if (node.type == ValueType::vector)
+            parts_.back().turned = parts_.back().turned || parts_[operand].turned;
     }
 }
 
@@ -192,20 +190,15 @@ void ExpressionChecker::check_operator(const Node& node) {
     }
     for (const NodeId operand : node.reads()) need(operand, ValueType::number);
     if (parts_.back().has_error) return;
-    switch (node.function) {
-        case Function::vector: formula_.nodes.back().type = ValueType::vector; return;
-        case Function::symmetric:
-            if (work_.on_surface && node.operand_count == 6) {
-                return error(node.span, "on a surface a tensor has three entries",
-                             "symmetric(axx, axy, ayy)");
-            }
-            [[fallthrough]];
-        case Function::tensor: formula_.nodes.back().type = ValueType::tensor; return;
-        default: break;
+    if (node.function == Function::symmetric && work_.on_surface && node.operand_count == 6) {
+        return error(node.span, "on a surface a tensor has three entries",
+                     "symmetric(axx, axy, ayy)");
     }
+    const bool is_derivative = info(node.function).lengths > 0;
     const bool is_first = node.function == Function::diffuse;
-    if (is_same_everywhere(node.operands[is_first ? 0 : node.operand_count - 1u])) return;
-    if (node.function == Function::grad) formula_.nodes.back().type = ValueType::vector;
+    const NodeId of = node.operands[is_first ? 0 : node.operand_count - 1u];
+    if (is_derivative && is_same_everywhere(of)) return;
+    formula_.nodes.back().type = type_of_result(node.function, {});
 }
 
 }  // namespace cascade::checking

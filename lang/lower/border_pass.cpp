@@ -38,17 +38,18 @@ private:
             const bool is_last = k + 1u == node.operand_count;
             const bool is_beside =
                 is_at_faces || (is_last && node.is<Call>() && is_stencil(node.function));
-            if (is_beside) reader.operands[k] = bordered(node.operands[k]);
+            if (is_beside) reader.operands[k] = with_border(node.operands[k]);
         }
         const NodeId id = keep(reader);
         if (const auto beyond = beyond_of(id, node)) beyond_.emplace(id, *beyond);
         return id;
     }
 
-    NodeId bordered(NodeId operand) {
+    NodeId with_border(NodeId operand) {
         const auto found = beyond_.find(operand);
         if (found == beyond_.end()) return operand;
-        return call(Function::bordered, {operand, found->second[0], found->second[1]});
+        const auto& [once, twice] = found->second;
+        return bordered(term(operand), term(once), term(twice));
     }
 
     /// Nothing if it is mirrored.
@@ -91,11 +92,9 @@ private:
 
     /// 2e − c or c + h e, rounded as in halos.
     NodeId across(const SideSetting& rule, NodeId value, NodeId cell) {
-        if (rule.kind == SideKind::fixed) {
-            return call(Function::subtract, {times(graph().number(2), value), cell});
-        }
-        const NodeId spacing = graph().number(context().grid().spacing);
-        return call(Function::add, {cell, times(spacing, value)});
+        if (rule.kind == SideKind::fixed) return leaf(2.0) * term(value) - term(cell);
+        const Term spacing = leaf(context().grid().spacing);
+        return term(cell) + spacing * term(value);
     }
 
     const System& system_;

@@ -3,7 +3,6 @@
 #include "lang/lower/constraint_plan.h"
 
 #include "lang/lower/plan_builder.h"
-#include "lang/program/linear_functions.h"
 
 #include <memory>
 #include <optional>
@@ -33,7 +32,8 @@ std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const Linea
         NodeId& operand = node.operands[k];
         if (parts[operand]) {
             operand = *parts[operand];
-        } else if (is_jointly_linear(node.function) && is_linear_in(node, k)) {
+        } else if (is_jointly_linear(node.function) &&
+                   is_linear_in(node.function, k, node.operand_count)) {
             operand = zero;  // What does not depend on the unknown adds nothing.
         }
     }

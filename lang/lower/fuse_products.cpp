@@ -36,7 +36,7 @@ private:
         if (!may_change(old)) return std::nullopt;
         const auto [a, b, c, d, e, f] = facts_[old].operands;
         if (is_scaled(old)) {
-            return Product{call(Function::divide, {graph().number(1), image(b)}), image(a), true};
+            return Product{leaf(1.0) / term(image(b)), image(a), true};
         }
         if (!facts_[old].calls(Function::multiply)) return std::nullopt;
         const bool swaps = facts_.is_uniform(b);
@@ -47,7 +47,7 @@ private:
         if (!may_change(at())) return keep(node);
         if (is_scaled(at())) {
             const auto quotient = product(at());
-            return times(quotient->first, quotient->second);
+            return term(quotient->first) * term(quotient->second);
         }
         const bool is_difference = node.calls(Function::subtract);
         const auto [a, b, c, d, e, f] = facts_[at()].operands;
@@ -62,7 +62,7 @@ private:
         if (is_difference) {
             // The varying factor, because a negated coefficient would need another register.
             NodeId& turned = fuses_left ? added : second;
-            turned = call(Function::negate, {turned});
+            turned = -term(turned);
         }
         Node sum = node;
         sum.function = Function::multiply_add;

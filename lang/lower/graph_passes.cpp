@@ -15,24 +15,21 @@ namespace {
 class Tensors : public GraphPass {
     using GraphPass::GraphPass;
 
-    NodeId tensor(NodeId a1, NodeId a2, NodeId theta) {
+    Term entries(NodeId a1, NodeId a2, NodeId theta) {
         const auto [a11, a12, a22] = tensor_entries(graph(), a1, a2, theta);
-        return call(Function::tensor, {a11, a12, a22}, ValueType::tensor);
+        return tensor(a11, a12, a22);
     }
 
     NodeId image_of(const Node& node) override {
         const auto& [a, b, c, d, e, f] = node.operands;
-        if (node.calls(Function::tensor)) return tensor(a, b, c);
-        if (node.calls(Function::symmetric)) {
-            Node entries = node;
-            entries.function = Function::tensor;
-            return keep(entries);
+        if (node.calls(Function::tensor)) return entries(a, b, c);
+        Node image = node;
+        if (node.calls(Function::symmetric)) image.function = Function::tensor;
+        if (node.calls(Function::diffuse)) {
+            image.operands = {entries(b, c, d), a};
+            image.operand_count = 2;
         }
-        if (!node.calls(Function::diffuse)) return keep(node);
-        Node diffuse = node;
-        diffuse.operands = {tensor(b, c, d), a};
-        diffuse.operand_count = 2;
-        return keep(diffuse);
+        return keep(image);
     }
 };
 
@@ -42,34 +39,33 @@ class Tensors : public GraphPass {
 class Limiters : public GraphPass {
     using GraphPass::GraphPass;
 
-    NodeId along(Function function, int axis, std::initializer_list<NodeId> operands) {
+    Term along(Function function, int axis, std::initializer_list<NodeId> operands) {
         Node node;
         node.kind = Call{static_cast<std::uint8_t>(axis)};
         node.function = function;
         std::ranges::copy(operands, node.operands.begin());
         node.operand_count = static_cast<std::uint8_t>(operands.size());
-        return graph().add(node);
+        return term(graph().add(node));
     }
 
     NodeId image_of(const Node& node) override {
         if (!node.calls(Function::transport)) return keep(node);
         const NodeId of = node.reads().back();
-        const NodeId zero = graph().number(0);
+        const Term zero = leaf(0.0);
+        SparseTerm sum{zero};
         const Stencil stencil = context().grid().stencil();
         const std::array has_axis{stencil.x, stencil.y, stencil.z};
-        NodeId sum = zero;
         for (int axis = 0; axis + 1 < node.operand_count; ++axis) {
             if (!has_axis[static_cast<std::size_t>(axis)]) continue;
-            const NodeId velocity = node.operands[static_cast<std::size_t>(axis)];
-            const NodeId half = call(Function::if_, {call(Function::less, {zero, velocity}),
-                                                     graph().number(0.5), graph().number(-0.5)});
-            const NodeId slope = along(Function::limited, axis, {of});
-            const NodeId first = along(Function::upwind, axis, {velocity, of});
-            const NodeId second = along(Function::upwind, axis, {velocity, slope});
-            const NodeId term = call(Function::add, {first, times(half, second)});
-            sum = graph().is_number(sum) ? term : call(Function::add, {sum, term});
+            const Term velocity = term(node.operands[static_cast<std::size_t>(axis)]);
+            const Term is_forwards = zero < velocity, ahead = leaf(0.5);
+            const Term half = if_(is_forwards, ahead, leaf(-0.5));
+            const Term slope = along(Function::limited, axis, {of});
+            const Term first = along(Function::upwind, axis, {velocity, of});
+            const Term second = along(Function::upwind, axis, {velocity, slope});
+            sum = sum + SparseTerm{first + half * second};
         }
-        return sum;
+        return sum.term;
     }
 };
 
@@ -83,7 +79,7 @@ private:
     NodeId image_of(const Node& node) override {
         const bool is_weighted = node.calls(Function::lap) && node.operand_count == 2;
         if (!is_weighted || !is_uniform_[old()[at()].operands[0]]) return keep(node);
-        return times(node.operands[0], call(Function::lap, {node.operands[1]}));
+        return term(node.operands[0]) * lap(term(node.operands[1]));
     }
 
     IdVector<NodeId, bool> is_uniform_;
@@ -94,13 +90,12 @@ class Areas : public GraphPass {
     using GraphPass::GraphPass;
 
     NodeId image_of(const Node& node) override {
-        const bool is_mean = node.calls(Function::domain_mean);
-        if (!is_mean && !node.calls(Function::domain_sum)) return keep(node);
-        const NodeId area = context().has_links() ? graph().leaf(ModelPlane::area)
-                                                  : graph().leaf(MetricPlane::area);
-        const auto sum = [&](NodeId of) { return call(Function::domain_sum, {of}); };
-        const NodeId integral = sum(times(node.operands[0], area));
-        return is_mean ? call(Function::divide, {integral, sum(area)}) : integral;
+        const auto kind = is_aggregate(node) ? reduction_of(node.function) : std::nullopt;
+        const bool is_mean = kind == ReductionKind::mean;
+        if (!is_mean && kind != ReductionKind::sum) return keep(node);
+        const Term area = context().has_links() ? leaf(ModelPlane::area) : leaf(MetricPlane::area);
+        const Term integral = domain_sum(term(node.operands[0]) * area);
+        return is_mean ? integral / domain_sum(area) : integral;
     }
 };
 
@@ -111,20 +106,21 @@ class MaskedAggregates : public GraphPass {
 
     NodeId image_of(const Node& node) override {
         if (!is_aggregate(node) && !is_nonlocal(node)) return keep(node);
-        const bool is_least = node.function == Function::domain_min;
-        const bool adds = !is_least && node.function != Function::domain_max;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const auto kind = reduction_of(node.function);
+        const double without_effect = kind == ReductionKind::least     ? infinity
+                                      : kind == ReductionKind::largest ? -infinity
+                                                                       : 0;
         const Node& of = graph()[node.operands[0]];
         const bool is_item = of.is<ItemId>() || of.is<StageItem>();
         // Items that vary are 0 outside.
-        if (adds && is_item && differs_by_cell(of, false, context().program, context().stage)) {
+        if (without_effect == 0 && is_item &&
+            differs_by_cell(of, false, context().program, context().stage)) {
             return keep(node);
         }
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         Node masked = node;
-        masked.operands[0] = call(Function::if_, {graph().leaf(InsideMask()), node.operands[0],
-                                                  graph().number(adds       ? 0
-                                                                 : is_least ? infinity
-                                                                            : -infinity)});
+        const Term is_inside = leaf(InsideMask());
+        masked.operands[0] = if_(is_inside, term(node.operands[0]), leaf(without_effect));
         return keep(masked);
     }
 };

@@ -85,11 +85,8 @@ protected:
     const ExpressionGraph& old() const { return from_.graph; }
     NodeId image(NodeId old) const { return images_[old]; }
 
-    NodeId call(Function function, std::initializer_list<NodeId> operands,
-                ValueType type = ValueType::number) {
-        return graph().call(function, operands, type);
-    }
-    NodeId times(NodeId a, NodeId b) { return call(Function::multiply, {a, b}); }
+    Term term(NodeId id) { return {&graph(), id}; }
+    Term leaf(const NodeKind& kind) { return term(graph().leaf(kind)); }
 
 private:
     const Expressions& from_;

@@ -106,7 +106,7 @@ public:
 
 private:
     ValueId average(NodeId id, Face face) const;
-    ValueId tensor_entry(NodeId tensor, std::size_t entry, Face face) const;
+    struct AtFace;
     ValueId gradient(NodeId operand, Face face) const;
     ValueId through_sides(NodeId flux, Face face, ValueId value);
     /// Whether a flux passes the sides of the grid.

@@ -5,7 +5,11 @@
 // see the same flux, and sums are conserved to rounding.
 #include "lang/lower/lower_pass.h"
 
-#include "core/check.h"
+#include "lang/program/vector_functions.h"
+
+#include <array>
+#include <optional>
+#include <span>
 
 namespace cascade::lowering {
 
@@ -35,10 +39,6 @@ ValueId Fluxes::average(NodeId id, Face face) const {
         builder_.add(values_.beside(id, face.cell()), values_.beside(id, face.next())), 0.5);
 }
 
-ValueId Fluxes::tensor_entry(NodeId tensor, std::size_t entry, Face face) const {
-    return average(graph_[tensor].operands[entry], face);
-}
-
 /// Across the face (E − c) / h; along it the mean of the central differences of both cells,
 /// ((S − N) + (SE − NE)) / 4h.
 ValueId Fluxes::gradient(NodeId operand, Face face) const {
@@ -58,42 +58,47 @@ ValueId Fluxes::gradient(NodeId operand, Face face) const {
                           1 / (4 * grid_.spacing));
 }
 
-ValueId Fluxes::at_face(NodeId id, Face where) const {
-    const Node& node = graph_[id];
-    const NodeId a = node.operands[0];
-    const NodeId b = node.reads().back();
-    const auto is_vector = [&](NodeId operand) {
-        return graph_[operand].type == ValueType::vector;
-    };
-    switch (node.function) {
-        case Function::grad: return gradient(a, where);
-        case Function::vector:
-            if (static_cast<std::uint32_t>(where.component) >= node.operand_count) {
-                return builder_.number(0);
-            }
-            return average(node.operands[static_cast<std::size_t>(where.component)], where);
-        case Function::negate: return builder_.apply(Op::negate, values_.face(a, where));
-        case Function::add: return builder_.add(values_.face(a, where), values_.face(b, where));
-        case Function::subtract:
-            return builder_.subtract(values_.face(a, where), values_.face(b, where));
-        case Function::divide: return builder_.divide(values_.face(a, where), average(b, where));
-        case Function::multiply: break;
-        default: CHECK(false, "lowering: every vector has its faces");
+/// A component of a vector at a face, from those of its operands.
+struct Fluxes::AtFace {
+    const Fluxes& own;
+    Face where;
+
+    KernelBuilder& builder() const { return own.builder_; }
+    ValueId flow(NodeId vector) const { return own.values_.face(vector, where); }
+    ValueId average(NodeId number) const { return own.average(number, where); }
+
+    ValueId gradient(NodeId of) const { return own.gradient(of, where); }
+    ValueId components(std::span<const NodeId> parts) const {
+        const auto component = static_cast<std::size_t>(where.component);
+        return component < parts.size() ? average(parts[component]) : builder().number(0);
     }
-    if (graph_[a].type == ValueType::tensor) {
-        const int size = tensor_size(graph_[a]);
-        if (where.component >= size) return builder_.number(0);
+    ValueId negative(NodeId vector) const { return builder().apply(Op::negate, flow(vector)); }
+    ValueId sum(NodeId a, NodeId b) const { return builder().add(flow(a), flow(b)); }
+    ValueId difference(NodeId a, NodeId b) const { return builder().subtract(flow(a), flow(b)); }
+    ValueId quotient(NodeId vector, NodeId by) const {
+        return builder().divide(flow(vector), average(by));
+    }
+    ValueId product(NodeId a, NodeId b, bool is_vector_first) const {
+        return is_vector_first ? builder().multiply(flow(a), average(b))
+                               : builder().multiply(average(a), flow(b));
+    }
+    ValueId turned(NodeId tensor, NodeId vector) const {
+        const int size = tensor_size(own.graph_[tensor]);
+        if (where.component >= size) return builder().number(0);
         std::optional<ValueId> sum;
         for (int column = 0; column < size; ++column) {
+            const std::size_t entry = entry_of(size, where.component, column);
             const ValueId term =
-                builder_.multiply(tensor_entry(a, entry_of(size, where.component, column), where),
-                                  values_.face(b, {where.axis, column, where.side}));
-            sum = sum ? builder_.add(*sum, term) : term;
+                builder().multiply(average(own.graph_[tensor].operands[entry]),
+                                   own.values_.face(vector, {where.axis, column, where.side}));
+            sum = sum ? builder().add(*sum, term) : term;
         }
         return *sum;
     }
-    if (is_vector(a)) return builder_.multiply(values_.face(a, where), average(b, where));
-    return builder_.multiply(average(a, where), values_.face(b, where));
+};
+
+ValueId Fluxes::at_face(NodeId id, Face where) const {
+    return vector_by(AtFace{*this, where}, graph_, graph_[id]);
 }
 
 /// Nothing flows through a side, or the border of a mask, at which all species of a flux are

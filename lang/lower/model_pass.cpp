@@ -12,6 +12,7 @@
 #include "core/check.h"
 #include "lang/program/field_vectors.h"
 #include "lang/program/models.h"
+#include "lang/program/vector_functions.h"
 
 #include <algorithm>
 #include <array>
@@ -27,124 +28,114 @@ class ModelOperators : public GraphPass {
     using GraphPass::GraphPass;
 
     /// A vector as a sum of gradients of numbers, each times a number.
-    using Gradients = std::vector<std::pair<NodeId, NodeId>>;  ///< Of, factor.
-    using Components = std::array<NodeId, 3>;
+    using Gradients = std::vector<std::pair<Term, Term>>;  ///< Of, factor.
 
     static constexpr std::array places{ModelPlane::place_x, ModelPlane::place_y,
                                        ModelPlane::place_z};
 
-    /// A vector as such a sum, from those of its operands. Gradients of the same value are merged.
-    Gradients sum_of_gradients(const Node& node) {
-        const Node& written = old()[at()];
-        const auto gradients_of = [&](std::size_t k) { return gradients_.at(written.operands[k]); };
-        const NodeId first = node.operands[0], second = node.operands[1];
-        if (node.function == Function::grad) return {{first, graph().number(1)}};
-        if (node.function == Function::vector) return of_components(node.reads());
-        const bool is_vector = old()[written.operands[0]].type == ValueType::vector;
-        Gradients sum = gradients_of(is_vector ? 0 : 1);
-        if (old()[written.operands[0]].type == ValueType::tensor) return turned(first, sum);
-        switch (node.function) {
-            case Function::negate:
-                for (auto& [of, factor] : sum) factor = call(Function::negate, {factor});
-                return sum;
-            case Function::divide:
-                for (auto& [of, factor] : sum) factor = call(Function::divide, {factor, second});
-                return sum;
-            case Function::multiply:
-                for (auto& [of, factor] : sum) {
-                    const NodeId by = is_vector ? second : first;
-                    factor = graph().is_number(factor, 1) ? by : times(by, factor);
-                }
-                return sum;
-            case Function::add:
-            case Function::subtract:
-                for (const auto& [of, factor] : gradients_of(1)) {
-                    const auto known = std::ranges::find(sum, of, &Gradients::value_type::first);
-                    if (known != sum.end()) {
-                        known->second = call(node.function, {known->second, factor});
-                    } else if (node.function == Function::add) {
-                        sum.emplace_back(of, factor);
-                    } else {
-                        sum.emplace_back(of, call(Function::negate, {factor}));
-                    }
-                }
-                return sum;
-            default: break;
+    /// A vector as such a sum, from those of its operands, which are nodes of the old graph.
+    struct Rules {
+        ModelOperators& pass;
+
+        const Gradients& of(NodeId vector) const { return pass.gradients_.at(vector); }
+        Term number(NodeId old) const { return pass.term(pass.image(old)); }
+
+        Gradients gradient(NodeId of) const { return {{number(of), pass.leaf(1.0)}}; }
+        Gradients components(std::span<const NodeId> each) const {
+            std::vector<Term> parts;
+            for (const NodeId part : each) parts.push_back(number(part));
+            return pass.of_components(parts);
         }
-        CHECK(false, "lowering: a flux on a model is made of gradients");
-        return sum;
+        Gradients negative(NodeId vector) const {
+            return with_factors(of(vector), [](Term factor) { return -factor; });
+        }
+        Gradients sum(NodeId a, NodeId b) const { return joined(a, b, Function::add); }
+        Gradients difference(NodeId a, NodeId b) const { return joined(a, b, Function::subtract); }
+        Gradients joined(NodeId a, NodeId b, Function function) const {
+            Gradients sum = of(a);
+            for (const auto& term : of(b)) pass.add_to(sum, term, function);
+            return sum;
+        }
+        Gradients quotient(NodeId vector, NodeId by) const {
+            return with_factors(of(vector), [&](Term factor) { return factor / number(by); });
+        }
+        Gradients product(NodeId a, NodeId b, bool is_vector_first) const {
+            const Term by = number(is_vector_first ? b : a);
+            return with_factors(of(is_vector_first ? a : b),
+                                [&](Term factor) { return factor.is(1) ? by : by * factor; });
+        }
+        Gradients turned(NodeId tensor, NodeId vector) const {
+            return pass.turned(pass.image(tensor), of(vector));
+        }
+    };
+
+    template <typename Change>
+    static Gradients with_factors(Gradients gradients, const Change& change) {
+        for (auto& [of, factor] : gradients) factor = change(factor);
+        return gradients;
     }
 
-    Gradients of_components(std::span<const NodeId> components) {
+    Gradients of_components(std::span<const Term> components) {
         Gradients sum;
         for (std::size_t k = 0; k < components.size(); ++k) {
-            if (graph().is_number(components[k], 0)) continue;
-            sum.emplace_back(graph().leaf(places[k]), components[k]);
+            if (!components[k].is(0)) sum.emplace_back(leaf(places[k]), components[k]);
         }
         return sum;
     }
 
+    static void add_to(std::optional<Term>& sum, Term term) { sum = sum ? *sum + term : term; }
+
     /// The components of a vector in the cell itself.
-    Components in_cell(const Gradients& gradients) {
-        constexpr std::array derivatives{Function::dx, Function::dy, Function::dz};
-        std::array<std::optional<NodeId>, 3> sums;
-        const auto add = [&](std::size_t k, NodeId term) {
-            sums[k] = sums[k] ? call(Function::add, {*sums[k], term}) : term;
-        };
+    TermVector in_cell(const Gradients& gradients) {
+        std::array<std::optional<Term>, 3> sums;
         for (const auto& [of, factor] : gradients) {
             const auto* const plane = graph()[of].as<ModelPlane>();
             const auto place = plane ? std::ranges::find(places, *plane) : places.end();
             if (place != places.end()) {
-                add(static_cast<std::size_t>(place - places.begin()), factor);
+                add_to(sums[static_cast<std::size_t>(place - places.begin())], factor);
                 continue;
             }
-            const NodeId by = factor;  // The graph may move.
-            const NodeId value = of;
             for (std::size_t k = 0; k < 3; ++k) {
-                const NodeId slope = call(derivatives[k], {value});
-                add(k, graph().is_number(by, 1) ? slope : times(by, slope));
+                const Term slope = Term::call(first_derivatives[k], of);
+                add_to(sums[k], factor.is(1) ? slope : factor * slope);
             }
         }
-        const NodeId zero = graph().number(0);
+        const Term zero = leaf(0.0);
         return {sums[0].value_or(zero), sums[1].value_or(zero), sums[2].value_or(zero)};
     }
 
     /// A tensor times a vector.
     Gradients turned(NodeId tensor, Gradients vector) {
-        const Components v = in_cell(vector);
+        const TermVector v = in_cell(vector);
         const ModelTensor by = model_tensor(graph(), tensor);
-        std::optional<NodeId> along;
+        std::optional<Term> along;
+        for (std::size_t k = 0; k < 3; ++k) add_to(along, by.t[k] * v[k]);
+        const Term size = by.along * *along;
+        std::array<Term, 3> parts;
         for (std::size_t k = 0; k < 3; ++k) {
-            const NodeId term = times(by.t[k], v[k]);
-            along = along ? call(Function::add, {*along, term}) : term;
-        }
-        const NodeId size = times(by.along, *along);
-        Components parts;
-        for (std::size_t k = 0; k < 3; ++k) {
-            parts[k] = call(Function::add, {times(by.rest, v[k]), times(size, by.t[k])});
+            const Term rest = by.rest * v[k];
+            parts[k] = rest + size * by.t[k];
         }
         for (auto& [of, factor] : vector) {
-            factor = graph().is_number(factor, 1) ? by.low : times(by.low, factor);
+            factor = factor.is(1) ? by.low : by.low * factor;
         }
-        for (const auto& term : of_components(parts)) add_to(vector, term);
+        for (const auto& term : of_components(parts)) add_to(vector, term, Function::add);
         return vector;
     }
 
-    /// Adds a term to a sum, or its factor to that of the same gradient.
-    void add_to(Gradients& sum, const std::pair<NodeId, NodeId>& term) {
-        const auto known = std::ranges::find(sum, term.first, &Gradients::value_type::first);
-        if (known == sum.end()) return sum.push_back(term);
-        known->second = call(Function::add, {known->second, term.second});
+    /// Adds a term to a sum or subtracts it. Gradients of the same value are merged.
+    void add_to(Gradients& sum, const std::pair<Term, Term>& term, Function function) {
+        const auto known =
+            std::ranges::find(sum, term.first.id, [](const auto& each) { return each.first.id; });
+        const bool is_known = known != sum.end();
+        if (is_known) known->second = Term::call(function, known->second, term.second);
+        else sum.emplace_back(term.first, function == Function::add ? term.second : -term.second);
     }
 
     NodeId divergence(const Gradients& gradients) {
-        if (gradients.empty()) return graph().number(0);
-        std::optional<NodeId> sum;
-        for (const auto& [of, factor] : gradients) {
-            const NodeId term = call(Function::lap, {factor, of});
-            sum = sum ? call(Function::add, {*sum, term}) : term;
-        }
-        return *sum;
+        std::optional<Term> sum;
+        for (const auto& [of, factor] : gradients) add_to(sum, lap(factor, of));
+        return sum ? *sum : leaf(0.0);
     }
 
     NodeId image_of(const Node& node) override {
@@ -153,7 +144,7 @@ class ModelOperators : public GraphPass {
             return plane ? graph().leaf(*plane) : keep(node);
         }
         if (node.type == ValueType::vector) {
-            gradients_.emplace(at(), sum_of_gradients(node));
+            gradients_.emplace(at(), vector_by(Rules{*this}, old(), old()[at()]));
             return NodeId{};  // Only div reads it.
         }
         if (node.calls(Function::div)) return divergence(gradients_.at(old()[at()].operands[0]));

@@ -15,15 +15,6 @@ namespace cascade::lowering {
 
 namespace {
 
-ReductionKind kind_of(Function function) {
-    switch (function) {
-        case Function::domain_sum: return ReductionKind::sum;
-        case Function::domain_mean: return ReductionKind::mean;
-        case Function::domain_min: return ReductionKind::least;
-        default: return ReductionKind::largest;
-    }
-}
-
 /// A plan for a formula of a kernel, which is computed where its lags are.
 std::shared_ptr<const StepPlan> plan_of_kernel(const PlanGraph& graph, const Formula& formula) {
     const std::array only{&formula};
@@ -121,7 +112,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
     }
     for (const NodeId id : aggregates_) {
         if (planner_.pass_of(id) != pass) continue;
-        plan_.passes[pass].reductions.push_back({kind_of(graph_[id].function),
+        plan_.passes[pass].reductions.push_back({*reduction_of(graph_[id].function),
                                                  after.plane(graph_[id].operands[0]),
                                                  storage_.aggregate[id]});
     }

@@ -21,48 +21,49 @@ class StencilPass : public GraphPass {
     bool is_fourth() const { return context().program.domain.stencil == StencilKind::fourth; }
 
     /// a − h²/n b.
-    NodeId without_error(NodeId a, double n, NodeId b) {
+    Term without_error(Term a, double n, Term b) {
         const double h = context().grid().spacing;
-        return call(Function::subtract, {a, times(graph().number(h * h / n), b)});
+        return a - leaf(h * h / n) * b;
     }
 
-    NodeId laplacian(const Node& node) {
+    Term laplacian(const Node& node) {
         Node small = node;
         small.function = Function::isotropic;
-        const NodeId isotropic = keep(small);
+        const Term isotropic = term(keep(small));
         if (!is_fourth()) return isotropic;
-        const NodeId inner = call(Function::lap, {node.operands[0]});
-        return without_error(isotropic, 12, call(Function::lap, {inner}));
+        const Term inner = lap(term(node.operands[0]));
+        return without_error(isotropic, 12, lap(inner));
     }
 
-    NodeId along(int axis, NodeId of) {
+    Term along(int axis, Term of) {
         const auto k = static_cast<std::size_t>(axis);
-        const NodeId error = call(first_derivatives[k], {call(second_derivatives[k], {of})});
-        return without_error(call(first_derivatives[k], {of}), 6, error);
+        const auto first = [&](Term e) { return Term::call(first_derivatives[k], e); };
+        const Term error = first(Term::call(second_derivatives[k], of));
+        return without_error(first(of), 6, error);
     }
 
-    NodeId second(int axis, NodeId of) {
+    Term second(int axis, Term of) {
         const auto second_along = second_derivatives[static_cast<std::size_t>(axis)];
-        const NodeId inner = call(second_along, {of});
-        return without_error(inner, 12, call(second_along, {inner}));
+        const Term inner = Term::call(second_along, of);
+        return without_error(inner, 12, Term::call(second_along, inner));
     }
 
-    NodeId squared_gradient(NodeId of) {
+    Term squared_gradient(Term of) {
         const Stencil stencil = context().grid().stencil();
         const std::array has_axis{stencil.x, stencil.y, stencil.z};
-        NodeId sum = graph().number(0);
+        SparseTerm sum{leaf(0.0)};
         for (int axis = 0; axis < 3; ++axis) {
-            if (!has_axis[static_cast<std::size_t>(axis)]) continue;
-            const NodeId part = along(axis, of), square = times(part, part);
-            sum = graph().is_number(sum) ? square : call(Function::add, {sum, square});
+            if (has_axis[static_cast<std::size_t>(axis)]) {
+                sum = sum + SparseTerm{square(along(axis, of))};
+            }
         }
-        return sum;
+        return sum.term;
     }
 
     NodeId image_of(const Node& node) override {
         if (node.calls(Function::lap)) return laplacian(node);
         if (!is_fourth()) return keep(node);
-        const NodeId of = node.operands[0];
+        const Term of = term(node.operands[0]);
         if (node.calls(Function::grad2)) return squared_gradient(of);
         const auto [order, first, other] =
             node.is<Call>() ? derivative_of(node.function) : Derivative{};

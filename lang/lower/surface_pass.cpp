@@ -13,61 +13,57 @@ namespace cascade::lowering {
 
 namespace {
 
-NodeId metric(ExpressionGraph& graph, MetricPlane plane) { return graph.leaf(plane); }
-
 class SurfaceOperators : public GraphPass {
     using GraphPass::GraphPass;
 
-    NodeId sum_of_products(NodeId a, NodeId b, NodeId c, NodeId d) {
-        return call(Function::add, {times(a, b), times(c, d)});
+    Term sum_of_products(Term a, Term b, Term c, Term d) {
+        const Term first = a * b;
+        return first + c * d;
     }
-    NodeId p() { return metric(graph(), MetricPlane::inverse_11); }
-    NodeId q() { return metric(graph(), MetricPlane::inverse_12); }
-    NodeId r() { return metric(graph(), MetricPlane::inverse_22); }
-    NodeId s() { return metric(graph(), MetricPlane::area); }
+    Term p() { return leaf(MetricPlane::inverse_11); }
+    Term q() { return leaf(MetricPlane::inverse_12); }
+    Term r() { return leaf(MetricPlane::inverse_22); }
+    Term s() { return leaf(MetricPlane::area); }
 
-    NodeId tensor(NodeId a11, NodeId a12, NodeId a22) {
-        return call(Function::tensor, {a11, a12, a22}, ValueType::tensor);
+    TensorEntries entries(NodeId tensor) {
+        const auto entry = [&](std::size_t k) { return term(graph()[tensor].operands[k]); };
+        return {entry(0), entry(1), entry(2)};
     }
 
     /// Ṽ⁻¹ A Ṽ⁻ᵀ: A in terms of columns and rows.
-    NodeId in_cells(NodeId of) {
-        const auto [a11, a12, a22, x, y, z] = graph()[of].operands;
-        const NodeId p = this->p(), q = this->q(), r = this->r();
-        const NodeId first = sum_of_products(p, a11, q, a12);  // The first row of Ṽ⁻¹ A.
-        const NodeId second = sum_of_products(p, a12, q, a22);
-        const NodeId along = sum_of_products(first, p, second, q);
-        const NodeId mixed = times(second, r);
-        return tensor(along, mixed, times(times(r, r), a22));
+    Term in_cells(NodeId of) {
+        const auto [a11, a12, a22] = entries(of);
+        const Term p = this->p(), q = this->q(), r = this->r();
+        const Term first = sum_of_products(p, a11, q, a12);  // The first row of Ṽ⁻¹ A.
+        const Term second = sum_of_products(p, a12, q, a22);
+        const Term along = sum_of_products(first, p, second, q);
+        const Term mixed = second * r;
+        return tensor(along, mixed, square(r) * a22);
     }
 
     /// s Ṽ⁻¹ A Ṽ⁻ᵀ: times ∇e it is the flow of the flux A grad(e).
-    NodeId flow_tensor(NodeId of) {
-        const auto [a11, a12, a22, x, y, z] = graph()[in_cells(of)].operands;
-        const NodeId along = times(s(), a11), mixed = times(s(), a12);
-        return tensor(along, mixed, times(s(), a22));
+    Term flow_tensor(NodeId of) {
+        const auto [a11, a12, a22] = entries(in_cells(of));
+        const Term along = s() * a11, mixed = s() * a12;
+        return tensor(along, mixed, s() * a22);
     }
 
     /// The flow of grad(e).
-    NodeId flow_of_gradient(NodeId gradient) {
-        const NodeId along = metric(graph(), MetricPlane::flow_11);
-        const NodeId mixed = metric(graph(), MetricPlane::flow_12);
-        const NodeId of = tensor(along, mixed, metric(graph(), MetricPlane::flow_22));
-        return call(Function::multiply, {of, gradient}, ValueType::vector);
+    Term flow_of_gradient(Term gradient) {
+        const Term along = leaf(MetricPlane::flow_11), mixed = leaf(MetricPlane::flow_12);
+        return tensor(along, mixed, leaf(MetricPlane::flow_22)) * gradient;
     }
 
     /// The flow of vector(along, across), with both components on the surface.
-    NodeId flow_of_vector(NodeId along, NodeId across) {
-        const NodeId area = s();
-        const NodeId column = in_columns(along, across);
-        const NodeId row = times(r(), across);
-        const NodeId first = times(area, column);
-        return call(Function::vector, {first, times(area, row)}, ValueType::vector);
+    Term flow_of_vector(Term along, Term across) {
+        const Term area = s(), column = in_columns(along, across), row = r() * across;
+        const Term first = area * column;
+        return vector(first, area * row);
     }
 
     /// The first component of Ṽ⁻¹ (along, across).
-    NodeId in_columns(NodeId along, NodeId across) {
-        const NodeId q = this->q();
+    Term in_columns(Term along, Term across) {
+        const Term q = this->q();
         return sum_of_products(p(), along, q, across);
     }
 
@@ -87,16 +83,17 @@ class SurfaceOperators : public GraphPass {
                 if (is_vector(operand)) reached[operand] = true;
             }
         }
-        const auto [a11, a12, a22, x, y, z] = graph()[a].operands;
+        const auto [a11, a12, a22] = entries(a);
         for (const NodeId id : reached.ids()) {
             if (!reached[id]) continue;
             Node node = old()[id];
-            const NodeId first = image(node.operands[0]), second = image(node.operands[1]);
+            const Term first = term(image(node.operands[0]));
+            const Term second = term(image(node.operands[1]));
             if (node.calls(Function::grad)) {
-                const NodeId gradient = call(Function::grad, {first}, ValueType::vector);
-                flows[id] = call(Function::multiply, {flow_tensor(a), gradient}, ValueType::vector);
+                const Term gradient = grad(first);
+                flows[id] = flow_tensor(a) * gradient;
             } else if (node.calls(Function::vector)) {
-                const NodeId across = sum_of_products(a12, first, a22, second);
+                const Term across = sum_of_products(a12, first, a22, second);
                 flows[id] = flow_of_vector(sum_of_products(a11, first, a12, second), across);
             } else {
                 for (NodeId& operand : node.reads()) {
@@ -109,43 +106,38 @@ class SurfaceOperators : public GraphPass {
     }
 
     /// The derivatives along the two directions of the tangent plane.
-    NodeId along_row(NodeId of) {
-        const NodeId p = this->p();
-        return times(p, call(Function::dx, {of}));
+    Term along_row(Term of) {
+        const Term p = this->p();
+        return p * dx(of);
     }
-    NodeId across_row(NodeId of) {
-        const NodeId down = call(Function::dy, {of}), r = this->r();
-        const NodeId along = call(Function::dx, {of});
+    Term across_row(Term of) {
+        const Term down = dy(of), r = this->r();
+        const Term along = dx(of);
         return sum_of_products(q(), along, r, down);
     }
 
     NodeId image_of(const Node& node) override {
         if (!node.is<Call>()) return keep(node);
-        const NodeId first = node.operands[0], second = node.operands[1], area = s();
-        const auto per_area = [&](NodeId flow) {
-            return call(Function::divide, {call(Function::div, {flow}), area});
-        };
+        const Term first = term(node.operands[0]), second = term(node.operands[1]), area = s();
         switch (node.function) {
-            case Function::lap:
-                return per_area(flow_of_gradient(call(Function::grad, {first}, ValueType::vector)));
-            case Function::div: return per_area(first);
-            case Function::grad: return flow_of_gradient(keep(node));
+            case Function::lap: return div(flow_of_gradient(grad(first))) / area;
+            case Function::div: return div(first) / area;
+            case Function::grad: return flow_of_gradient(term(keep(node)));
             case Function::vector: return flow_of_vector(first, second);
             case Function::dx: return along_row(first);
             case Function::dy: return across_row(first);
             case Function::grad2: {
-                const NodeId along = along_row(first), across = across_row(first);
+                const Term along = along_row(first), across = across_row(first);
                 return sum_of_products(along, along, across, across);
             }
             case Function::advect:
             case Function::transport: {
-                const NodeId column = in_columns(first, second);
-                const NodeId row = times(r(), second);
-                return call(node.function, {column, row, node.operands[2]});
+                const Term column = in_columns(first, second), row = r() * second;
+                return Term::call(node.function, column, row, term(node.operands[2]));
             }
-            case Function::diffuse: return call(Function::diffuse, {in_cells(first), second});
+            case Function::diffuse: return diffuse(in_cells(first), second);
             case Function::multiply:
-                if (graph()[first].type != ValueType::tensor) break;
+                if (first.type() != ValueType::tensor) break;
                 return flow_times_tensor(first, old()[at()].operands[1]);
             default: break;
         }
@@ -163,14 +155,13 @@ Expressions lay_on_surface(const Expressions& from, const PassContext& context) 
 /// of flows are mirrored, too, so the flow is the derivative times the length of the face.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side) {
     if (!context.has_metric()) return value;
-    const NodeId p = metric(graph, MetricPlane::inverse_11);
-    const NodeId q = metric(graph, MetricPlane::inverse_12);
-    const NodeId r = metric(graph, MetricPlane::inverse_22);
-    const auto square = [&](NodeId of) { return graph.call(Function::multiply, {of, of}); };
+    const auto leaf = [&](MetricPlane plane) { return Term{&graph, graph.leaf(plane)}; };
+    const Term p = leaf(MetricPlane::inverse_11), q = leaf(MetricPlane::inverse_12);
+    const Term r = leaf(MetricPlane::inverse_22);
     const bool is_column = side == Side::left || side == Side::right;
-    const NodeId diagonal =
-        is_column ? graph.call(Function::add, {square(p), square(q)}) : square(r);
-    return graph.call(Function::divide, {value, graph.call(Function::sqrt, {diagonal})});
+    if (!is_column) return Term{&graph, value} / sqrt(square(r));
+    const Term first = square(p);
+    return Term{&graph, value} / sqrt(first + square(q));
 }
 
 }  // namespace cascade::lowering

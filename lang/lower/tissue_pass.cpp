@@ -14,6 +14,7 @@
 #include "lang/lower/pass_planner.h"
 #include "lang/lower/tissue_numbers.h"
 #include "lang/program/models.h"
+#include "lang/program/vector_functions.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,8 @@ namespace cascade::lowering {
 
 namespace {
 
-using Parts = TissueNumbers::Parts;
+/// A number, or the three components of a vector.
+using Parts = TermVector;
 
 /// The approximate number of neighbours.
 constexpr int usual_links = 8;
@@ -65,7 +67,6 @@ private:
     Parts combined(NodeId id, std::span<const Parts> operands);
     Parts over_neighbours(const Node& node);
     Parts laplacian(const Node& node);
-    NodeId reduced(Function function, NodeId is_close, NodeId value, double otherwise);
 
     const Expressions& from_;
     PassContext context_;
@@ -188,33 +189,32 @@ Parts TissuePass::there(NodeId id) {
 }
 
 Parts TissuePass::leaf_here(const Node& node) {
-    const auto following = [&](const auto& leaf_of) {
-        return Parts{leaf_of(0), leaf_of(1), leaf_of(2)};
-    };
+    const auto leaf = [&](const NodeKind& kind) { return numbers_.leaf(kind); };
     const bool is_vector = node.type == ValueType::vector;
     if (const auto* item = node.as<ItemId>(); item != nullptr && is_vector) {
         return numbers_.items(*item);
     }
     if (const auto* earlier = node.as<StageItem>(); earlier != nullptr && is_vector) {
-        return following([&](std::size_t k) {
-            return to_.graph.leaf(StageItem{earlier->stage, ItemId(earlier->item.index() + k)});
-        });
+        const auto item = [&](std::size_t k) {
+            return leaf(StageItem{earlier->stage, ItemId(earlier->item.index() + k)});
+        };
+        return {item(0), item(1), item(2)};
     }
     if (const auto* value = node.as<CellValue>()) return own_value(*value);
     if (const auto* builtin = node.as<Builtin>()) {
         if (*builtin <= Builtin::z) return {numbers_.place()[static_cast<std::size_t>(*builtin)]};
-        if (const auto plane = model_plane_of(*builtin)) return {to_.graph.leaf(*plane)};
+        if (const auto plane = model_plane_of(*builtin)) return {leaf(*plane)};
     }
-    return {to_.graph.add(node)};
+    return {numbers_.term(to_.graph.add(node))};
 }
 
 Parts TissuePass::own_value(CellValue value) {
-    const auto plane = [&](ModelPlane of) { return to_.graph.leaf(of); };
+    const auto leaf = [&](ModelPlane plane) { return numbers_.leaf(plane); };
     switch (value) {
-        case CellValue::off: return {plane(ModelPlane::off)};
-        case CellValue::feature: return {plane(ModelPlane::feature)};
+        case CellValue::off: return {leaf(ModelPlane::off)};
+        case CellValue::feature: return {leaf(ModelPlane::feature)};
         case CellValue::normal:
-            return {plane(ModelPlane::nx), plane(ModelPlane::ny), plane(ModelPlane::nz)};
+            return {leaf(ModelPlane::nx), leaf(ModelPlane::ny), leaf(ModelPlane::nz)};
         case CellValue::ex: return numbers_.axis(0);
         case CellValue::ey: return numbers_.axis(1);
         case CellValue::ez: return numbers_.axis(2);
@@ -238,62 +238,36 @@ Parts TissuePass::value_of_link(CellValue value) {
 /// A function of values at the same end.
 Parts TissuePass::combined(NodeId id, std::span<const Parts> operands) {
     const Node& node = from_.graph[id];
-    switch (node.function) {
-        case Function::vector:
-            return {operands[0][0], operands[1][0],
-                    operands.size() == 3 ? operands[2][0] : numbers_.number(0)};
-        case Function::dot: return {numbers_.dot(operands[0], operands[1])};
-        case Function::cross: return numbers_.cross(operands[0], operands[1]);
-        case Function::length: return {numbers_.length(operands[0])};
-        case Function::unit: return numbers_.unit(operands[0]);
-        case Function::component: {
-            const auto* const axis = from_.graph[node.operands[1]].as<double>();
-            CHECK(axis != nullptr, "lowering: which component is known");
-            return {operands[0][static_cast<std::size_t>(*axis)]};
-        }
-        default: break;
-    }
-    Parts parts{};
-    for (std::size_t k = 0; k < part_count(node); ++k) {
+    return of_components<Term>(from_.graph, node, operands, [&](const auto& numbers) {
         Node part = node;
         if (node.type == ValueType::vector) part.type = ValueType::number;
-        for (std::size_t n = 0; n < operands.size(); ++n) {
-            const bool is_vector = from_.graph[node.operands[n]].type == ValueType::vector;
-            part.operands[n] = operands[n][is_vector ? k : 0];
-        }
-        parts[k] = to_.graph.add(part, from_.graph.written(id));
-    }
-    return parts;
-}
-
-NodeId TissuePass::reduced(Function function, NodeId is_close, NodeId value, double otherwise) {
-    return to_.graph.call(function, {numbers_.choice(is_close, value, numbers_.number(otherwise))});
+        std::ranges::copy(numbers, part.operands.begin());
+        return numbers_.term(to_.graph.add(part, from_.graph.written(id)));
+    });
 }
 
 /// A sum, mean, least or greatest over touching or near cells.
 Parts TissuePass::over_neighbours(const Node& node) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const NodeId is_close = node.operand_count == 1
-                                ? numbers_.is_touching()
-                                : numbers_.less(numbers_.distance(), here_[node.operands[1]][0]);
+    const Term is_close = node.operand_count == 1 ? numbers_.is_touching()
+                                                  : numbers_.distance() < here_[node.operands[1]].x;
+    const auto where_close = [&](Term value, double otherwise) {
+        return if_(is_close, value, numbers_.leaf(otherwise));
+    };
     const Parts& values = there_[node.operands[0]];
-    Parts parts{};
+    const auto kind = *reduction_of(node.function);
+    Parts parts;
     for (std::size_t k = 0; k < part_count(node); ++k) {
-        const auto reduced_by = [&](Function function, double otherwise) {
-            return reduced(function, is_close, values[k], otherwise);
-        };
-        switch (node.function) {
-            case Function::touching_min:
-            case Function::near_min: parts[k] = reduced_by(Function::link_least, infinity); break;
-            case Function::touching_max:
-            case Function::near_max:
-                parts[k] = reduced_by(Function::link_greatest, -infinity);
-                break;
-            default: parts[k] = reduced_by(Function::link_sum, 0);
+        if (kind == ReductionKind::least) {
+            parts[k] = link_least(where_close(values[k], infinity));
+        } else if (kind == ReductionKind::largest) {
+            parts[k] = link_greatest(where_close(values[k], -infinity));
+        } else {
+            parts[k] = link_sum(where_close(values[k], 0));
         }
-        if (node.calls(Function::touching_mean) || node.calls(Function::near_mean)) {
-            const NodeId count = reduced(Function::link_sum, is_close, numbers_.number(1), 0);
-            parts[k] = numbers_.quotient(parts[k], numbers_.larger(count, numbers_.number(1)));
+        if (kind == ReductionKind::mean) {
+            const Term one = numbers_.leaf(1.0), count = link_sum(where_close(one, 0));
+            parts[k] = parts[k] / max(count, one);
         }
     }
     return parts;
@@ -302,10 +276,10 @@ Parts TissuePass::over_neighbours(const Node& node) {
 /// sum(contact * (e - own(e)) over touching).
 Parts TissuePass::laplacian(const Node& node) {
     const NodeId of = node.operands[0];
-    if (is_uniform_[of]) return {numbers_.number(0)};
-    const NodeId rise = numbers_.difference(there_[of][0], here_[of][0]);
-    return {reduced(Function::link_sum, numbers_.is_touching(),
-                    numbers_.times(numbers_.contact(), rise), 0)};
+    if (is_uniform_[of]) return {numbers_.leaf(0.0)};
+    const Term rise = there_[of].x - here_[of].x, flow = numbers_.contact() * rise;
+    const Term is_touching = numbers_.is_touching();
+    return {link_sum(if_(is_touching, flow, numbers_.leaf(0.0)))};
 }
 
 }  // namespace

@@ -83,6 +83,23 @@ NodeId ExpressionGraph::call(Function function, std::initializer_list<NodeId> op
     return add(node);
 }
 
+std::optional<NodeId> ExpressionGraph::without_zeros(Function function, NodeId a, NodeId b) {
+    const bool is_zero = is_number(a, 0), adds_zero = is_number(b, 0);
+    switch (function) {
+        case Function::add:
+            if (is_zero) return b;
+            return adds_zero ? std::optional(a) : std::nullopt;
+        case Function::subtract:
+            if (adds_zero) return a;
+            return is_zero ? std::optional(call(Function::negate, {b}, nodes_[b].type))
+                           : std::nullopt;
+        case Function::multiply:
+            return is_zero || adds_zero ? std::optional(number(0)) : std::nullopt;
+        case Function::divide: return is_zero ? std::optional(a) : std::nullopt;
+        default: return std::nullopt;
+    }
+}
+
 IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, std::span<const NodeId> roots) {
     IdVector<NodeId, bool> needed(graph.size(), false);
     for (const NodeId root : roots) needed[root] = true;
@@ -91,18 +108,6 @@ IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, std::span<const N
         for (const NodeId operand : graph[id].reads()) needed[operand] = true;
     }
     return needed;
-}
-
-TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeId theta) {
-    const auto times = [&](NodeId a, NodeId b) { return graph.call(Function::multiply, {a, b}); };
-    const NodeId along = times(a1, a1), across = times(a2, a2);
-    const NodeId cosine = graph.call(Function::cos, {theta});
-    const NodeId sine = graph.call(Function::sin, {theta});
-    const NodeId cosine2 = times(cosine, cosine), sine2 = times(sine, sine);
-    const NodeId a11 = graph.call(Function::add, {times(along, cosine2), times(across, sine2)});
-    const NodeId a22 = graph.call(Function::add, {times(along, sine2), times(across, cosine2)});
-    const NodeId mixed = times(sine, cosine);
-    return {a11, times(graph.call(Function::subtract, {along, across}), mixed), a22};
 }
 
 }  // namespace cascade

@@ -47,6 +47,9 @@ public:
     const Nodes& nodes() const { return nodes_; }
     std::size_t size() const { return nodes_.size(); }
     Written written(NodeId id) const { return written_[id]; }
+    /// The value of a sum, difference, product or quotient if an operand that is known to be 0 says
+    /// it.
+    std::optional<NodeId> without_zeros(Function function, NodeId a, NodeId b);
     bool is_number(NodeId id) const { return nodes_[id].is<double>(); }
     bool is_number(NodeId id, double value) const { return nodes_[id].is(value); }
 
@@ -61,12 +64,5 @@ private:
 
 /// The nodes that a list of them needs, directly or through others, themselves included.
 IdVector<NodeId, bool> needed_by(const ExpressionGraph& graph, std::span<const NodeId> roots);
-
-/// The entries a11, a12 and a22 of A = R(θ) diag(a1², a2²) Rᵀ(θ), y down (Witkin & Kass, eq 6; its
-/// direction [cos θ, sin θ] and the sign of its a12 agree when y points down).
-struct TensorEntries {
-    NodeId a11, a12, a22;
-};
-TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeId theta);
 
 }  // namespace cascade

@@ -17,7 +17,7 @@
 // a convolution `distance` and the components of `direction` become LagParts.
 #pragma once
 
-#include "lang/program/expression_graph.h"
+#include "lang/program/terms.h"
 
 #include <array>
 #include <optional>
@@ -25,8 +25,15 @@
 
 namespace cascade {
 
+/// The entries a11, a12 and a22 of A = R(θ) diag(a1², a2²) Rᵀ(θ), y down (Witkin & Kass, eq 6; its
+/// direction [cos θ, sin θ] and the sign of its a12 agree when y points down).
+struct TensorEntries {
+    Term a11, a12, a22;
+};
+TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeId theta);
+
 /// The entries of a symmetric tensor, by row and column.
-using TensorMatrix = std::array<std::array<NodeId, 3>, 3>;
+using TensorMatrix = std::array<TermVector, 3>;
 /// The matrix of a node tensor(a1, a2, theta) or symmetric(…). Entries of z of a tensor of the
 /// plane are 0. On a model it is that of ModelTensor, in space.
 TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor, bool on_model);
@@ -37,8 +44,8 @@ TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor, bool on_model)
 /// the neighbours of a cell are spread so unevenly that the rest could make waves grow
 /// (surface/cell_frames.h).
 struct ModelTensor {
-    NodeId low, rest, along;
-    std::array<NodeId, 3> t;
+    Term low, rest, along;
+    TermVector t;
 };
 ModelTensor model_tensor(ExpressionGraph& graph, NodeId tensor);
 
@@ -59,20 +66,18 @@ public:
     /// Adds a node, or what stands for it. Its operands are nodes that have been added so.
     NodeId add(const Node& node, Written written);
 
-    using Components = std::array<NodeId, 3>;
-    /// The numbers of a vector in a cell, if something has needed them.
-    const Components* known_components(NodeId vector) const {
+    /// The numbers of a vector in a cell.
+    const SparseVector& components(NodeId vector);
+    /// The same, if something has needed them.
+    const SparseVector* known_components(NodeId vector) const {
         const auto found = components_.find(vector);
         return found == components_.end() ? nullptr : &found->second;
     }
 
 private:
     std::optional<NodeId> written_out(const Node& node);
-    const Components& components(NodeId vector);
-    Components components_of(const Node& node);
-    Components gradient(NodeId of);
-    NodeId dot(NodeId a, NodeId b);
-    NodeId length(NodeId vector);
+    SparseVector components_of(const Node& node);
+    SparseVector gradient(NodeId of);
     NodeId curl(const Node& node);
     NodeId angle(NodeId vector);
     NodeId choice(const Node& node);
@@ -80,25 +85,14 @@ private:
     NodeId carried(const Node& node);
 
     bool is_vector(NodeId id) const { return graph_[id].type == ValueType::vector; }
-    NodeId zero() { return graph_.number(0); }
-    bool is_zero(NodeId id) const { return graph_.is_number(id, 0); }
-    NodeId call(Function function, std::initializer_list<NodeId> operands) {
-        return graph_.call(function, operands);
-    }
-    NodeId vector_call(Function function, std::initializer_list<NodeId> operands) {
-        return graph_.call(function, operands, ValueType::vector);
-    }
-    NodeId vector_of(const Components& parts) {
-        return vector_call(Function::vector, {parts[0], parts[1], parts[2]});
-    }
-    // Terms that are known to be 0 are left out.
-    NodeId sum(NodeId a, NodeId b);
-    NodeId difference(NodeId a, NodeId b);
-    NodeId product(NodeId a, NodeId b);
+    Term term(NodeId id) const { return {&graph_, id}; }
+    SparseTerm sparse(NodeId id) const { return {term(id)}; }
+    SparseTerm leaf(const NodeKind& kind) { return sparse(graph_.leaf(kind)); }
+    SparseTerm zero() { return leaf(0.0); }
 
     ExpressionGraph& graph_;
     FieldSpace space_;
-    std::unordered_map<NodeId, Components> components_;  ///< Of vectors, in a cell.
+    std::unordered_map<NodeId, SparseVector> components_;  ///< Of vectors, in a cell.
 };
 
 }  // namespace cascade

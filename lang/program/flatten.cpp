@@ -56,7 +56,8 @@ std::vector<std::pair<NodeId, std::string>> Flattening::names() const {
         const auto* const parts = vectors_->known_components(id);
         if (parts == nullptr) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-            if (!graph_.is_number((*parts)[k])) names.emplace_back((*parts)[k], name + ends[k]);
+            const NodeId part = (*parts)[k].term;
+            if (!graph_.is_number(part)) names.emplace_back(part, name + ends[k]);
         }
     }
     return names;

@@ -27,6 +27,14 @@ Formula formula_of(const Nodes& nodes, NodeId root) {
     return formula;
 }
 
+std::optional<ReductionKind> reduction_of(Function function) {
+    const std::string_view spelling = info(function).spelling;
+    if (!info(function).is_reduction) return std::nullopt;
+    if (spelling.starts_with("sum")) return ReductionKind::sum;
+    if (spelling.starts_with("mean")) return ReductionKind::mean;
+    return spelling.starts_with("min") ? ReductionKind::least : ReductionKind::largest;
+}
+
 TextId Literals::id_of(const std::string& text) {
     // Only the last few are compared, so that large numbers of them cost no time.
     const std::size_t count = texts_.size();

@@ -9,6 +9,7 @@
 #include "core/precision.h"
 #include "core/side.h"
 #include "core/source.h"
+#include "ir/reduction.h"
 #include "ir/solver.h"
 #include "ir/sweep_form.h"
 #include "lang/vocabulary/functions.h"
@@ -137,12 +138,6 @@ using NodeKind =
     std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, CellValue, DefinitionId,
                  Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask, LagPart, Unknown>;
 
-/// In a system of fields a vector has a value in each cell and, inside of div, a value at each face
-/// between cells (lang/program/field_vectors.h). In a system of cells that crawl it is three
-/// numbers, a place or a direction in space; lowering takes it apart first of all
-/// (lang/lower/tissue_pass.cpp). No formula has both.
-enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
-
 /// The position of a node in its formula or graph.
 using NodeId = Id<struct NodeTag>;
 using Operands = std::array<NodeId, most_operands>;
@@ -184,6 +179,9 @@ inline bool is_draw_in_cell(const Node& node) {
 inline bool is_aggregate(const Node& node) {
     return node.is<Call>() && info(node.function).is_aggregate;
 }
+
+/// How a sum, mean, min or max over cells is computed; nothing for other functions.
+std::optional<ReductionKind> reduction_of(Function function);
 
 /// The operands whose values a node needs. Those of a constraint are computed while it is solved.
 inline std::span<const NodeId> operands_of(const Node& node) {

@@ -8,21 +8,13 @@ namespace cascade {
 
 namespace {
 
-/// The power of a length by which the value of a function falls: of derivatives their order.
+/// The power of a length by which the value of a function falls.
 double power_of_length(Function function, const DomainSettings& domain) {
     switch (function) {
-        case Function::lap:
-        case Function::grad2:
-        case Function::diffuse: return 2;
-        case Function::advect:
-        case Function::transport:
-        case Function::grad:
-        case Function::div:
-        case Function::curl: return 1;
         case Function::domain_sum: return domain.model ? -2 : 0;  // An integral on models only.
         case Function::white: return axes_of(domain) / 2.0;  // By the root of a cell's content.
         case Function::convolve: return -axes_of(domain);    // An integral, by the content.
-        default: return derivative_of(function).order;
+        default: return info(function).lengths;
     }
 }
 

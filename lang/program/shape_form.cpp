@@ -3,18 +3,13 @@
 
 #include "core/check.h"
 #include "lang/program/fold.h"
+#include "lang/program/vector_functions.h"
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace cascade {
-
-namespace {
-
-/// A number or a vector by components, of which a number has one.
-double component(Vector3d v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-
-}  // namespace
 
 std::optional<ItemId> ShapeForm::find(std::string_view quantity) const {
     for (const ItemId item : quantities.ids()) {
@@ -71,33 +66,14 @@ Vector3d ShapeFunction::operator()(double t, double s) {
 
 void ShapeFunction::compute(NodeId id) {
     const Node& node = nodes_[id];
-    const auto operand = [&](std::size_t k) { return values_[node.operands[k]]; };
-    Vector3d& value = values_[id];
-    switch (node.function) {
-        case Function::vector:
-            value = {operand(0).x, operand(1).x, node.operand_count == 3 ? operand(2).x : 0};
-            return;
-        case Function::dot: value = {dot(operand(0), operand(1)), 0, 0}; return;
-        case Function::cross: value = cross(operand(0), operand(1)); return;
-        case Function::length: value = {length(operand(0)), 0, 0}; return;
-        case Function::unit: value = unit(operand(0)); return;
-        case Function::component:
-            value = {component(operand(0), static_cast<std::size_t>(operand(1).x)), 0, 0};
-            return;
-        default: break;
-    }
-    std::array<double, 3> parts{};
-    for (std::size_t k = 0; k < (node.type == ValueType::vector ? 3 : 1); ++k) {
-        std::array<double, most_operands> numbers{};
-        for (std::size_t n = 0; n < node.operand_count; ++n) {
-            const bool is_vector = nodes_[node.operands[n]].type == ValueType::vector;
-            numbers[n] = component(operand(n), is_vector ? k : 0);
-        }
-        const auto folded = fold(node.function, numbers);
-        CHECK(folded, "a formula of a shape is made of functions of numbers");
-        parts[k] = *folded;
-    }
-    value = {parts[0], parts[1], parts[2]};
+    std::array<Vector3d, most_operands> operands;
+    std::ranges::transform(node.reads(), operands.begin(), [&](NodeId of) { return values_[of]; });
+    values_[id] = of_components<double>(
+        nodes_, node, std::span(operands).first(node.operand_count), [&](const auto& numbers) {
+            const auto folded = fold(node.function, numbers);
+            CHECK(folded, "a formula of a shape is made of functions of numbers");
+            return *folded;
+        });
 }
 
 }  // namespace cascade

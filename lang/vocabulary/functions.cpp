@@ -9,30 +9,58 @@ namespace {
 
 constexpr int cost_of_spatial = 20;
 
+constexpr ResultKind result_of(FunctionKind kind) {
+    const bool is_any = kind == FunctionKind::arithmetic || kind == FunctionKind::choice;
+    return is_any ? ResultKind::like : ResultKind::number;
+}
+
+// clang-format off
 constexpr FunctionInfo function_table[] = {
-#define CASCADE_OPERATOR(id, spelling, arity, precedence, kind, behaviour, cost, meaning) \
-    {spelling,      arity,        precedence,           FunctionKind::kind,               \
-     Contexts::any, Domains::all, Behaviour::behaviour, cost,                             \
-     meaning},
-#define CASCADE_NUMERIC(id, spelling, arity, kind, behaviour, cost, meaning) \
-    CASCADE_OPERATOR(id, spelling, arity, FunctionInfo::of_a_name, kind, behaviour, cost, meaning)
-#define CASCADE_SPATIAL(id, spelling, arity, kind, places, domains, meaning) \
-    {spelling,                                                               \
-     arity,                                                                  \
-     FunctionInfo::of_a_name,                                                \
-     FunctionKind::kind,                                                     \
-     Contexts::places,                                                       \
-     Domains::domains,                                                       \
-     Behaviour::plain,                                                       \
-     cost_of_spatial,                                                        \
-     meaning},
+#define CASCADE_OPERATOR(id, spelling, arity, precedence, kind, linear, behaviour, cost, meaning) \
+    {spelling, arity, precedence, FunctionKind::kind, result_of(FunctionKind::kind),              \
+     Linear::linear, 0, Contexts::any, Domains::all, Behaviour::behaviour, cost, meaning},
+#define CASCADE_NUMERIC(id, spelling, arity, ...) \
+    CASCADE_OPERATOR(id, spelling, arity, FunctionInfo::of_a_name, __VA_ARGS__)
+#define CASCADE_SPATIAL(id, spelling, arity, kind, result, linear, lengths, places, domains, meaning) \
+    {spelling, arity, FunctionInfo::of_a_name, FunctionKind::kind, ResultKind::result,                \
+     Linear::linear, lengths, Contexts::places, Domains::domains, Behaviour::plain,                   \
+     cost_of_spatial, meaning},
 #include "lang/vocabulary/functions.def"
 };
+// clang-format on
 
 }  // namespace
 
 const FunctionInfo& info(Function function) {
     return function_table[static_cast<std::size_t>(function)];
+}
+
+bool is_linear_in(Function function, std::size_t n, std::size_t count) {
+    switch (info(function).linear) {
+        case Linear::none: return false;
+        case Linear::each:
+        case Linear::together: return true;
+        case Linear::first: return n == 0;
+        case Linear::last: return n + 1 == count;
+        case Linear::after_first: return n > 0;
+        case Linear::but_last: return n + 1 < count;
+    }
+    return false;
+}
+
+ValueType type_of_result(Function function, std::span<const ValueType> operands) {
+    switch (info(function).result) {
+        case ResultKind::number: return ValueType::number;
+        case ResultKind::vector: return ValueType::vector;
+        case ResultKind::tensor: return ValueType::tensor;
+        case ResultKind::colour: return ValueType::colour;
+        case ResultKind::like: break;
+    }
+    // A tensor times a vector is one.
+    for (const ValueType type : {ValueType::vector, ValueType::tensor, ValueType::colour}) {
+        if (std::ranges::find(operands, type) != operands.end()) return type;
+    }
+    return ValueType::number;
 }
 
 std::optional<Function> function_named(std::string_view name) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace cascade {
@@ -30,6 +31,8 @@ enum class FunctionKind : std::uint8_t {
     geometry, aggregate, colour,
 };
 // clang-format on
+enum class ResultKind : std::uint8_t { number, vector, tensor, colour, like };
+enum class Linear : std::uint8_t { none, each, together, first, last, after_first, but_last };
 enum class Behaviour : std::uint8_t { plain, jumps, chooses, partial, divides, raises };
 enum class Contexts : std::uint8_t { any, cells, rates, steps, values, noisy, picture };
 
@@ -70,6 +73,9 @@ struct FunctionInfo {
     Arity arity;
     int precedence;  ///< Of an operator; other functions have that of a name.
     FunctionKind kind;
+    ResultKind result;
+    Linear linear;
+    int lengths;
     Contexts places;
     Domains domains;
     Behaviour behaviour;
@@ -78,6 +84,8 @@ struct FunctionInfo {
 
     bool is_operator = precedence < of_a_name;  ///< Spelled between or before its operands.
     bool is_aggregate = kind == FunctionKind::aggregate;
+    /// It makes one number of many cells, such as `sum over near`.
+    bool is_reduction = spelling.find(" over ") != std::string_view::npos;
     /// Called by its name, f(…); not an operator, `sum over domain`, or one that lowering makes.
     bool is_named = !is_operator && spelling.find_first_of(" (") == std::string_view::npos;
 
@@ -98,7 +106,7 @@ inline bool is_comparison(Function function) {
 }
 /// True if it sums values of neighbours, or finds their mean, least or greatest.
 inline bool is_over_neighbours(Function function) {
-    return function >= Function::touching_sum && function <= Function::near_max;
+    return info(function).kind == FunctionKind::link && info(function).is_reduction;
 }
 /// True if it reads its operand in all cells of a neighbourhood and is computed on whole planes.
 inline bool is_nonlocal(Function function) { return info(function).kind == FunctionKind::nonlocal; }
@@ -134,6 +142,22 @@ inline bool jumps_by(Function function, std::size_t n) {
     const Behaviour behaviour = info(function).behaviour;
     return behaviour == Behaviour::jumps || (behaviour == Behaviour::chooses && n == 0);
 }
+
+/// Is a function of `count` operands linear in operand `n` while the others stay?
+bool is_linear_in(Function function, std::size_t n, std::size_t count);
+/// Is it linear in all its linear operands together, as a sum is and a product is not?
+inline bool is_jointly_linear(Function function) {
+    const Linear linear = info(function).linear;
+    return linear == Linear::together || linear >= Linear::after_first;
+}
+
+/// What a value is. In a system of fields a vector has a value in each cell and, inside of div, a
+/// value at each face between cells (lang/program/field_vectors.h). In a system of cells that crawl
+/// it is three numbers, a place or a direction in space; lowering takes it apart first of all
+/// (lang/lower/tissue_pass.cpp). No formula has both.
+enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
+/// What a function makes of operands of these types, if it has a meaning for them.
+ValueType type_of_result(Function function, std::span<const ValueType> operands);
 
 /// The axis of the component that a vector calls x, y or z.
 std::optional<int> component_named(std::string_view name);

@@ -43,6 +43,37 @@ TEST(Functions, ThatJumpHaveNoSlope) {
     });
 }
 
+TEST(Functions, HaveSlopesWithoutTheOperandsInWhichTheyAreLinear) {
+    Algebra algebra;
+    Node call{Call()};
+    for (std::size_t k = 0; k < 3; ++k) call.operands[k] = algebra.leaf(ItemId(k));
+    for_each_function([&](Function function) {
+        call.function = function;
+        const auto count = static_cast<std::size_t>(info(function).arity.least);
+        call.operand_count = static_cast<std::uint8_t>(count);
+        for (std::size_t n = 0; is_elementary(function) && n < count; ++n) {
+            if (!is_linear_in(function, n, count)) continue;
+            const auto slope = partial_derivative(algebra, call, n);
+            ASSERT_TRUE(slope) << spelling(function);
+            const auto depends = needed_by(algebra, {&*slope, 1});
+            EXPECT_FALSE(depends[call.operands[n]]) << spelling(function) << n;
+        }
+    });
+}
+
+TEST(Functions, OfVectorsMakeTheTypeOfTheirRow) {
+    using enum ValueType;
+    const auto type = [](Function function, std::initializer_list<ValueType> operands) {
+        return type_of_result(function, {operands.begin(), operands.size()});
+    };
+    EXPECT_EQ(type(Function::multiply, {tensor, vector}), vector);
+    EXPECT_EQ(type(Function::multiply, {number, tensor}), tensor);
+    EXPECT_EQ(type(Function::if_, {number, colour, colour}), colour);
+    EXPECT_EQ(type(Function::grad, {number}), vector);
+    EXPECT_EQ(type(Function::div, {vector}), number);
+    EXPECT_EQ(type(Function::touching_mean, {vector}), vector);
+}
+
 TEST(Functions, DerivativesAreSpelledByTheirAxes) {
     const auto axes = [](Function function) {
         const Derivative derivative = derivative_of(function);
