@@ -2,6 +2,7 @@
 // 0 to 1: `x < 5`, `disc(64, 64, 10)`. Comparisons are decided by intervals (R. E. Moore, "Interval
 // Analysis", 1966) of what they read of x, y and z.
 #include "lang/check/expression_checker.h"
+#include "lang/vocabulary/by_name.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,61 +21,66 @@ struct Interval {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     std::string_view place = {};  ///< x, y or z, if it is made of it and of numbers alone.
-};
 
-bool is_place(const Node& node) {
-    const auto* const builtin = node.as<Builtin>();
-    return builtin != nullptr && *builtin <= Builtin::sz;
-}
-
-Interval around(std::initializer_list<double> values) {
-    const auto [low, high] = std::minmax(values);
-    if (std::isnan(low) || std::isnan(high)) return {};
-    return {low, high};
-}
-
-/// What a call makes of intervals; all numbers for functions without a rule.
-Interval interval_of(Function function, const Interval& a, const Interval& b) {
-    const std::string_view place = a.place.empty() ? b.place : a.place;
-    const double most = std::max(std::abs(a.low), std::abs(a.high));
-    const double least =
-        a.low <= 0 && a.high >= 0 ? 0 : std::min(std::abs(a.low), std::abs(a.high));
-    switch (function) {
-        case Function::add: return {a.low + b.low, a.high + b.high, place};
-        case Function::subtract: return {a.low - b.high, a.high - b.low, place};
-        case Function::negate: return {-a.high, -a.low, place};
-        case Function::multiply:  // In other units, so that no message of shares is true.
-            return around({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-        case Function::divide:
-            if (b.low <= 0 && b.high >= 0) return {};
-            return around({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
-        case Function::power: {
-            const bool is_even = b.low == b.high && std::fmod(b.low, 2) == 0 && b.low > 0;
-            if (!is_even) return {};
-            return {std::pow(least, b.low), std::pow(most, b.low), place};
-        }
-        case Function::abs: return {least, most, place};
-        case Function::sqrt: return {std::sqrt(std::max(a.low, 0.0)), std::sqrt(a.high), place};
-        case Function::hypot: {
-            const double other =
-                b.low <= 0 && b.high >= 0 ? 0 : std::min(std::abs(b.low), std::abs(b.high));
-            return {std::hypot(least, other),
-                    std::hypot(most, std::max(std::abs(b.low), std::abs(b.high))), place};
-        }
-        default: return {};
+    /// Of the magnitudes.
+    double least() const {
+        return low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
     }
-}
+    double most() const { return std::max(std::abs(low), std::abs(high)); }
+
+    friend std::string_view place_of(const Interval& a, const Interval& b) {
+        return a.place.empty() ? b.place : a.place;
+    }
+
+    /// In other units, so that no message of shares is true.
+    static Interval around(std::initializer_list<double> values) {
+        const auto [low, high] = std::minmax(values);
+        if (std::isnan(low) || std::isnan(high)) return {};
+        return {low, high};
+    }
+
+    // What functions make of intervals, by their names in functions.def; of the others nothing is
+    // known.
+    friend Interval add(const Interval& a, const Interval& b) {
+        return {a.low + b.low, a.high + b.high, place_of(a, b)};
+    }
+    friend Interval subtract(const Interval& a, const Interval& b) {
+        return {a.low - b.high, a.high - b.low, place_of(a, b)};
+    }
+    friend Interval negate(const Interval& a) { return {-a.high, -a.low, a.place}; }
+    friend Interval multiply(const Interval& a, const Interval& b) {
+        return around({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+    }
+    friend Interval divide(const Interval& a, const Interval& b) {
+        if (b.low <= 0 && b.high >= 0) return {};
+        return around({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
+    }
+    friend Interval power(const Interval& a, const Interval& b) {
+        const bool is_even = b.low == b.high && std::fmod(b.low, 2) == 0 && b.low > 0;
+        if (!is_even) return {};
+        return {std::pow(a.least(), b.low), std::pow(a.most(), b.low), place_of(a, b)};
+    }
+    friend Interval abs(const Interval& a) { return {a.least(), a.most(), a.place}; }
+    friend Interval sqrt(const Interval& a) {
+        return {std::sqrt(std::max(a.low, 0.0)), std::sqrt(a.high), a.place};
+    }
+    friend Interval hypot(const Interval& a, const Interval& b) {
+        return {std::hypot(a.least(), b.least()), std::hypot(a.most(), b.most()), place_of(a, b)};
+    }
+};
 
 /// Is the comparison the same everywhere, and by far? `hypot(x - 0.5, y - 0.5) < 0.8` may be meant.
 bool is_decided(Function comparison, const Interval& a, const Interval& b) {
     constexpr double far = 0.5;
-    switch (comparison) {
-        case Function::less:
-        case Function::less_equal:
-        case Function::greater:
-        case Function::greater_equal: return a.high + far < b.low || a.low > b.high + far;
-        default: return false;
-    }
+    const bool is_of_order =
+        is_comparison(comparison) &&
+        info(comparison).spelling.find_first_of("<>") != std::string_view::npos;
+    return is_of_order && (a.high + far < b.low || a.low > b.high + far);
+}
+
+bool is_place(const Node& node) {
+    const auto* const builtin = node.as<Builtin>();
+    return builtin != nullptr && *builtin <= Builtin::sz;
 }
 
 }  // namespace
@@ -96,11 +102,11 @@ void ExpressionChecker::check_places() {
             const Interval& b = ranges[node.reads().back().index()];
             const bool is_known = std::isfinite(a.low) && std::isfinite(a.high) &&
                                   std::isfinite(b.low) && std::isfinite(b.high);
-            const std::string_view place = a.place.empty() ? b.place : a.place;
+            const std::string_view place = place_of(a, b);
             if (is_known && !place.empty() && is_decided(node.function, a, b)) {
                 warn_of_place(node.span, place);
             }
-            if (is_known && node.operand_count <= 2) range = interval_of(node.function, a, b);
+            if (is_known && node.operand_count <= 2) range = call_by_name(node.function, a, b, b);
             check_shape_in_domain(node);
         }
     }
