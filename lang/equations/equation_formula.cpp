@@ -6,6 +6,7 @@
 #include "lang/equations/equation_marks.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/paper_notation.h"
+#include "lang/vocabulary/functions.h"
 
 #include <fmt/core.h>
 
@@ -155,7 +156,7 @@ private:
         if (node.op == Function::multiply) return write_product(node, least);
         if (node.op == Function::divide) return write_quotient(node, least);
         if (node.op == Function::power) return write_power(node.left, node.right, least);
-        const Infix& infix = *find(infixes, node.op);
+        const Infix& infix = *find(infixes, info(node.op).spelling);
         const int own = info(node.op).precedence;
         const int left = is_comparison(node.op) ? own + 1 : own;
         int right = node.op == Function::add ? own : own + 1;
@@ -256,8 +257,7 @@ private:
                 return write_derivative(function.substr(1), operands[0], least);
             }
         }
-        const auto named = function_named(function);
-        const Infix* const infix = named ? find(infixes, *named) : nullptr;
+        const Infix* const infix = find(infixes, function);
         if (operands.size() == 2 && infix != nullptr) {
             return push_operator({Operand{operands[0], a_sign}, both(infix->unicode, infix->tex),
                                   Operand{operands[1], a_sign}},

@@ -1,8 +1,6 @@
 // The marks of functions in equations (internal to the printing of equations).
 #pragma once
 
-#include "lang/vocabulary/functions.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
@@ -30,22 +28,13 @@ inline constexpr Around arounds[] = {
 
 /// What stands between two operands.
 struct Infix {
-    Function function;
-    std::string_view unicode, tex;
+    std::string_view function, unicode, tex;
 };
 inline constexpr Infix infixes[] = {
-    {Function::logical_or, " or ", " \\lor "},
-    {Function::logical_and, " and ", " \\land "},
-    {Function::less, " < ", " < "},
-    {Function::less_equal, " ≤ ", " \\le "},
-    {Function::greater, " > ", " > "},
-    {Function::greater_equal, " ≥ ", " \\ge "},
-    {Function::equal, " = ", " = "},
-    {Function::not_equal, " ≠ ", " \\ne "},
-    {Function::add, " + ", " + "},
-    {Function::subtract, " − ", " - "},
-    {Function::dot, " · ", " \\cdot "},
-    {Function::cross, " × ", " \\times "},
+    {"or", " or ", " \\lor "}, {"and", " and ", " \\land "}, {"<", " < ", " < "},
+    {"<=", " ≤ ", " \\le "},   {">", " > ", " > "},          {">=", " ≥ ", " \\ge "},
+    {"==", " = ", " = "},      {"!=", " ≠ ", " \\ne "},      {"+", " + ", " + "},
+    {"-", " − ", " - "},       {"dot", " · ", " \\cdot "},   {"cross", " × ", " \\times "},
 };
 
 /// What stands before the only operand of a call.
@@ -59,9 +48,9 @@ inline constexpr Prefix prefixes[] = {
     {"curl", "∇×", "\\nabla \\times "},
 };
 
-/// The row of a function; null if there is none.
+/// The row of a function by its spelling; null if there is none.
 template <typename Row, std::size_t count>
-const Row* find(const Row (&rows)[count], decltype(Row::function) function) {
+const Row* find(const Row (&rows)[count], std::string_view function) {
     const auto* const end = rows + count;
     const auto* const found =
         std::find_if(rows, end, [&](const Row& row) { return row.function == function; });

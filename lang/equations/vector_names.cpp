@@ -28,16 +28,10 @@ bool is_vector(const ast::Script& script, ast::Expression expression, const Name
             const ast::ExprId last =
                 script.arguments[call->first_argument + call->argument_count - 1];
             const ast::ExprId first = script.arguments[call->first_argument];
-            if (function == Function::grad || function == Function::vector ||
-                function == Function::cross || function == Function::unit) {
-                is = true;
-            } else if (function == Function::curl) {
-                is = !of(first);
-            } else if (function == Function::if_) {
-                is = of(last);
-            } else if (function == Function::mix) {
-                is = of(first);
-            }
+            const auto result = function ? info(*function).result : ResultKind::number;
+            is = result == ResultKind::vector ||
+                 (result == ResultKind::like && (of(first) || of(last))) ||
+                 (function == Function::curl && !of(first));
         }
         known[id - expression.first] = is;
     }
