@@ -35,10 +35,10 @@ void run(CLI::App& command, Options& options) {
                        "A script, a picture that Cascade drew, or - for standard input");
     groups::add_files(command, options.run);
     groups::add_picture_options(command, options.picture);
-    groups::add_log(command, options.run);
+    groups::add_run_options(command, options.run, RunOption::log, RunOption::features);
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options, "Threads; without it all cores");
-    groups::add_stop(command, options);
+    groups::add_run_options(command, options.run, RunOption::stop_at, RunOption::stop_at);
     groups::add_timing(command, options);
     groups::add_quiet(command, options);
     groups::add_limits(command, options);
@@ -48,7 +48,7 @@ void run(CLI::App& command, Options& options) {
 void sweep(CLI::App& command, Options& options) {
     groups::add_script(command, options, "A script, or a picture that Cascade drew");
     groups::add_sweep(command, options);
-    groups::add_shown(command, options.picture);
+    groups::add_picture_options(command, options.picture, true);
     groups::add_overrides(command, options.overrides);
     groups::add_simulation(command, options,
                            "Runs at once, each on one thread; without it as many\n"
@@ -129,7 +129,7 @@ void mesh(CLI::App& command, Options& options) { groups::add_mesh(command, optio
 void repl(CLI::App& command, Options& options) {
     groups::add_script(command, options, "A script to begin with (may be left out)");
     groups::add_simulation(command, options, "Threads; without it all cores");
-    groups::add_stop(command, options);
+    groups::add_run_options(command, options.run, RunOption::stop_at, RunOption::stop_at);
     groups::add_quiet(command, options);
 }
 

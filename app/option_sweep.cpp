@@ -38,7 +38,7 @@ void add_sweep(CLI::App& app, Options& options) {
                               endings_of(FormatKind::film, "or"))),
               path_of(FormatKind::film), [&](auto path) { sweep.film = path; })
         ->group(files);
-    add_film_pace(app, sweep.pace);
+    add_run_options(app, options.run, RunOption::fps, RunOption::seconds);
     app.add_flag("--fields", sweep.fields, "Save every field of every run, to read or to resume")
         ->group(files);
     app.add_flag("--force", sweep.force, "Repeat runs of an earlier sweep")->group(files);

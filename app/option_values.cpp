@@ -27,6 +27,13 @@ bool read_all(std::string_view text, Number& number) {
     return error == std::errc() && stop == end;
 }
 
+/// Two numbers with a comma between them.
+bool read_two(std::string_view text, float& first, float& second) {
+    const std::size_t comma = text.find(',');
+    return comma != std::string_view::npos && read_all(text.substr(0, comma), first) &&
+           read_all(text.substr(comma + 1), second);
+}
+
 }  // namespace
 
 Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high) {
@@ -68,7 +75,7 @@ Result<Slice> parse_slice(std::string_view text) {
     const std::size_t axis = std::string_view("xyz").find(text.substr(0, 1));
     Slice slice;
     if (text.size() > 2 && text[1] == '=' && axis < 3 && read_all(text.substr(2), slice.place) &&
-        slice.place >= 0 && slice.place <= 1) {
+        makes_sense(slice)) {
         slice.axis = static_cast<Axis>(axis);
         return slice;
     }
@@ -77,25 +84,15 @@ Result<Slice> parse_slice(std::string_view text) {
 }
 
 Result<ValueRange> parse_range(std::string_view text) {
-    const std::size_t comma = text.find(',');
     ValueRange range;
-    if (comma != std::string_view::npos && read_all(text.substr(0, comma), range.low) &&
-        read_all(text.substr(comma + 1), range.high) && std::isfinite(range.low) &&
-        std::isfinite(range.high) && range.low != range.high) {
-        return range;
-    }
+    if (read_two(text, range.low, range.high) && makes_sense(range)) return range;
     return failure(fmt::format("'{}' is not a range", text),
                    "write the values of the palette's two ends, as in --range 0,8");
 }
 
 Result<View> parse_view(std::string_view text) {
-    const std::size_t comma = text.find(',');
     View view;
-    if (comma != std::string_view::npos && read_all(text.substr(0, comma), view.azimuth) &&
-        read_all(text.substr(comma + 1), view.elevation) && std::abs(view.azimuth) <= 360 &&
-        std::abs(view.elevation) <= 89) {
-        return view;
-    }
+    if (read_two(text, view.azimuth, view.elevation) && makes_sense(view)) return view;
     return failure(fmt::format("'{}' is not a place to look from", text),
                    "write degrees around (-360 to 360) and above (-89 to 89), as in --view 30,25");
 }

@@ -240,25 +240,9 @@ std::vector<std::string> without_terminator(std::vector<std::string> arguments) 
 }  // namespace
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request) {
-    if (changes.show) request.show = *changes.show;
-    if (changes.palette) request.palette = *changes.palette;
-    if (changes.range) request.range = *changes.range;
-    if (changes.scale) request.scale = *changes.scale;
-    if (changes.depth) request.depth = *changes.depth;
-    if (changes.detail) request.detail = *changes.detail;
-    if (changes.space_time) request.space_time = true;
-    if (changes.slice) request.slice = *changes.slice;
-    if (changes.flat) request.flat = true;
-    if (changes.view) request.view = *changes.view;
-    if (changes.size) request.size = changes.size;
-    if (changes.copies) request.copies = *changes.copies;
-    if (changes.quality) request.quality = *changes.quality;
-    if (changes.lighting) request.lighting = *changes.lighting;
-    if (changes.fov) request.fov = changes.fov;
-    if (changes.ground) request.ground = *changes.ground;
-    if (changes.background) request.background = *changes.background;
-    if (changes.bump) request.bump = *changes.bump;
-    if (changes.displace) request.displace = true;
+#define CASCADE_PICTURE_OPTION(type, member, ...) \
+    if (changes.member) request.member = *changes.member;
+#include "run/script/picture_options.def"
     return request;
 }
 

@@ -42,25 +42,8 @@ enum class Command {
 /// The picture options that were given. A picture that is run again has stored options of its own,
 /// so an option that was given must be told from a default.
 struct PictureChanges {
-    std::optional<std::string> show;
-    std::optional<std::string> palette;
-    std::optional<ValueRange> range;
-    std::optional<int> scale;
-    std::optional<int> depth;
-    std::optional<int> detail;
-    bool space_time = false;
-    std::optional<Slice> slice;
-    bool flat = false;
-    std::optional<View> view;
-    std::optional<PictureSize> size;
-    std::optional<PictureCopies> copies;
-    std::optional<Quality> quality;
-    std::optional<Lighting> lighting;
-    std::optional<float> fov;
-    std::optional<bool> ground;
-    std::optional<std::optional<Colour>> background;
-    std::optional<float> bump;
-    bool displace = false;
+#define CASCADE_PICTURE_OPTION(type, member, ...) std::optional<type> member;
+#include "run/script/picture_options.def"
 };
 
 PictureRequest apply(const PictureChanges& changes, PictureRequest request);
@@ -79,16 +62,16 @@ struct Options {
     std::optional<TypedScript> typed;  ///< Stands for the script "-".
     Overrides overrides;
     PictureChanges picture;
-    RunRequest run;                    ///< Its `picture` keeps the defaults.
-    SweepRequest sweep;                ///< Its `picture` and `simulation` keep the defaults.
-    double limit_seconds = 0;          ///< `--limit-time`; 0 for none.
-    std::string dump;                  ///< The kind of dump; empty to run.
-    bool timing = false;               ///< Print how the time was spent.
-    bool quiet = false;                ///< Neither progress nor remarks.
-    std::vector<std::string> words;    ///< What `systems` searches for; the system of `new`.
-    std::filesystem::path new_script;  ///< `new -o`
-    std::filesystem::path sheet;       ///< `palettes -o`
-    bool check_only = false;           ///< `fmt --check`
+    RunRequest run;                  ///< Its `picture` keeps the defaults.
+    SweepRequest sweep;              ///< Its `picture`, `simulation` and `pace` keep the defaults.
+    double limit_seconds = 0;        ///< `--limit-time`; 0 for none.
+    std::string dump;                ///< The kind of dump; empty to run.
+    bool timing = false;             ///< Print how the time was spent.
+    bool quiet = false;              ///< Neither progress nor remarks.
+    std::vector<std::string> words;  ///< What `systems` searches for; the system of `new`.
+    std::filesystem::path new_script;                      ///< `new -o`
+    std::filesystem::path sheet;                           ///< `palettes -o`
+    bool check_only = false;                               ///< `fmt --check`
     ScriptNotation notation = ScriptNotation::as_written;  ///< `fmt --unicode`, `--ascii`
     std::vector<std::string> models;                       ///< Arguments of `mesh`.
     std::optional<CellOptions> cells;                      ///< `mesh --cells`.

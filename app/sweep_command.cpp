@@ -83,6 +83,7 @@ int sweep_command(const Options& options, Console& console) {
     }
     request.varied = std::move(*varied);
     request.simulation = options.run.simulation;
+    request.pace = options.run.film;
     if (!file->picture_options.empty()) {
         if (auto stored = picture_request_from_json(file->picture_options)) {
             request.picture = std::move(*stored);

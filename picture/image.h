@@ -68,6 +68,7 @@ struct Image {
 struct ValueRange {
     float low = 0;
     float high = 1;
+    bool operator==(const ValueRange&) const = default;
 };
 
 /// The spread of the finite cell values of a plane.

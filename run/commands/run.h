@@ -23,6 +23,7 @@ namespace cascade {
 struct StopAt {
     std::string stage;
     std::int64_t step = 0;
+    bool operator==(const StopAt&) const = default;
 };
 
 struct RunRequest {

@@ -20,6 +20,9 @@ std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& 
 /// Checks that the request fits the script; reports errors in the script's diagnostics.
 Result<void> check_request(Script& script, const RunRequest& request);
 
+/// Reports a `--stop-at` that the run never reaches.
+void check_stop_at(Script& script, const StopAt& wanted);
+
 /// Tests all outputs for writing, so that a long run does not fail at its end. Leaves no files, and
 /// removes temporary files of killed runs.
 Result<void> check_outputs(const Script& script, const RunRequest& request,

@@ -35,36 +35,27 @@ inline constexpr int most_detail = 8;
 
 /// The options of `cascade run` that determine a picture's look. They are stored in the picture.
 struct PictureRequest {
-    std::string show;  ///< An expression; empty for the picture block or the default.
-    std::string palette = "grey";
-    std::optional<ValueRange> range;  ///< Empty: from the values.
-    int scale = 1;                    ///< Pixels per cell.
-    int depth = 8;                    ///< Bits: 8 or 16.
-    int detail = 1;                   ///< The end is carried to cells this many times as short.
-    bool space_time = false;          ///< 1-D grids: a row of pixels per interval.
-    Slice slice;                      ///< 3-D grids: the slice to show.
-    bool flat = false;                ///< Of a surface: only the texture.
-    View view;                        ///< Of a surface: the direction it is seen from.
-    /// In pixels that `scale` multiplies. Of a plane: the picture is smooth, and as large as fits
-    /// in; empty: a pixel for each cell. Of a surface; empty: the usual one.
-    std::optional<PictureSize> size;
-    PictureCopies copies;               ///< Of a plane that is periodic there.
-    Quality quality = Quality::normal;  ///< Of a surface.
-    Lighting lighting = Lighting::sun;  ///< Of a surface.
-    /// Of a surface: the field of view along the shorter side of the picture, in degrees.
-    std::optional<float> fov;
-    bool ground = true;  ///< Of a surface: a plane below it that receives shadows.
-    /// The background of pictures of surfaces; empty: transparent.
-    std::optional<Colour> background = pure_white;
-    /// Of a model: height of the largest number above the smallest one, in sides of the model, −1 …
-    /// 1.
-    float bump = 0;
-    bool displace = false;  ///< Of a model: heights move the surface, in files, too.
+#define CASCADE_PICTURE_OPTION(type, member, initial, ...) type member = initial;
+#include "run/script/picture_options.def"
 
-    /// True if the view is not the default one.
-    bool is_turned() const;
     PngDepth png_depth() const { return depth == 16 ? PngDepth::sixteen : PngDepth::eight; }
 };
+
+/// Whether the values of an option are within their limits.
+bool makes_sense(const View& view);
+bool makes_sense(const ValueRange& range);
+bool makes_sense(const PictureSize& size);
+bool makes_sense(const PictureCopies& copies);
+bool makes_sense(const Slice& slice);
+
+/// Whether an option has been given another value. Of views their direction alone counts.
+template <typename T>
+bool differ(const T& a, const T& b) {
+    return a != b;
+}
+inline bool differ(const View& a, const View& b) {
+    return a.azimuth != b.azimuth || a.elevation != b.elevation;
+}
 
 /// The default picture of an expression, or, if that is empty, of the script.
 inline PictureRequest picture_of(std::string expression) {

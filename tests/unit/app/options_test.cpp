@@ -150,9 +150,7 @@ TEST(Options, run_takes_everything) {
     EXPECT_EQ(options.overrides.until_stage, "large");
     EXPECT_EQ(options.picture.show, "b - a");
     EXPECT_EQ(options.picture.palette, "viridis");
-    ASSERT_TRUE(options.picture.range);
-    EXPECT_EQ(options.picture.range->low, -1.0F);
-    EXPECT_EQ(options.picture.range->high, 2.5F);
+    EXPECT_EQ(apply(options.picture, {}).range, (ValueRange{-1, 2.5F}));
     EXPECT_EQ(options.picture.scale, 4);
     EXPECT_EQ(options.picture.depth, 16);
     EXPECT_EQ(options.run.simulation.threads, 3);
