@@ -1,20 +1,130 @@
 // The factor is found by bisection among powers of a number slightly below 1.
 #include "atlas/pack_charts.h"
 
-#include "atlas/cell_rows.h"
 #include "atlas/chart_box.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace cascade {
 
 namespace {
+
+// Which cells of a grid are taken, and where a shape has room (internal to atlas/).
+
+/// Cells first … end − 1 of a row.
+struct CellSpan {
+    int row = 0, first = 0, end = 0;
+};
+
+/// A set of cells within width × height.
+struct CellShape {
+    int width = 0, height = 0;
+    std::vector<CellSpan> spans;
+};
+
+struct CellPlace {
+    int x = 0, y = 0;
+};
+
+class CellRows {
+public:
+    /// A square of free cells.
+    explicit CellRows(int side);
+
+    /// The place for a shape with the smallest y, and of these the smallest x, whose upper end,
+    /// y + height, is below `limit`, and y at least `lowest`: one where none of its cells is taken.
+    std::optional<CellPlace> find_room(const CellShape& shape, int lowest, int limit) const;
+
+    /// Takes the cells of a shape and the eight around each of them.
+    void take(const CellShape& shape, CellPlace place);
+
+private:
+    using Word = std::uint64_t;
+    static constexpr int bits = 64;
+    const Word* row(int y) const { return words_.data() + static_cast<std::size_t>(y * stride_); }
+    void mark_blocked(const CellSpan& span, int y, std::vector<Word>& blocked,
+                      std::vector<Word>& some) const;
+
+    int side_, stride_;        ///< Cells, words.
+    std::vector<Word> words_;  ///< A bit for each cell: 1 if it is taken. One more word in a row.
+};
+
+CellRows::CellRows(int side)
+    : side_(side),
+      stride_((side + bits - 1) / bits + 1),
+      words_(static_cast<std::size_t>(side * stride_)) {}
+
+/// ORs bits moved down by `by` into those that are there. What is moved in is 0.
+void add_moved(const std::vector<std::uint64_t>& from, int by, std::vector<std::uint64_t>& to) {
+    const std::size_t whole = static_cast<std::size_t>(by / 64);
+    const int rest = by % 64;
+    for (std::size_t w = 0; w + whole < from.size(); ++w) {
+        std::uint64_t moved = from[w + whole] >> rest;
+        if (rest > 0 && w + whole + 1 < from.size()) moved |= from[w + whole + 1] << (64 - rest);
+        to[w] |= moved;
+    }
+}
+
+/// Marks those x for which a cell x + first … x + end − 1 of a row is taken.
+void CellRows::mark_blocked(const CellSpan& span, int y, std::vector<Word>& blocked,
+                            std::vector<Word>& some) const {
+    some.assign(row(y), row(y) + stride_);
+    // After each round bit x stands for `count` cells from x on.
+    const int length = span.end - span.first;
+    for (int count = 1; count < length;) {
+        const int more = std::min(count, length - count);
+        // In place: words are read before those that they are added to are changed.
+        add_moved(some, more, some);
+        count += more;
+    }
+    add_moved(some, span.first, blocked);
+}
+
+std::optional<CellPlace> CellRows::find_room(const CellShape& shape, int lowest, int limit) const {
+    if (shape.width > side_) return std::nullopt;
+    std::vector<Word> outside(static_cast<std::size_t>(stride_), ~Word{0});
+    for (int x = 0; x + shape.width <= side_; ++x) {
+        outside[static_cast<std::size_t>(x / bits)] &= ~(Word{1} << (x % bits));
+    }
+    const auto is_full = [](const std::vector<Word>& words) {
+        return std::all_of(words.begin(), words.end(), [](Word w) { return w == ~Word{0}; });
+    };
+    std::vector<Word> blocked, some;
+    for (int y = lowest; y + shape.height < limit && y + shape.height <= side_; ++y) {
+        blocked = outside;
+        for (std::size_t k = 0; k < shape.spans.size(); ++k) {
+            mark_blocked(shape.spans[k], y + shape.spans[k].row, blocked, some);
+            if (k % 4 == 3 && is_full(blocked)) break;
+        }
+        for (int w = 0; w < stride_; ++w) {
+            const Word free = ~blocked[static_cast<std::size_t>(w)];
+            if (free != 0) return CellPlace{w * bits + std::countr_zero(free), y};
+        }
+    }
+    return std::nullopt;
+}
+
+void CellRows::take(const CellShape& shape, CellPlace place) {
+    for (const CellSpan& span : shape.spans) {
+        const int first = std::max(0, place.x + span.first - 1);
+        const int end = std::min(side_, place.x + span.end + 1);
+        for (int y = std::max(0, place.y + span.row - 1);
+             y <= std::min(side_ - 1, place.y + span.row + 1); ++y) {
+            for (int x = first; x < end; ++x) {
+                words_[static_cast<std::size_t>(y * stride_ + x / bits)] |= Word{1} << (x % bits);
+            }
+        }
+    }
+}
 
 constexpr double step_of_scale = 0.98;
 constexpr int most_steps = 700;  ///< 0.98⁷⁰⁰ is 10⁻⁶.

@@ -18,7 +18,7 @@ inline constexpr std::int64_t usual_texels = 2048;
 using MeshTexture = std::vector<std::array<TexturePlace, 3>>;
 
 /// Coordinates for each triangle's corners, in 0 … 1, none of which overlap, for a square texture
-/// with `texels` along a side, 1 … 8192. The surface is cut into charts (atlas/make_charts.h) whose
+/// with `texels` along a side, 1 … 8192. The surface is cut into charts whose
 /// triangles keep their shapes and relative sizes nearly. Charts are 1/512 of the side apart,
 /// but at least two texels; if there are very many, only one. Fails if even then they do not fit.
 /// Throws std::bad_alloc. Meaningless if `cancel` became true. The same bits on any number of

@@ -1,5 +1,5 @@
-// The features of a pattern: wavelength (spectrum.h), spots and area (regions.h), direction
-// (orientation.h), mean, deviation and range.
+// The features of a pattern: wavelength (spectrum.h), spots and area (regions.h), direction,
+// mean, deviation and range.
 #pragma once
 
 #include "measure/samples.h"
@@ -17,7 +17,7 @@ struct Features {
     double spots = 0;       ///< Connected regions above the level halfway from smallest to largest.
     double holes = 0;       ///< Connected regions below that level.
     double area = 0;        ///< Fraction of the cells above that level, 0 … 1.
-    double angle = 0;       ///< Direction of the stripes in degrees, [0, 180); see orientation.h.
+    double angle = 0;       ///< Direction of the stripes in degrees, [0, 180).
     double anisotropy = 0;  ///< 0 without a preferred direction … 1 for straight stripes.
     double mean = 0;
     double deviation = 0;  ///< Standard deviation over the cells.

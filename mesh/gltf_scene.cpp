@@ -2,8 +2,11 @@
 // in cycles, or places the same data again and again.
 #include "mesh/gltf_scene.h"
 
+#include "core/result.h"
 #include "mesh/gltf_instances.h"
-#include "mesh/gltf_points.h"
+#include "mesh/gltf_matrix.h"
+#include "mesh/gltf_model.h"
+#include "mesh/gltf_numbers.h"
 #include "mesh/gltf_skin.h"
 #include "mesh/gltf_texture.h"
 
@@ -13,10 +16,83 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace cascade {
 
 namespace {
+
+// The points of a glTF primitive, by default weights and joints.
+
+/// Where a mesh is placed, and in which shape and light.
+struct GltfPlacing {
+    const GltfMatrix& matrix;               ///< Of its node; skinned points ignore it.
+    const std::vector<GltfMatrix>* joints;  ///< Of its skin; null if there is none.
+    std::span<const double> weights;        ///< Of its morph targets; others have none.
+    /// Multiplies the colours of a copy.
+    std::optional<std::array<double, 3>> light = {};
+};
+
+/// An attribute of a primitive with its morph targets.
+class MorphedAttribute {
+public:
+    /// Nothing if the primitive has no such attribute of at least `least` components, or beyond
+    /// the data. Targets that lack it leave it as it is. Fails on targets for fewer points, and
+    /// beyond the data.
+    static Result<std::optional<MorphedAttribute>> of(const tinygltf::Model& model,
+                                                      const tinygltf::Primitive& primitive,
+                                                      const std::string& name, std::size_t least,
+                                                      std::span<const double> weights);
+
+    std::size_t count() const { return base_.count(); }
+    std::size_t components() const { return base_.components(); }
+    /// The number of arrays that a value is the sum of.
+    std::size_t parts() const { return 1 + targets_.size(); }
+    double at(std::size_t element, std::size_t component) const {
+        double sum = base_.at(element, component);
+        for (const Target& target : targets_) {
+            if (component < target.shift.components())
+                sum += target.weight * target.shift.at(element, component);
+        }
+        return sum;
+    }
+
+private:
+    struct Target {
+        double weight;
+        GltfNumbers shift;
+    };
+    explicit MorphedAttribute(const GltfNumbers& base) : base_(base) {}
+    GltfNumbers base_;
+    std::vector<Target> targets_;  ///< Those whose weight is not 0.
+};
+
+Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Model& model,
+                                                             const tinygltf::Primitive& primitive,
+                                                             const std::string& name,
+                                                             std::size_t least,
+                                                             std::span<const double> weights) {
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) return std::nullopt;
+    const auto base = GltfNumbers::of(model, found->second);
+    if (!base || base->components() < least) return std::nullopt;
+    MorphedAttribute attribute(*base);
+    for (std::size_t k = 0; k < std::min(weights.size(), primitive.targets.size()); ++k) {
+        const auto target = primitive.targets[k].find(name);
+        if (weights[k] == 0 || target == primitive.targets[k].end()) continue;
+        const auto shift = GltfNumbers::of(model, target->second);
+        if (!shift || shift->count() < base->count()) {
+            return failure(
+                "a morph target of the glTF file has too few points, or lies beyond "
+                "its data");
+        }
+        attribute.targets_.push_back({weights[k], *shift});
+    }
+    return attribute;
+}
 
 constexpr std::size_t steps_of_copy = 8;  ///< Numbers that are read and matrices.
 

@@ -2,19 +2,114 @@
 #include "mesh/simplify.h"
 
 #include "core/check.h"
+#include "core/vector3.h"
 #include "mesh/collapse_edges.h"
-#include "mesh/point_quadric.h"
 
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace cascade {
 
 namespace {
+
+// The error of a point that has taken the place of others, in its place and in its attributes.
+
+/// A sum over triangles of their areas times the squared distance of a point from their planes,
+/// plus the squared differences of its attributes from the linear functions that attributes are
+/// on these triangles (H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
+/// Attributes", IEEE Visualization 1999).
+class PointQuadric {
+public:
+    static constexpr std::size_t most_attributes = 3;
+    using Attributes = std::array<double, most_attributes>;
+
+    /// Adds a plane through `at`, with a unit normal.
+    void add_plane(double weight, Vector3d at, Vector3d normal);
+    /// Adds a triangle that is not degenerate; `values` are the attributes of its corners.
+    void add_triangle(const std::array<Vector3d, 3>& corners,
+                      const std::array<Attributes, 3>& values, std::size_t attributes);
+    PointQuadric& operator+=(const PointQuadric& other);
+
+    /// Of a point here. Rounding may make it a little less than 0.
+    double error(Vector3d point, const Attributes& values, std::size_t attributes) const;
+    /// Of the triangles added.
+    double area() const { return area_; }
+
+private:
+    /// Adds weight (slope · p + constant)².
+    void add_square(double weight, Vector3d slope, double constant);
+
+    std::array<double, 6> squares_{};  ///< xx, xy, xz, yy, yz, zz.
+    Vector3d linear_;
+    double constant_ = 0, area_ = 0;
+    std::array<Vector3d, most_attributes> slopes_{};  ///< Σ area · gradient.
+    Attributes offsets_{};
+};
+
+void PointQuadric::add_square(double weight, Vector3d slope, double constant) {
+    const Vector3d s = slope * weight;
+    squares_[0] += s.x * slope.x;
+    squares_[1] += s.x * slope.y;
+    squares_[2] += s.x * slope.z;
+    squares_[3] += s.y * slope.y;
+    squares_[4] += s.y * slope.z;
+    squares_[5] += s.z * slope.z;
+    linear_ = linear_ + s * constant;
+    constant_ += weight * constant * constant;
+}
+
+void PointQuadric::add_plane(double weight, Vector3d at, Vector3d normal) {
+    add_square(weight, normal, -dot(normal, at));
+}
+
+void PointQuadric::add_triangle(const std::array<Vector3d, 3>& corners,
+                                const std::array<Attributes, 3>& values, std::size_t attributes) {
+    const Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0];
+    const Vector3d normal = cross(u, v);
+    const double square = dot(normal, normal), area = length(normal) / 2;
+    add_plane(area, corners[0], normal * (1 / (2 * area)));
+    area_ += area;
+    for (std::size_t k = 0; k < attributes; ++k) {
+        // The gradient g along the triangle: g · u and g · v are the differences.
+        const double first = values[0][k];
+        const Vector3d slope = (cross(v, normal) * (values[1][k] - first) +
+                                cross(normal, u) * (values[2][k] - first)) *
+                               (1 / square);
+        const double constant = first - dot(slope, corners[0]);
+        add_square(area, slope, constant);
+        slopes_[k] = slopes_[k] + slope * area;
+        offsets_[k] += constant * area;
+    }
+}
+
+PointQuadric& PointQuadric::operator+=(const PointQuadric& other) {
+    for (std::size_t k = 0; k < squares_.size(); ++k) squares_[k] += other.squares_[k];
+    linear_ = linear_ + other.linear_;
+    constant_ += other.constant_;
+    area_ += other.area_;
+    for (std::size_t k = 0; k < most_attributes; ++k) {
+        slopes_[k] = slopes_[k] + other.slopes_[k];
+        offsets_[k] += other.offsets_[k];
+    }
+    return *this;
+}
+
+double PointQuadric::error(Vector3d p, const Attributes& values, std::size_t attributes) const {
+    double sum = constant_ + 2 * dot(linear_, p) + squares_[0] * p.x * p.x +
+                 squares_[3] * p.y * p.y + squares_[5] * p.z * p.z +
+                 2 * (squares_[1] * p.x * p.y + squares_[2] * p.x * p.z + squares_[4] * p.y * p.z);
+    for (std::size_t k = 0; k < attributes; ++k) {
+        sum += values[k] * (area_ * values[k] - 2 * (dot(slopes_[k], p) + offsets_[k]));
+    }
+    return sum;
+}
 
 using OpenMesh::Decimater::ModBaseT;
 using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdges>;

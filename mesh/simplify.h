@@ -29,7 +29,7 @@ struct Simplified {
 };
 
 /// The surface with about `triangles` triangles, at most one more: edges are collapsed into one of
-/// their ends, those first that change the surface and the pattern least (mesh/point_quadric.h).
+/// their ends, those first that change the surface and the pattern least.
 /// Components, handles and boundaries remain; corners of boundaries stay. More triangles are left
 /// where only these would be lost, or triangles would fold. The same result in every run. Values
 /// that are not finite count as 0.

@@ -12,10 +12,40 @@
 
 namespace cascade {
 
+/// One cell around each point, with the point's index. Its area is the mixed Voronoi area. The
+/// weight of the Voronoi edge across an edge is (cot α + cot β) / 2, where α and β are the angles
+/// opposite that edge (M. Meyer, M. Desbrun, P. Schröder and A. Barr, "Discrete
+/// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003, sections 3.3 and 3.5):
+/// linear finite elements with lumped masses.
+///
+/// Obtuse angles could give negative weights, which let diffusion run uphill. So areas and weights
+/// are those of the intrinsic Delaunay triangulation of the surface (mesh/intrinsic_delaunay.h),
+/// which is the same if no two opposite angles exceed 180° together. A boundary edge opposite an
+/// obtuse angle has no Voronoi edge. The areas sum to that of the surface.
+SurfaceCells vertex_cells(const SurfaceMesh& mesh);
+
+/// One cell for each face of the model, in the order of their first triangles. A face is a
+/// triangle, or the triangles of one polygon (SurfaceMesh::faces). The edges between faces are
+/// Voronoi edges: R. Mills, D. Newman, S. Smith and Q. Y. Zhang, "Morphogenesis and Skin Pattern
+/// Generation for 3D Models" (University of Southampton, 2005), give each triangle of a model three
+/// neighbours and weight diffusion by the edges' lengths.
+///
+/// The place of a triangle is its circumcentre, that of another polygon its centroid; the distance
+/// across an edge is the sum of the two places' distances from its line. Without obtuse angles the
+/// cells therefore form a Voronoi diagram and diffusion is consistent (R. Eymard, T. Gallouët and
+/// R. Herbin, "Finite Volume Methods", 2000, section 9). The circumcentre of an obtuse triangle is
+/// outside of it, and that of a right-angled one is on an edge; such a centre is moved inside until
+/// every corner has a weight of 1/9, which bounds the weights. Diffusion then has an error, of up
+/// to a tenth on squares cut in two.
+SurfaceCells face_cells(const SurfaceMesh& mesh);
+
+/// For each triangle, the index of its face's cell.
+std::vector<std::uint32_t> cells_of_triangles(const SurfaceMesh& mesh);
+
 enum class CellKind : std::uint32_t {
     places = 0,    ///< Regions around evenly spread places (surface/voronoi_cells.h).
-    faces = 1,     ///< The faces of the model (surface/face_cells.h).
-    vertices = 2,  ///< Its points (surface/vertex_cells.h).
+    faces = 1,     ///< The faces of the model.
+    vertices = 2,  ///< Its points.
 };
 
 struct CellOptions {

@@ -4,7 +4,7 @@
 //
 // The places are inserted into the old triangles as points (surface/mutual_tessellation.h), then
 // the old points are removed one by one (surface/remove_points.h), and finally edges are flipped to
-// improve triangles (surface/flip_edges.h). The topology never changes, so nothing can tear.
+// improve triangles. The topology never changes, so nothing can tear.
 #pragma once
 
 #include "core/result.h"

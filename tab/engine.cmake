@@ -19,10 +19,10 @@ list(APPEND CASCADE_WITHOUT
   core/kept_files core/late_library core/link_target core/open_below core/own_folder core/parallel
   core/plane_memory core/read_file core/temporary_file core/transform_planner
   ir/tiered_backend
-  atlas/flatten atlas/join_charts atlas/make_charts atlas/unwrap
+  atlas/flatten atlas/join_charts atlas/unwrap
   mesh/coarse_copy mesh/collapse_edges mesh/flat_triangles mesh/gltf_.* mesh/half_edges mesh/isotropic_remesh
   mesh/simplify mesh/subdivide
-  surface/flip_edges surface/mutual_tessellation surface/remove_points surface/retile
+  surface/mutual_tessellation surface/remove_points surface/retile
   surface/retiled_attribute
   picture/deflate picture/png_reader picture/read_grey_picture picture/read_png picture/drawing_pdf picture/exr
   picture/openvdb_module picture/vdb picture/write_drawing
@@ -33,7 +33,7 @@ list(APPEND CASCADE_WITHOUT
   run/session/session
   run/commands/.* run/emit_c/.*
   view/admission view/carried view/local_server view/outbox view/page_requests view/page_server
-  view/standalone_page view/surface_sender)
+  view/standalone_page)
 
 include(cmake/rooms.cmake)
 target_include_directories(cascade_options SYSTEM INTERFACE ${native_headers} ${native_headers}/eigen3)

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "core/result.h"
+#include "solvers/pass_runner.h"
 #include "tissue/division.h"
-#include "tissue/step_cubic.h"
+#include "tissue/tissue.h"
 #include "tissue/tissue_rules.h"
 #include "tissue/value_runner.h"
 
@@ -13,6 +14,23 @@
 #include <vector>
 
 namespace cascade {
+
+/// The cubic through the values and the rates at both ends of a step (Hermite), which differs from
+/// the solution by a term in step⁴. At part 1 it is the new state, bit for bit, if all is finite.
+struct StepCubic {
+    std::vector<Field>&old_state, &new_state;
+    const std::vector<Field>&old_rates, &new_rates;
+    StepMoment moment;  ///< Of the old state; `length` is that of the step.
+
+    /// The moment after a part of the step.
+    StepMoment moment_after(double part) const;
+    /// The species of one cell after a part of the step.
+    std::vector<double> values(std::int64_t element, double part) const;
+    /// Sets the species of one cell to those,
+    void put(std::vector<Field>& state, std::int64_t element, double part) const;
+    /// or the species of all cells. The state may be the new one itself.
+    void put_all(std::vector<Field>& state, double part) const;
+};
 
 /// The cells for which conditions hold at a state, in the order of their numbers. One that dies
 /// does not divide. `among`: only these are looked at; empty: all.

@@ -27,7 +27,7 @@ struct TissueTime {
     double stiffness = 0;
     std::int64_t estimated_at = -1;
     double last_event = 0;  ///< The time of the last division or death,
-    double progress = 0;    ///< and the greatest progress since then (tissue/rest_watch.h).
+    double progress = 0;    ///< and the greatest progress since then (tissue/tissue_loop.h).
     // When births and deaths were last compared with the number of cells:
     double compared_at = 0;
     std::int64_t compared_births = 0, compared_deaths = 0, compared_cells = 0;

@@ -1,14 +1,17 @@
 // Tries steps of a tissue (internal to tissue/).
 #pragma once
 
+#include "core/parallel.h"
 #include "solvers/stepper.h"
 #include "tissue/cell_lists.h"
 #include "tissue/event_search.h"
-#include "tissue/number_sums.h"
 #include "tissue/sense_kernel.h"
+#include "tissue/tissue.h"
 #include "tissue/tissue_loop.h"
+#include "tissue/tissue_rules.h"
 #include "tissue/value_runner.h"
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +19,16 @@
 #include <vector>
 
 namespace cascade {
+
+/// The root mean square over the cells of each of these planes, or of their differences to
+/// `others`; NaN if one is NaN. Threads share the planes.
+std::vector<double> root_mean_squares(const std::vector<Field>& fields, const Tissue& tissue,
+                                      Team& team, const std::vector<Field>* others = nullptr);
+
+/// The size of each species, which errors and speeds are compared with: the mean radius for places,
+/// for others their root mean square, and at least 1e-30.
+std::vector<double> sizes_of(const std::vector<Field>& species, const Tissue& tissue,
+                             const TissueSpecies& roles, double mean_radius, Team& team);
 
 /// A failure of the tissue as it is.
 TissueFailure failure_of(TissueFailure::Kind kind, const Tissue& tissue);

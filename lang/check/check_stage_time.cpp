@@ -1,6 +1,6 @@
 // Time of a stage: defaults of its settings, and whether they are compatible.
 #include "lang/check/check.h"
-#include "lang/check/check_semi_implicit.h"
+#include "lang/check/check_solver.h"
 #include "lang/check/check_time.h"
 
 #include <fmt/format.h>

@@ -6,7 +6,6 @@
 #include "core/run_control.h"
 #include "lang/program/models.h"
 #include "mesh/animals.h"
-#include "mesh/knot.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
 #include "mesh/shapes.h"

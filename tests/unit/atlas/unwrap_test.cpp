@@ -1,7 +1,6 @@
 // Texture coordinates of ours: charts of shapes whose distortion has bounds, and hard surfaces.
 #include "mesh/animals.h"
 #include "mesh/edge_pairs.h"
-#include "mesh/knot.h"
 #include "mesh/make_mesh.h"
 #include "mesh/shapes.h"
 #include "tests/support/never.h"

@@ -1,5 +1,4 @@
 // Shapes whose areas, volumes and forms are known.
-#include "mesh/knot.h"
 #include "mesh/shapes.h"
 
 #include "unit/mesh/measures.h"

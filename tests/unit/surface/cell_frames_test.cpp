@@ -1,8 +1,7 @@
 // The axes of angles on a surface, and how far diffusion in a direction may go in each cell.
 #include "surface/cell_frames.h"
 #include "surface/cell_gradient.h"
-#include "surface/face_cells.h"
-#include "surface/vertex_cells.h"
+#include "surface/make_cells.h"
 #include "unit/surface/even_cells.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,6 @@
 // The faces and the points of models as cells, against what is known of both.
 #include "mesh/intrinsic_delaunay.h"
-#include "surface/face_cells.h"
 #include "surface/make_cells.h"
-#include "surface/vertex_cells.h"
 #include "unit/surface/cell_checks.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Requirements of solvers that take the reaction of each cell implicitly (internal to the checker).
+// Requirements of solvers that are implicit in diffusion or in each cell (internal to the checker).
 #pragma once
 
 #include "core/diagnostics.h"
@@ -17,5 +17,10 @@ inline constexpr std::size_t most_species_in_equations = 12;
 /// program must be free of errors otherwise.
 void check_local_solver(const Program& program, std::uint32_t stage, Span span,
                         Diagnostics& diagnostics);
+
+/// Reports at `span` what a semi-implicit solver of the stage cannot handle; nothing for other
+/// solvers. The program must be free of errors otherwise.
+void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
+                         Diagnostics& diagnostics);
 
 }  // namespace cascade::checking
