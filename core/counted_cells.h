@@ -1,4 +1,4 @@
-// The cells of a plane that count.
+// Loops over the cells of planes.
 #pragma once
 
 #include "core/plane.h"
@@ -6,6 +6,19 @@
 #include <cstdint>
 
 namespace cascade {
+
+/// Calls `use` with the cell of each plane, cell by cell and in order. The planes are of one
+/// layout.
+template <typename Use, typename First, typename... Others>
+void for_each_cell(const Use& use, First& first, Others&... others) {
+    const PlaneLayout& layout = first.layout();
+    const auto use_row = [&](auto* const... rows) {
+        for (std::int64_t i = 0; i < layout.width; ++i) use(rows[i]...);
+    };
+    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
+        use_row(first.row(row), others.row(row)...);
+    }
+}
 
 /// Calls `use(row, i)` for the cells in which the mask `counted` is not 0, in order; for all cells
 /// without a mask.

@@ -92,11 +92,11 @@ private:
 
 using Mask = Plane<std::uint8_t>;  ///< 1 if a cell is frozen, else 0.
 
-/// The values of a species or of a varying parameter: a plane in the precision of the run. Loops
-/// over the cells are written for a `Plane<Number>` and selected once, by visit().
-///
-/// If the precision is known, cells are accessed as in a plane: `field.row<double>(j)`, or
-/// `field.row(j)` for binary32. Asking for the other precision is a bug.
+/// The values of a species or of a varying parameter, in the precision of the run and in memory of
+/// this process. Loops over cells (core/counted_cells.h) are written for a `Plane<Number>` and
+/// selected once, by visit(). If the precision is known, rows are accessed as in a plane:
+/// `field.row<double>(j)`, or `field.row(j)` for binary32. A pointer into a field may be held until
+/// the field is assigned, given away or destroyed.
 class Field {
 public:
     Field() = default;

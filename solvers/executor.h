@@ -69,11 +69,12 @@ public:
     /// makes the registers that it needs. The problem must outlive its use.
     virtual void prepare(const StepProblem& problem) = 0;
 
-    // Planes. What fetch() returns may be read until planes are next written, put or exchanged.
+    // Planes. What fetch() returns, and pointers into it, may be read until planes are next
+    // written, put or exchanged. What take() returns belongs to the caller until it is put.
 
     virtual const std::vector<Field>& fetch(int copy) = 0;
     virtual const std::vector<Field>& fetch(RegisterId scratch) = 0;
-    /// Gives a copy away; it must be put before anything else uses it.
+    /// Gives a copy away; it must be put before anything else uses that copy.
     virtual std::vector<Field> take(int copy) = 0;
     virtual void put(int copy, std::vector<Field> species) = 0;
     /// Swaps two scratch registers.

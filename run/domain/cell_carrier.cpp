@@ -7,6 +7,7 @@
 // way between them the curvature of f cancels, as does the slope where cells are uneven around p.
 #include "run/domain/cell_carrier.h"
 
+#include "core/counted_cells.h"
 #include "core/floating_point.h"
 #include "core/resample.h"
 #include "run/domain/field_values.h"
@@ -144,9 +145,8 @@ public:
     Mask carried(const Mask& cells) const override {
         const Field shares = carried(to_field(cells, Precision::single));
         Mask result{PlaneLayout(wider_)};
-        visit_cells(wider_, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
-            result.at(i, j, k) = shares.at(i, j, k) >= 0.5F ? 1 : 0;
-        });
+        for_each_cell([](std::uint8_t& to, float share) { to = share >= 0.5F ? 1 : 0; }, result,
+                      shares.plane());
         return result;
     }
 

@@ -2,6 +2,7 @@
 // value counts as inside unless it is 0, denormal or NaN.
 #include "run/domain/domain_mask.h"
 
+#include "core/counted_cells.h"
 #include "ir/word_format.h"
 
 #include <cmath>
@@ -36,15 +37,13 @@ DomainMask make_domain_mask(const Field& values, const Grid& grid) {
     mask.neighbourhood = Field(layout, values.precision());
     Plane<float> inside(layout);
     values.visit([&](const auto& plane) {
-        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-            for (std::int64_t i = 0; i < layout.width; ++i) {
-                const auto value = plane.row(row)[i];
-                const bool is_inside = std::isnormal(value) || std::isinf(value);
-                inside.row(row)[i] = is_inside ? 1 : 0;
-                mask.inside.row(row)[i] = is_inside ? 1 : 0;
-                mask.cells += is_inside ? 1 : 0;
-            }
-        }
+        for_each_cell(
+            [&](auto value, float& as_number, std::uint8_t& as_mask) {
+                as_mask = std::isnormal(value) || std::isinf(value) ? 1 : 0;
+                as_number = as_mask;
+                mask.cells += as_mask;
+            },
+            plane, inside, mask.inside);
     });
     fill_halo(inside.origin(), layout, grid.boundary);
     mask.neighbourhood.visit([&]<typename Number>(Plane<Number>& words) {
@@ -74,11 +73,11 @@ Mask still_cells(const DomainMask& mask, const Mask* frozen) {
 Field with_outside(const Field& field, const DomainMask& mask, float value) {
     Field copy = field.clone();
     copy.visit([&](auto& plane) {
-        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
-                if (mask.inside.row(row)[i] == 0) plane.row(row)[i] = value;
-            }
-        }
+        for_each_cell(
+            [&](auto& cell, bool is_inside) {
+                if (!is_inside) cell = value;
+            },
+            plane, mask.inside);
     });
     return copy;
 }

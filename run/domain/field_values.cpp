@@ -2,6 +2,7 @@
 #include "run/domain/field_values.h"
 
 #include "core/check.h"
+#include "core/counted_cells.h"
 #include "core/floating_point.h"
 
 #include <cmath>
@@ -33,26 +34,18 @@ double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
 }  // namespace
 
 Mask to_mask(const Field& field) {
-    const PlaneLayout& layout = field.layout();
-    Mask mask(layout);
+    Mask mask(field.layout());
     const FlushDenormals environment;
     field.visit([&](const auto& plane) {
-        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-            for (std::int64_t i = 0; i < layout.width; ++i)
-                mask.row(row)[i] = plane.row(row)[i] != 0;
-        }
+        for_each_cell([](std::uint8_t& is, auto value) { is = value != 0; }, mask, plane);
     });
     return mask;
 }
 
 Field to_field(const Mask& mask, Precision precision) {
-    const PlaneLayout& layout = mask.layout();
-    Field field(layout, precision);
-    field.visit([&](auto& plane) {
-        for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-            for (std::int64_t i = 0; i < layout.width; ++i)
-                plane.row(row)[i] = mask.row(row)[i] != 0 ? 1 : 0;
-        }
+    Field field(mask.layout(), precision);
+    field.visit([&]<typename Number>(Plane<Number>& plane) {
+        for_each_cell([](Number& value, bool is) { value = is ? 1 : 0; }, plane, mask);
     });
     return field;
 }

@@ -2,6 +2,7 @@
 #include "run/emit_c/c_tables.h"
 
 #include "core/check.h"
+#include "core/counted_cells.h"
 #include "core/overloaded.h"
 #include "lang/lower/lower.h"
 
@@ -167,10 +168,7 @@ std::string CTables::kernel(const CellKernel& kernel) {
 
 std::string CTables::add_data(const Field& field) {
     CData data{fmt::format("{}_data{}", request_.name, stage_.data.size() + 1), {}};
-    const PlaneLayout& layout = field.layout();
-    for (std::int64_t row = 0; row < layout.row_count(); ++row) {
-        data.values.insert(data.values.end(), field.row(row), field.row(row) + layout.width);
-    }
+    for_each_cell([&](float value) { data.values.push_back(value); }, field.plane());
     stage_.data.push_back(std::move(data));
     return stage_.data.back().name;
 }

@@ -1,6 +1,7 @@
 // A body is drawn as that on which cells crawl, without any cells.
 #include "run/pictures/body_picture.h"
 
+#include "core/counted_cells.h"
 #include "core/run_control.h"
 #include "lang/check/check.h"
 #include "run/pictures/drawn_cells.h"
@@ -17,21 +18,6 @@
 
 namespace cascade {
 
-namespace {
-
-/// Calls visit(value) for every cell of a volume.
-template <typename Visit>
-void for_each_cell(Field& volume, const Visit& visit) {
-    const PlaneLayout layout = volume.layout();
-    for (std::int64_t k = 0; k < layout.depth; ++k) {
-        for (std::int64_t j = 0; j < layout.height; ++j) {
-            for (std::int64_t i = 0; i < layout.width; ++i) visit(volume.at(i, j, k));
-        }
-    }
-}
-
-}  // namespace
-
 bool draws_body(const Script& script, const PictureRequest& request) {
     const DomainSettings& domain = script.program->domain;
     return domain.grid.depth > 1 && !domain.model && !request.flat && request.slice == Slice() &&
@@ -43,15 +29,19 @@ std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask
     Field inside = mask ? with_outside(values, *mask, nothing_outside) : values.clone();
     if (inside.precision() != Precision::single) inside = inside.converted(Precision::single);
     float largest = 0, magnitude = 0;
-    for_each_cell(inside, [&](float value) {
-        if (!std::isfinite(value)) return;
-        largest = std::max(largest, value);
-        magnitude = std::max(magnitude, std::abs(value));
-    });
+    for_each_cell(
+        [&](float value) {
+            if (!std::isfinite(value)) return;
+            largest = std::max(largest, value);
+            magnitude = std::max(magnitude, std::abs(value));
+        },
+        inside);
     if (!(largest > 0)) return std::make_shared<const SurfaceMesh>();
-    for_each_cell(inside, [&](float& value) {
-        value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
-    });
+    for_each_cell(
+        [&](float& value) {
+            value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
+        },
+        inside);
     constexpr double coarsest = 64;  // Cells of an edge, with which every grid is small.
     for (double edge = 1; edge < coarsest; edge *= 2) {
         auto body = grown_body(inside, boundary, never_cancelled, edge);

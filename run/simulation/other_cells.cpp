@@ -1,6 +1,7 @@
 // Environments are made anew for their grid; values are carried (run/domain/cell_carrier.h).
 #include "run/simulation/other_cells.h"
 
+#include "core/counted_cells.h"
 #include "core/resample.h"
 #include "lang/program/scaled_lengths.h"
 #include "run/domain/field_values.h"
@@ -97,12 +98,11 @@ StageState on_grid(const StageState& state, const Grid& from, const Grid& to) {
 void keep_frozen(Field& values, const Mask& frozen, const Field& start) {
     if (frozen.empty()) return;
     values.visit([&]<typename Number>(Plane<Number>& plane) {
-        for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-            const Number* const from = start.row<Number>(row);
-            for (std::int64_t i = 0; i < plane.layout().width; ++i) {
-                if (frozen.row(row)[i]) plane.row(row)[i] = from[i];
-            }
-        }
+        for_each_cell(
+            [](Number& value, Number before, bool is_frozen) {
+                if (is_frozen) value = before;
+            },
+            plane, start.plane<Number>(), frozen);
     });
 }
 

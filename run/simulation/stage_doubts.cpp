@@ -64,12 +64,8 @@ LostChange lost_change(const Field& species, const Field& rates, double step, co
 /// a + factor · b.
 Field sum(const Field& a, const Field& b, double factor) {
     Field result = a.clone();
-    auto& values = result.plane();
-    for (std::int64_t row = 0; row < values.layout().row_count(); ++row) {
-        for (std::int64_t i = 0; i < values.layout().width; ++i) {
-            values.row(row)[i] += static_cast<float>(factor * b.row(row)[i]);
-        }
-    }
+    for_each_cell([&](float& value, float other) { value += static_cast<float>(factor * other); },
+                  result.plane(), b);
     return result;
 }
 
@@ -197,13 +193,12 @@ double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
     double products = 0, squares = 0;
     for (std::size_t s = 0; s < rates.size(); ++s) {
         const auto &here = rates[s].plane(), &then = there[s].plane();
-        for (std::int64_t row = 0; row < here.layout().row_count(); ++row) {
-            for (std::int64_t i = 0; i < here.layout().width; ++i) {
-                const double rate = here.row(row)[i];
-                products += rate * (then.row(row)[i] - rate);
+        for_each_cell(
+            [&](double rate, double other) {
+                products += rate * (other - rate);
                 squares += rate * rate;
-            }
-        }
+            },
+            here, then);
     }
     return squares > 0 ? -products / squares / step : 0;
 }

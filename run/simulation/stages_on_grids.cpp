@@ -1,6 +1,7 @@
 // States in the cells of the domain are made when something asks for them.
 #include "run/simulation/stages_on_grids.h"
 
+#include "core/counted_cells.h"
 #include "run/domain/field_values.h"
 #include "run/simulation/finer_run.h"
 #include "run/stage/memory.h"
@@ -8,18 +9,6 @@
 #include <utility>
 
 namespace cascade {
-
-namespace {
-
-/// Calls visit(row of `a`, row of `b`, width) for all rows of two planes of the same cells.
-template <typename Number, typename Visit>
-void visit_rows(Plane<Number>& a, const Plane<Number>& b, const Visit& visit) {
-    for (std::int64_t row = 0; row < a.layout().row_count(); ++row) {
-        for (std::int64_t i = 0; i < a.layout().width; ++i) visit(a.row(row)[i], b.row(row)[i]);
-    }
-}
-
-}  // namespace
 
 StagesOnGrids::StagesOnGrids(std::unique_ptr<Environment> domain, std::uint32_t stages_that_run)
     : domain_(std::move(domain)), states_(domain_->program->stages.size()) {
@@ -84,10 +73,10 @@ Field StagesOnGrids::in_cells_of(std::uint32_t stage, ItemId item, Field values)
     Field result(state(stage).field(item));
     const Field& shown = in_domain()[stage].field(item);
     values.visit([&]<typename Number>(Plane<Number>& plane) {
-        visit_rows(plane, shown.plane<Number>(), [](Number& to, Number from) { to -= from; });
+        for_each_cell([](Number& to, Number from) { to -= from; }, plane, shown.plane<Number>());
         const Field change = carrier->carried(values);
-        visit_rows(result.plane<Number>(), change.plane<Number>(),
-                   [](Number& to, Number by) { to += by; });
+        for_each_cell([](Number& to, Number by) { to += by; }, result.plane<Number>(),
+                      change.plane<Number>());
     });
     return result;
 }

@@ -1,6 +1,7 @@
 // Cells get their places first; all other values are formulas of these and of earlier stages.
 #include "run/simulation/tissue_stage.h"
 
+#include "core/counted_cells.h"
 #include "lang/calculus/algebra.h"
 #include "lang/program/stage_kinds.h"
 #include "run/domain/field_values.h"
@@ -270,11 +271,7 @@ std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan
     std::vector<Field> undefined;
     for (std::uint32_t k = 0; k < plan.result_count; ++k) {
         Field& field = undefined.emplace_back(tissue.layout(), tissue.precision());
-        field.visit([](auto& plane) {
-            for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-                std::fill_n(plane.row(row), plane.layout().width, NAN);
-            }
-        });
+        field.visit([](auto& plane) { for_each_cell([](auto& value) { value = NAN; }, plane); });
     }
     return undefined;
 }

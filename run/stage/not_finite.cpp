@@ -2,6 +2,8 @@
 // accordingly: shorter steps, or a look at the formulas.
 #include "run/stage/not_finite.h"
 
+#include "core/counted_cells.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,12 +43,8 @@ double largest_magnitude(std::span<const Field> species) {
     double largest = 0;
     for (const Field& field : species) {
         field.visit([&](const auto& plane) {
-            for (std::int64_t row = 0; row < plane.layout().row_count(); ++row) {
-                for (std::int64_t column = 0; column < plane.layout().width; ++column) {
-                    const double value = plane.row(row)[column];
-                    largest = std::max(largest, std::abs(value));
-                }
-            }
+            for_each_cell([&](double value) { largest = std::max(largest, std::abs(value)); },
+                          plane);
         });
     }
     return largest;
