@@ -15,17 +15,8 @@ namespace {
 template <typename Step>
 double value_of(const Step& step, const std::vector<double>& registers) {
     const double a = registers[step.a], b = registers[step.b];
-    switch (step.function) {
-        case Function::add: return a + b;
-        case Function::subtract: return a - b;
-        case Function::multiply: return a * b;
-        case Function::divide: return a / b;
-        case Function::power:
-        case Function::pow:
-            if (b == 2) return a * a;
-            break;
-        default: break;
-    }
+    const bool is_power = step.function == Function::power || step.function == Function::pow;
+    if (is_power && b == 2) return a * a;
     return fold(step.function, std::array{a, b, registers[step.c]})
         .value_or(std::numeric_limits<double>::quiet_NaN());
 }

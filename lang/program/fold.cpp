@@ -45,10 +45,14 @@ bool fold(Function function, const OperandColumns& operands, std::span<double> v
 }
 
 std::optional<double> fold(Function function, std::span<const double> operands) {
-    double value = 0;
-    const OperandColumns columns{&operands[0], &operands[1], &operands[2]};
-    if (!fold(function, columns, {&value, 1})) return std::nullopt;
-    return value;
+    [[maybe_unused]] const double a = operands[0], b = operands[1], c = operands[2];
+    switch (function) {
+        // clang-format off
+#define CASCADE_ELEMENTARY(id, value, ...) case Function::id: return value;
+#include "lang/vocabulary/elementary.def"
+        // clang-format on
+        default: return std::nullopt;
+    }
 }
 
 }  // namespace cascade
