@@ -14,7 +14,6 @@
 #include "run/simulation/stages_on_grids.h"
 #include "run/simulation/tissue_run.h"
 #include "run/simulation/tissue_stage.h"
-#include "run/simulation/values_of_start.h"
 #include "run/stage/memory.h"
 #include "run/stage/stage_remarks.h"
 #include "run/tissue/ground.h"

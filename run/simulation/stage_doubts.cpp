@@ -16,10 +16,58 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace cascade {
 
 namespace {
+
+/// Species of more bytes are not copied for trial steps.
+constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
+/// The number of trial steps: at most a quarter of those before.
+constexpr std::int64_t most_trial_steps = 8, least_trial_steps = 4;
+
+/// Can the species be copied, and were there enough steps that a few more cost little?
+bool allows_trial_steps(const EndedStage& ended) {
+    const StageState& state = ended.state;
+    Schedule schedule = ended.timer.schedule(state.steps, 1);
+    schedule.most_kept_bytes = most_copied_bytes;
+    const Environment& here = ended.view.environment();
+    return !ended.view.stage().time.chooses_steps() && state.steps / 4 >= least_trial_steps &&
+           keeps_copy(schedule, state.species.size(), here.grid, here.precision());
+}
+
+/// Takes `count` steps with `timer`; `observe` receives the state before the first and after each.
+/// Returns false if a value was spoiled.
+bool take_trial_steps(const EndedStage& ended, StageTimer& timer, std::int64_t count,
+                      const Observer& observe) {
+    StageState& state = ended.state;
+    Schedule schedule = timer.schedule(state.steps, 1);
+    schedule.last_step = state.steps + count;
+    schedule.end_time = std::numeric_limits<double>::infinity();
+    schedule.check = 0;
+    schedule.ends = {};
+    schedule.most_kept_bytes = 0;
+    schedule.threads = ended.view.environment().threads;
+    // The last step of a duration may have been shorter.
+    const double speed = state.numbers[ended.view.system().speed_item()];
+    if (schedule.time.clock.step > 0) schedule.time.clock.set_step(state.steps, speed);
+
+    const std::int64_t steps = state.steps;
+    const double t = state.t;
+    std::vector<Field> copies;
+    for (const Field& field : state.species) copies.push_back(field.clone());
+    bool is_finite = false;
+    {
+        const OtherSpecies trial(state, std::move(copies));
+        observe(steps, t, state.species);
+        RunControl unwatched;
+        is_finite =
+            !advance(timer.problem(), schedule, state.species, unwatched, {}, observe).not_finite;
+    }
+    state.go_to(steps, t);
+    return is_finite;
+}
 
 /// The number of shorter steps that replace one in a check. Two would not be enough: a value that
 /// repeats with the step often repeats with half of it, too.

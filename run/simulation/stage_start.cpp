@@ -1,6 +1,7 @@
 // Starting values are computed in the order of the plans, and sides after them.
 #include "run/simulation/stage_start.h"
 
+#include "core/check.h"
 #include "core/floating_point.h"
 #include "core/side_cells.h"
 #include "core/with_commas.h"
@@ -9,8 +10,9 @@
 #include "run/domain/field_values.h"
 #include "run/domain/metric_planes.h"
 #include "run/simulation/stage_view.h"
-#include "run/stage/bind_side.h"
+#include "run/stage/bound_kernel.h"
 #include "run/stage/plan_runner.h"
+#include "solvers/changing_side.h"
 #include "solvers/convolution.h"
 
 #include <fmt/format.h>
@@ -57,6 +59,52 @@ bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
         if (across > 1e-3 * std::abs(at(MetricPlane::inverse_22, offset))) return true;
     }
     return false;
+}
+
+/// The value of a side of species number `species` of a stage, ready to be computed for any moment.
+/// The parts that do not depend on the moment are computed here, from the present state.
+ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId species, Side side,
+                       const Compile& compile, const BindingContext& context, Team& team) {
+    const IdVector<StepInvariantId, Field> step_invariants(
+        run_plan(plans.once, compile, context, context.grid, team));
+    CHECK(plans.each.passes.size() == 1, "a side's value takes one pass");
+    const BoundKernel& bound = plans.each.passes[0].bound;
+    ChangingSide changing;
+    changing.species = species;
+    changing.side = side;
+    changing.kernel = compile(*bound.kernel);
+    changing.precision = context.precision;
+    changing.varies = !plans.each.is_uniform;
+    const StageState& own = context.states[stage];
+    for (const PlaneSource& source : bound.fields) {
+        const auto* const item = std::get_if<StageItem>(&source);
+        const bool is_own = item != nullptr && item->stage == stage;
+        changing.reads.push_back(is_own ? own.species_of_item[item->item] : std::nullopt);
+        if (changing.reads.back()) {
+            changing.strips.emplace_back();
+            continue;
+        }
+        const auto* const id = std::get_if<StepInvariantId>(&source);
+        const Field& plane = id != nullptr ? step_invariants[*id] : plane_of(source, context);
+        std::vector<double>& strip = changing.strips.emplace_back(values_beside(plane, side));
+        strip.resize(strip.size() + PlaneLayout::row_pad);  // Kernels read whole vectors.
+    }
+    for (const UniformSource& source : bound.uniforms) {
+        const auto slot = static_cast<std::uint32_t>(changing.uniforms.size());
+        double& value = changing.uniforms.emplace_back(0);
+        if (const auto* const each = std::get_if<StageItem>(&source)) {
+            value = context.states[each->stage].numbers[each->item];
+        } else if (const auto* const id = std::get_if<StepInvariantId>(&source)) {
+            value = step_invariants[*id].number_at(0, 0);
+        } else if (source == UniformSource(TimeValue::time)) {
+            changing.time_slot = slot;
+        } else {
+            CHECK(source == UniformSource(TimeValue::step),
+                  "a side's value knows numbers, t and step");
+            changing.step_slot = slot;
+        }
+    }
+    return changing;
 }
 
 /// Finds the rules of species and definitions at the sides. Values come from formulas that may read

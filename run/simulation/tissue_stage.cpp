@@ -11,6 +11,7 @@
 #include "run/tissue/grown_body.h"
 #include "tissue/founders.h"
 #include "tissue/random_direction.h"
+#include "tissue/tissue.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,7 @@
 #include <numbers>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 namespace cascade {
 
@@ -223,6 +225,17 @@ private:
     TissueStage stage_;
 };
 
+/// Does a plan read the cells of an earlier stage?
+bool reads_earlier_cells(const StepPlan& plan, std::uint32_t stage) {
+    const auto is_earlier = [stage](const PlaneSource& source) {
+        const auto* const item = std::get_if<StageItem>(&source);
+        return item != nullptr && item->stage != stage;
+    };
+    return std::ranges::any_of(plan.passes, [&](const Pass& pass) {
+        return std::ranges::any_of(pass.bound.fields, is_earlier);
+    });
+}
+
 }  // namespace
 
 TissueStage tissue_stage(const Environment& environment, std::span<const StageState> states,
@@ -303,6 +316,27 @@ Result<void> start_tissue(const Environment& environment, std::span<StageState> 
     auto started = TissueStart(environment, states, stage).run();
     if (started) states[stage].started = true;
     return started;
+}
+
+std::vector<std::vector<double>> values_of_start(const Environment& environment,
+                                                 std::span<const StageState> states,
+                                                 std::uint32_t k) {
+    const Tissue& tissue = *states[k].tissue;
+    const StepPlan& plan = environment.plans->start(k);
+    if (tissue.count() == 0 || reads_earlier_cells(plan, k)) return {};
+    const TissueStage stage = tissue_stage(environment, states, k);
+    const auto values = evaluate_in(tissue, plan, stage, neighbours_of(stage, 0),
+                                    environment.tissue_kernels->once(), *environment.team);
+    if (!values) return {};
+    std::vector<std::vector<double>> by_item(environment.program->system_of(k).item_count());
+    for (std::size_t r = 0; r < values->size(); ++r) {
+        const ItemId item = plan.results[r];
+        if (environment.stage(k).uniform[item]) continue;
+        for (const std::uint32_t cell : tissue.by_number()) {
+            by_item[item.index()].push_back(value_in((*values)[r], tissue, cell));
+        }
+    }
+    return by_item;
 }
 
 }  // namespace cascade

@@ -41,4 +41,9 @@ std::string remark_on_cells(const StageView& view);
 Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
                           std::uint32_t stage, const std::atomic<bool>& cancel);
 
+/// Simulation::values_of_start().
+std::vector<std::vector<double>> values_of_start(const Environment& environment,
+                                                 std::span<const StageState> states,
+                                                 std::uint32_t stage);
+
 }  // namespace cascade
