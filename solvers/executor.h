@@ -76,6 +76,7 @@ public:
     virtual const std::vector<Field>& fetch(RegisterId scratch) = 0;
     /// Gives a copy away; it must be put before anything else uses that copy.
     virtual std::vector<Field> take(int copy) = 0;
+    /// Takes a copy back, its halo included.
     virtual void put(int copy, std::vector<Field> species) = 0;
     /// Swaps two scratch registers.
     virtual void exchange(RegisterId one, RegisterId other) = 0;
@@ -117,5 +118,6 @@ public:
 std::unique_ptr<Executor> make_thread_executor(const StepProblem& problem,
                                                std::vector<Field> species, int most_threads,
                                                bool keeps);
+using MakeExecutor = decltype(&make_thread_executor);
 
 }  // namespace cascade

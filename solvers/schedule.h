@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/plane.h"
+#include "solvers/executor.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
 #include "solvers/tiling_memory.h"
@@ -84,6 +85,7 @@ struct Schedule {
     std::function<bool()> keep_is_due = {};
     Keeper keep = {};
     int threads = 1;
+    MakeExecutor executor = make_thread_executor;  ///< What takes the steps.
     /// The tiling; none: chosen by size and by time. No result depends on it.
     std::optional<Tiling> tiling = {};
     /// Knows which tiling was fastest in earlier runs and receives the result of this one; may be

@@ -9,9 +9,9 @@
 namespace cascade {
 
 Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
-                 bool keeps) {
+                 bool keeps, MakeExecutor make) {
     CHECK(problem.species_needs_halo.size() == species.size(), "a flag for every species");
-    executor_ = make_thread_executor(problem, std::move(species), most_threads, keeps);
+    executor_ = make(problem, std::move(species), most_threads, keeps);
     if (!keeps) roles_.kept = CopyRoles::none;
     // Values may have changed since the problem was bound.
     executor_->fill_halos(roles_.current, problem.sides_moment);
