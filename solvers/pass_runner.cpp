@@ -51,40 +51,35 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
             of_pass.copied = copied_columns(of_pass.rules.back(), layout_.width);
         }
     }
-    with_number(problem.precision, [&](auto zero) {
-        auto& all = std::get<Convolutions<decltype(zero)>>(convolutions_);
-        using Number = decltype(zero);
-        auto& solvers =
-            std::get<std::vector<std::vector<std::unique_ptr<ConstraintSolver<Number>>>>>(solvers_);
-        for (const StepProblem::Pass& pass : problem.passes) {
-            auto& of_pass = solvers.emplace_back();
-            for (const StepProblem::Solve& each : pass.solves) {
-                of_pass.push_back(std::make_unique<ConstraintSolver<Number>>(each, problem));
-            }
-        }
-        for (const StepProblem::Pass& pass : problem.passes) {
-            std::vector<std::size_t>& of_pass = convolutions_of_pass_.emplace_back();
-            for (const StepProblem::Convolution& each : pass.convolutions) {
-                const auto known = std::find_if(all.begin(), all.end(), [&](const auto& other) {
-                    return *other.first == *each.weights;
-                });
-                of_pass.push_back(static_cast<std::size_t>(known - all.begin()));
-                if (known != all.end()) continue;
-                all.emplace_back(each.weights, std::make_unique<ConvolutionRunner<decltype(zero)>>(
-                                                   problem.grid, *each.weights));
-            }
-        }
-    });
     row_values_.assign(problem.aggregates,
                        std::vector<double>(static_cast<std::size_t>(layout_.row_count())));
-    if (problem.diffusion.empty()) return;
-    std::vector<SideRules> sides;
-    for (const SpeciesId id : ids_below<SpeciesId>(problem.diffusion.size())) {
-        sides.push_back(problem.sides_of(id));
-    }
     with_number(problem.precision, [&](auto zero) {
-        std::get<std::optional<WaveFilter<decltype(zero)>>>(wave_filters_)
-            .emplace(problem.grid, sides);
+        using Number = decltype(zero);
+        auto& helpers = helpers_.emplace<Helpers<Number>>();
+        std::vector<std::pair<const WeightedLags*, std::shared_ptr<ConvolutionRunner<Number>>>> all;
+        const auto runner_of = [&](const WeightedLags& weights) {
+            for (const auto& [known, runner] : all) {
+                if (*known == weights) return runner;
+            }
+            const auto made = std::make_shared<ConvolutionRunner<Number>>(problem.grid, weights);
+            return all.emplace_back(&weights, made).second;
+        };
+        for (const StepProblem::Pass& pass : problem.passes) {
+            auto& solvers = helpers.solvers.emplace_back();
+            for (const StepProblem::Solve& each : pass.solves) {
+                solvers.push_back(std::make_unique<ConstraintSolver<Number>>(each, problem));
+            }
+            auto& convolutions = helpers.convolutions.emplace_back();
+            for (const StepProblem::Convolution& each : pass.convolutions) {
+                convolutions.push_back(runner_of(*each.weights));
+            }
+        }
+        if (problem.diffusion.empty()) return;
+        std::vector<SideRules> sides;
+        for (const SpeciesId id : ids_below<SpeciesId>(problem.diffusion.size())) {
+            sides.push_back(problem.sides_of(id));
+        }
+        helpers.waves.emplace(problem.grid, sides);
     });
 }
 
@@ -150,12 +145,11 @@ void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Re
 template <typename Number>
 void PassRunner::solve(const Worker& worker, std::size_t pass_number, Team& team,
                        Registers registers, const StepMoment& moment) {
-    auto& solvers =
-        std::get<std::vector<std::vector<std::unique_ptr<ConstraintSolver<Number>>>>>(solvers_);
+    const auto& solvers = std::get<Helpers<Number>>(helpers_).solvers[pass_number];
     const std::vector<StepProblem::Solve>& all = problem_.passes[pass_number].solves;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        solvers[pass_number][k]->solve(team, worker.number, worker.count, registers, moment,
-                                       temporaries_[all[k].target]);
+        solvers[k]->solve(team, worker.number, worker.count, registers, moment,
+                          temporaries_[all[k].target]);
     }
 }
 
@@ -163,13 +157,12 @@ void PassRunner::solve(const Worker& worker, std::size_t pass_number, Team& team
 template <typename Number>
 void PassRunner::convolve(const Worker& worker, std::size_t pass_number, Team& team,
                           Registers registers) {
-    const auto& runners = std::get<Convolutions<Number>>(convolutions_);
+    const auto& runners = std::get<Helpers<Number>>(helpers_).convolutions[pass_number];
     const std::vector<StepProblem::Convolution>& all = problem_.passes[pass_number].convolutions;
     for (std::size_t k = 0; k < all.size(); ++k) {
         Number* const target = temporaries_[all[k].target].template origin<Number>();
-        runners[convolutions_of_pass_[pass_number][k]].second->apply(
-            team, worker.number, worker.count,
-            read(all[k].operand, registers).template origin<Number>(), target);
+        runners[k]->apply(team, worker.number, worker.count,
+                          read(all[k].operand, registers).template origin<Number>(), target);
         if (!all[k].needs_halo || !problem_.has_halo()) continue;
         fill_halo_from(target, layout_, all[k].boundary, {worker.rows});
         team.barrier();
@@ -229,9 +222,9 @@ void PassRunner::filter(Worker& worker, Arguments<Number>& arguments, const Swee
     typename WaveFilter<Number>::FilteredPlanes planes{planes_of(filter.in_register), {}, {}};
     for (const RegisterId id : filter.kept) planes.kept.push_back(planes_of(id));
     if (filter.error) planes.error = planes_of(*filter.error);
-    std::get<std::optional<WaveFilter<Number>>>(wave_filters_)
-        ->apply(team, worker.number, worker.count, planes, worker.symbols, filter.response,
-                moment.length);
+    std::get<Helpers<Number>>(helpers_).waves->apply(team, worker.number, worker.count, planes,
+                                                     worker.symbols, filter.response,
+                                                     moment.length);
 }
 
 template <typename Number>

@@ -17,8 +17,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <tuple>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -142,19 +140,16 @@ private:
 
     const StepProblem& problem_;
     PlaneLayout layout_;
-    /// By pass; null for passes without a filter.
-    std::tuple<std::optional<WaveFilter<float>>, std::optional<WaveFilter<double>>> wave_filters_;
+    /// What passes need besides kernels.
     template <typename Number>
-    using Convolutions = std::vector<
-        std::pair<std::shared_ptr<const WeightedLags>, std::unique_ptr<ConvolutionRunner<Number>>>>;
-    /// Equal convolutions share one.
-    std::tuple<Convolutions<float>, Convolutions<double>> convolutions_;
-    /// By pass, one for each of its constraints.
-    std::tuple<std::vector<std::vector<std::unique_ptr<ConstraintSolver<float>>>>,
-               std::vector<std::vector<std::unique_ptr<ConstraintSolver<double>>>>>
-        solvers_;
-    /// By pass, and convolution of the pass: their positions in convolutions_.
-    std::vector<std::vector<std::size_t>> convolutions_of_pass_;
+    struct Helpers {
+        std::optional<WaveFilter<Number>> waves;  ///< If the problem has diffusion for filters.
+        /// By pass and convolution of the pass; equal ones share a runner.
+        std::vector<std::vector<std::shared_ptr<ConvolutionRunner<Number>>>> convolutions;
+        /// By pass and constraint of the pass.
+        std::vector<std::vector<std::unique_ptr<ConstraintSolver<Number>>>> solvers;
+    };
+    std::variant<Helpers<float>, Helpers<double>> helpers_;
     struct PassSides {
         std::vector<SideRules> rules;       ///< By result, before any of them changes.
         std::optional<HaloColumns> copied;  ///< What a kernel fills columns of the halo with.
