@@ -3,6 +3,7 @@
 
 #include "lang/check/check_expression.h"
 #include "lang/check/check_names.h"
+#include "lang/check/read_setting.h"
 #include "lang/check/system_inheritance.h"
 #include "lang/program/shape_form.h"
 
@@ -117,15 +118,6 @@ void check_picture(Workspace& work, const ast::Script& script,
 void warn_unread(Workspace& work);
 
 // Settings of systems and stages.
-
-/// `iterations` or `interval`: a whole number from 0 or 1 to most_iterations;
-/// reports an error otherwise.
-std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& script,
-                                        const ast::Statement& statement);
-
-/// True if the statement has one value; reports an error at the second value
-/// otherwise.
-bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
 /// Applies one of the settings iterations, interval, frozen, speed and show, or
 /// one of time.

@@ -15,7 +15,7 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double usual_radius = 0.02, farthest_reach = 10;
+constexpr double usual_radius = 0.02;
 
 Formula number(double value, Span span = {}) { return {{Node{value, span}}}; }
 
@@ -217,14 +217,7 @@ void SystemChecker::check_rules_of_cells() {
     }
     if (const auto reach = rules_.find("reach"); reach != rules_.end()) {
         const Declaration& from = *reach->second;
-        if (!has_one_value(work_, *from.script, *from.statement)) return;
-        const ast::Expression value = from.statement->values[0];
-        rules.reach = check_constant(work_, *from.script, value, "reach").value_or(rules.reach);
-        if (!(rules.reach >= 1 && rules.reach <= farthest_reach)) {
-            work_.diagnostics.error(from.script->expressions[value.root].span,
-                                    fmt::format("reach must be from 1 to {}", farthest_reach),
-                                    "cells touch up to this multiple of the sum of their radii");
-        }
+        put(rules.reach, read_number(work_, *from.script, *from.statement));
     }
     const auto frame = starting_frame(rules.ey, rules.ez);
     for (std::uint32_t k = 0; k < 4; ++k) {

@@ -17,9 +17,8 @@ namespace cascade::checking {
 namespace {
 
 constexpr double most_cells = 2147483648.0;  // 2^31: a cell's number fits a 32-bit word.
-constexpr double largest_seed = 4294967295.0;
-constexpr double same_length = 1e-6;     // Relative; what rounding in a script may leave.
-constexpr double least_spacing = 1e-15;  // Its square and inverse square are normal numbers.
+constexpr double same_length = 1e-6;         // Relative; what rounding in a script may leave.
+constexpr double least_spacing = 1e-15;      // Its square and inverse square are normal numbers.
 
 /// The number of cells along one side of the grid; reports errors.
 std::optional<double> check_side(Workspace& work, const ast::Script& script,
@@ -117,20 +116,6 @@ void check_boundary(Workspace& work, const ast::Script& script, const ast::State
     if (along.size() > 1) target.z = along.size() > 2 ? along[2] : Boundary::periodic;
 }
 
-void check_spacing(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (!has_one_value(work, script, statement)) return;
-    const auto spacing = check_constant(work, script, statement.values[0], "spacing");
-    if (!spacing) return;
-    if (!(*spacing >= least_spacing && *spacing <= 1 / least_spacing)) {
-        work.diagnostics.error(span_of(script, statement.values[0]),
-                               *spacing > 0 ? "spacing must be from 1e-15 to 1e15"
-                                            : "spacing must be above 0",
-                               "it is the side of a cell in your unit of length");
-        return;
-    }
-    work.draft->domain.grid.spacing = *spacing;
-}
-
 /// The spacing at which the sides of the grid, which is known, have these lengths.
 void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     Grid& grid = work.draft->domain.grid;
@@ -158,18 +143,6 @@ void check_extent(Workspace& work, const ast::Script& script, const ast::Stateme
     }
 }
 
-void check_seed(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (!has_one_value(work, script, statement)) return;
-    const auto seed = check_constant(work, script, statement.values[0], "seed");
-    if (!seed) return;
-    if (!(*seed >= 0) || *seed > largest_seed || *seed != std::floor(*seed)) {
-        work.diagnostics.error(span_of(script, statement.values[0]),
-                               "seed must be a whole number from 0 to 4294967295");
-        return;
-    }
-    work.draft->domain.seed = static_cast<std::uint32_t>(*seed);
-}
-
 /// The domain consists of the cells in which the mask is not 0.
 void check_mask(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (!has_one_value(work, script, statement)) return;
@@ -178,38 +151,6 @@ void check_mask(Workspace& work, const ast::Script& script, const ast::Statement
     auto checked = check_number(work, script, statement.values[0], scope);
     if (!checked) return;
     work.draft->domain.mask = {std::move(checked->formula), span_of(script, statement.values[0])};
-}
-
-void check_precision(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (!has_one_value(work, script, statement)) return;
-    const ast::Expr& value = script.expressions[statement.values[0].root];
-    if (std::holds_alternative<ast::Garbage>(value.node)) return;
-    const auto* name = std::get_if<ast::Name>(&value.node);
-    const std::string_view word = name != nullptr ? name->name : std::string_view();
-    if (const auto precision = precision_of_name(word)) {
-        work.draft->domain.precision = *precision;
-        return;
-    }
-    work.diagnostics.error(value.span, "the precision is single or double",
-                           did_you_mean(work, word, words_taken_by(Setting::precision)));
-}
-
-/// The words in order of StencilKind.
-constexpr std::array<std::string_view, 3> stencil_words{"cross", "isotropic", "fourth"};
-
-void check_stencil(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (!has_one_value(work, script, statement)) return;
-    const ast::Expr& value = script.expressions[statement.values[0].root];
-    if (std::holds_alternative<ast::Garbage>(value.node)) return;
-    const auto* name = std::get_if<ast::Name>(&value.node);
-    const std::string_view word = name != nullptr ? name->name : std::string_view();
-    const auto found = std::find(stencil_words.begin(), stencil_words.end(), word);
-    if (found == stencil_words.end()) {
-        work.diagnostics.error(value.span, "a stencil is cross, isotropic or fourth",
-                               did_you_mean(work, word, words_taken_by(Setting::stencil)));
-        return;
-    }
-    work.draft->domain.stencil = static_cast<StencilKind>(found - stencil_words.begin());
 }
 
 /// Other stencils than the cross need cells in straight rows.
@@ -223,7 +164,7 @@ void check_place_of_stencil(Workspace& work, const ast::Block& block) {
         work.diagnostics.error(
             statement.span,
             fmt::format("the stencil {} needs {}",
-                        stencil_words[static_cast<std::size_t>(domain.stencil)],
+                        words_taken_by(Setting::stencil)[static_cast<std::size_t>(domain.stencil)],
                         is_bent ? "cells that are squares, and these lie on a surface"
                                 : "all cells of the grid, and the domain has a mask"),
             "stencil: cross works there");
@@ -294,15 +235,17 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
     const std::string_view name = statement.name.text;
     if (is_side_word(name)) return check_domain_side(work, script, statement);
     if (!is_setting_of(SettingBlock::domain, name)) return report_no_setting(work, statement.name);
+    DomainSettings& domain = work.draft->domain;
     switch (*setting_named(name)) {
         case Setting::grid: return check_grid(work, script, statement);
         case Setting::boundary: return check_boundary(work, script, statement);
-        case Setting::spacing: return check_spacing(work, script, statement);
+        case Setting::spacing:
+            return put(domain.grid.spacing, read_number(work, script, statement));
         case Setting::extent:
         case Setting::mask: return;  // After the grid and its lengths: see check_domain().
-        case Setting::seed: return check_seed(work, script, statement);
-        case Setting::stencil: return check_stencil(work, script, statement);
-        case Setting::precision: return check_precision(work, script, statement);
+        case Setting::seed: return put(domain.seed, read_number(work, script, statement));
+        case Setting::stencil: return put(domain.stencil, read_word(work, script, statement));
+        case Setting::precision: return put(domain.precision, read_word(work, script, statement));
         default: return;  // Settings of surfaces and models: see check_domain().
     }
 }

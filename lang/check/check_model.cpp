@@ -17,8 +17,6 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double most_stretched = 100;
-
 /// What a surface takes in brackets; the others stand alone.
 struct ShapeSizes {
     ModelShape shape;
@@ -91,9 +89,11 @@ public:
         // to the script's own model.
         const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
-        if (const auto* laplacian = find("laplacian")) check_laplacian(*laplacian);
+        if (const auto* laplacian = find("laplacian")) {
+            put(model_->laplacian, read_word(work_, script_, *laplacian));
+        }
         const auto* unit = is_own || model_of(script_, domain_) ? find("unit") : nullptr;
-        if (unit != nullptr) check_unit(*unit);
+        if (unit != nullptr) put(model_->unit, read_number(work_, script_, *unit));
         if (const auto* up = is_own ? find("up") : find_option(script_, "up")) check_up(*up);
         const auto* facing = is_own ? find("facing") : find_option(script_, "facing");
         if (facing != nullptr) check_facing(*facing);
@@ -251,47 +251,12 @@ private:
                                     did_you_mean(work_, word, words_taken_by(Setting::cells)));
             return;
         }
-        const auto count = check_constant(work_, script_, statement.values[0], "cells");
-        if (!count) return;
-        if (!(*count >= 1 && *count <= most_model_cells) || *count != std::floor(*count)) {
-            work_.diagnostics.error(span_of(statement),
-                                    "cells must be a whole number from 1 to 268435456",
-                                    "cells: 20000, or --cells 20000");
-            return;
-        }
-        model_->count = static_cast<std::int64_t>(*count);
-    }
-
-    void check_laplacian(const ast::Statement& statement) {
-        if (!has_one_value(work_, script_, statement)) return;
-        const std::string_view word = word_of(value_of(script_, statement));
-        if (word == "turk") {
-            model_->laplacian = ModelLaplacian::turk;
-        } else if (word != "fv") {
-            work_.diagnostics.error(span_of(statement), "the laplacian of a model is fv or turk",
-                                    did_you_mean(work_, word, words_taken_by(Setting::laplacian)));
-        }
-    }
-
-    void check_unit(const ast::Statement& statement) {
-        if (!has_one_value(work_, script_, statement)) return;
-        const auto unit = check_constant(work_, script_, statement.values[0], "unit");
-        if (!unit) return;
-        if (!(*unit > 0) || !std::isfinite(*unit)) {
-            work_.diagnostics.error(span_of(statement), "the unit of length must be above 0");
-            return;
-        }
-        model_->unit = *unit;
+        put(model_->count, read_number(work_, script_, statement));
     }
 
     void check_up(const ast::Statement& statement) {
-        if (!has_one_value(work_, script_, statement)) return;
-        const std::string_view word = word_of(value_of(script_, statement));
-        if (const auto axis = axis_of_name(word)) {
-            model_->stance = usual_stance(*axis);
-        } else {
-            work_.diagnostics.error(span_of(statement),
-                                    "the axis that points upwards is x, y or z");
+        if (const auto axis = read_word(work_, script_, statement)) {
+            model_->stance = usual_stance(static_cast<Axis>(*axis));
         }
     }
 
@@ -330,15 +295,7 @@ private:
                                     "directions: axis(0, 1, 0)");
             return;
         }
-        if (!has_one_value(work_, script_, *stretch)) return;
-        const auto ratio = check_constant(work_, script_, stretch->values[0], "stretch");
-        if (!ratio) return;
-        if (!(*ratio >= 1 && *ratio <= most_stretched)) {
-            work_.diagnostics.error(span_of(*stretch), "stretch is from 1 to 100",
-                                    "it is the ratio of a cell's length to its width");
-            return;
-        }
-        model_->stretch = *ratio;
+        put(model_->stretch, read_number(work_, script_, *stretch));
     }
 
     Workspace& work_;

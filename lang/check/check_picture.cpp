@@ -17,8 +17,6 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double least_detail = 0.05, most_detail = 100;
-
 /// The last stage that takes a step, or the last stage if none does.
 std::uint32_t shown_stage(const Program& program) {
     for (std::size_t i = program.stages.size(); i > 0; --i) {
@@ -53,7 +51,7 @@ public:
         if (setting == Setting::body) return check_body(statement);
         if (!shows_cells()) return report_no_cells(statement.name);
         if (setting == Setting::shape) return check_shape(statement);
-        if (setting == Setting::detail) return check_detail(statement);
+        if (setting == Setting::detail) return void(read_number(work_, script_, statement));
         if (setting == Setting::skin) return check_skin(statement);
         check_type(statement, ValueType::number);
     }
@@ -162,15 +160,6 @@ private:
         } else if (!is_declared(name->name) && shape() == nullptr) {
             report_unknown_shape(work_, script_, {value.span, name->name});
         }
-    }
-
-    void check_detail(const ast::Statement& statement) {
-        const auto pixels = check_constant(work_, script_, statement.values[0], "detail");
-        if (!pixels || (*pixels >= least_detail && *pixels <= most_detail)) return;
-        work_.diagnostics.error(value_of(script_, statement).span,
-                                fmt::format("detail is a number of pixels from {} to {}",
-                                            least_detail, most_detail),
-                                "the fewer, the more facets");
     }
 
     /// The word after `shape:`; empty if there is none.

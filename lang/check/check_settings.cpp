@@ -2,71 +2,12 @@
 // check_time.cpp.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_time.h"
+#include "lang/check/read_setting.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace cascade::checking {
-
-namespace {
-
-/// A hint for `0,0125`, digits on both sides of a comma: a decimal comma.
-std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statement& statement) {
-    if (statement.values.size() != 2) return "";
-    const Span whole = span_of(script, statement.values[0]);
-    const Span part = span_of(script, statement.values[1]);
-    const auto is_number = [&](std::size_t k) {
-        return std::holds_alternative<ast::Number>(
-            script.expressions[statement.values[k].root].node);
-    };
-    if (!is_number(0) || !is_number(1) || part.begin != whole.end + 1) return "";
-    const std::string_view name = statement.name.text;
-    const bool is_count = name == "iterations" || name == "interval" || name == "duration";
-    if (is_count && part.end - part.begin == 3) {
-        const auto number = [&](std::size_t k) {
-            return std::get<ast::Number>(script.expressions[statement.values[k].root].node).value;
-        };
-        return fmt::format("write '{}'", 1000 * number(0) + number(1));
-    }
-    return "the decimal separator is a point: write '.' for ','";
-}
-
-}  // namespace
-
-bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (statement.values.size() == 1) return true;
-    if (statement.values.empty()) return false;
-    work.diagnostics.error(span_of(script, statement.values[1]),
-                           fmt::format("'{}' takes one value", statement.name.text),
-                           hint_of_decimal_comma(script, statement));
-    return false;
-}
-
-std::optional<std::int64_t> check_count(Workspace& work, const ast::Script& script,
-                                        const ast::Statement& statement) {
-    const std::string_view name = statement.name.text;
-    const Span span = span_of(script, statement.values[0]);
-    const auto value = check_constant(work, script, statement.values[0], name);
-    if (!value) return std::nullopt;
-    const double least = name == "iterations" ? 0 : 1;
-    if (*value < least) {
-        const bool is_share = *value > 0 && name == "interval";
-        work.diagnostics.error(span, fmt::format("{} must be at least {}", name, least),
-                               is_share ? "it counts steps: write 'interval: 50'" : "");
-        return std::nullopt;
-    }
-    if (*value > static_cast<double>(most_iterations)) {
-        work.diagnostics.error(span, fmt::format("{} must be at most 1000000000", name));
-        return std::nullopt;
-    }
-    if (*value != std::floor(*value)) {  // Also true for NaN.
-        work.diagnostics.error(span, fmt::format("{} must be a whole number", name));
-        return std::nullopt;
-    }
-    return static_cast<std::int64_t>(*value);
-}
 
 void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                    const Scope& scope, Settings& settings) {
@@ -85,9 +26,9 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
         return;
     }
     if (setting == Setting::iterations) {
-        settings.iterations = check_count(work, script, statement);
+        put(settings.iterations, read_number(work, script, statement));
     } else if (setting == Setting::interval) {
-        settings.interval = check_count(work, script, statement);
+        put(settings.interval, read_number(work, script, statement));
     } else if (setting == Setting::show) {
         Scope picture = scope;
         picture.context = Context::picture;

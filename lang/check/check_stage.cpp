@@ -5,8 +5,9 @@
 #include "lang/check/check_convolution.h"
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
-#include "lang/check/check_size.h"
 #include "lang/check/check_time.h"
+#include "lang/check/read_setting.h"
+#include "lang/check/setting_words.h"
 #include "lang/program/dependencies.h"
 #include "lang/vocabulary/settings.h"
 
@@ -195,7 +196,8 @@ bool StageChecker::set_of_cells(const Declaration& declaration) {
 /// Takes a setting that stages of fields alone have.
 void StageChecker::set_of_fields(const ast::Statement& statement) {
     if (statement.name.text == "size") {
-        stage().size = check_size(work_, script_, statement);
+        const auto wanted = read_number(work_, script_, statement);
+        if (wanted) stage().size = StageSize{*wanted, value_of(script_, statement).span};
         return;
     }
     if (statement.values.empty()) return;

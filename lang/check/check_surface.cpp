@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace cascade::checking {
 
 namespace {
@@ -45,34 +43,6 @@ void check_position(Workspace& work, const ast::Script& script, const ast::State
     surface.span = statement.name.span;
 }
 
-Span span_of_value(const ast::Script& script, const ast::Statement& statement) {
-    return script.expressions[statement.values[0].root].span;
-}
-
-/// `metric: 0` or `metric: 1`.
-void check_metric(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (!has_one_value(work, script, statement)) return;
-    const auto metric = check_constant(work, script, statement.values[0], "metric");
-    if (!metric) return;
-    if (*metric != 0 && *metric != 1) {
-        work.diagnostics.error(span_of_value(script, statement), "metric is 0 or 1");
-        return;
-    }
-    work.draft->domain.surface->has_metric = *metric != 0;
-}
-
-void check_unit(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
-    if (!has_one_value(work, script, statement)) return;
-    const auto unit = check_constant(work, script, statement.values[0], "unit");
-    if (!unit) return;
-    if (!(*unit > 0) || !std::isfinite(*unit)) {
-        work.diagnostics.error(span_of_value(script, statement),
-                               "the unit of length must be above 0");
-        return;
-    }
-    work.draft->domain.surface->unit = *unit;
-}
-
 const ast::Statement* find_statement(const ast::Block& block, std::string_view name) {
     for (const ast::Statement& statement : block.statements) {
         if (statement.name.text == name && !statement.values.empty()) return &statement;
@@ -106,8 +76,9 @@ void check_surface(Workspace& work, const ast::Script& script, const ast::Block&
         work.diagnostics.error(surface->name.span, "a domain has a surface or a spacing, not both",
                                "unit: … is the length of one unit on a surface");
     }
-    if (metric != nullptr) check_metric(work, script, *metric);
-    if (unit != nullptr) check_unit(work, script, *unit);
+    SurfaceSettings& settings = *work.draft->domain.surface;
+    if (metric != nullptr) put(settings.has_metric, read_number(work, script, *metric));
+    if (unit != nullptr) put(settings.unit, read_number(work, script, *unit));
 }
 
 }  // namespace cascade::checking

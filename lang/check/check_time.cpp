@@ -12,10 +12,6 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double least_tolerance = 1e-7, most_tolerance = 0.1;
-constexpr double least_step = 1e-12;
-constexpr double longest_duration = 1e12;
-
 const ast::Expr& root_of(const ast::Script& script, ast::Expression expression) {
     return script.expressions[expression.root];
 }
@@ -37,18 +33,6 @@ const ast::Call* call_of(const ast::Script& script, ast::Expression expression,
 ast::Expression argument_of(const ast::Script& script, ast::Expression expression,
                             const ast::Call& call) {
     return {expression.first, script.arguments[call.first_argument]};
-}
-
-/// A constant in a range; reports an error and returns nothing if it is not.
-std::optional<double> check_range(Workspace& work, const ast::Script& script,
-                                  ast::Expression expression, std::string_view subject, double low,
-                                  double high) {
-    const auto value = check_constant(work, script, expression, subject);
-    if (!value) return std::nullopt;
-    if (*value >= low && *value <= high) return value;
-    work.diagnostics.error(root_of(script, expression).span,
-                           fmt::format("{} must be from {} to {}", subject, low, high));
-    return std::nullopt;
 }
 
 void check_solver(Workspace& work, const ast::Script& script, ast::Expression value,
@@ -78,8 +62,14 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
                                    "as in steady(0.01)");
             return;
         }
-        time.steady =
-            check_range(work, script, argument_of(script, value, *call), "steady", 1e-6, 0.9);
+        const ast::Expression change = argument_of(script, value, *call);
+        const auto largest = check_constant(work, script, change, "steady");
+        if (largest && !(*largest >= 1e-6 && *largest <= 0.9)) {
+            work.diagnostics.error(root_of(script, change).span,
+                                   "steady must be from 1e-06 to 0.9");
+            return;
+        }
+        time.steady = largest;
         return;
     }
     // A condition reads the stage as it is when tested, as a picture does.
@@ -109,14 +99,14 @@ void check_time_setting(Workspace& work, const ast::Script& script, const ast::S
     } else if (name == "solver") {
         check_solver(work, script, value, time);
     } else if (name == "tolerance") {
-        time.tolerance = check_range(work, script, value, name, least_tolerance, most_tolerance);
+        put(time.tolerance, read_number(work, script, statement));
     } else if (name == "largest_step") {
-        time.largest_step = check_range(work, script, value, name, least_step, longest_duration);
+        put(time.largest_step, read_number(work, script, statement));
         time.largest_step_span = statement.name.span;
     } else if (name == "duration") {
-        time.duration = check_range(work, script, value, name, 0, longest_duration);
+        put(time.duration, read_number(work, script, statement));
     } else if (name == "check") {
-        time.check = check_count(work, script, statement);
+        put(time.check, read_number(work, script, statement));
     } else if (name == "until") {
         check_until(work, script, value, scope, time);
     } else {

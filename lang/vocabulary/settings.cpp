@@ -2,21 +2,41 @@
 #include "lang/vocabulary/settings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 namespace cascade {
 
 namespace {
 
+using Kind = SettingLimits::Kind;
+
+constexpr SettingLimits between(double low, double high) { return {Kind::between, low, high}; }
+constexpr SettingLimits above(double low, double high = std::numeric_limits<double>::max()) {
+    return {Kind::above, low, high};
+}
+constexpr SettingLimits whole(double low, double high) { return {Kind::whole, low, high}; }
+constexpr SettingLimits count(double low, double high) { return {Kind::count, low, high}; }
+constexpr SettingLimits length(double low, double high) { return {Kind::length, low, high}; }
+constexpr SettingLimits word() { return {Kind::word}; }
+
 constexpr SettingInfo setting_table[] = {
-#define CASCADE_SETTING(word, block, domains, value, words, meaning) \
-    {#word, SettingBlock::block, Domains::domains, SettingValue::value, words, meaning},
+#define CASCADE_SETTING(name, block, domains, value, words, ...) \
+    {#name, SettingBlock::block, Domains::domains, SettingValue::value, words, __VA_ARGS__},
 #define CASCADE_SETTING_AGAIN CASCADE_SETTING
 #include "lang/vocabulary/settings.def"
 };
 
 }  // namespace
+
+bool SettingLimits::contain(double value) const {
+    if (!(value >= low && value <= high)) return false;
+    if (kind == Kind::above) return value > low;
+    const bool is_whole = kind == Kind::whole || kind == Kind::count;
+    return !is_whole || value == std::floor(value);
+}
 
 const SettingInfo& info(Setting setting) {
     return setting_table[static_cast<std::size_t>(setting)];

@@ -47,6 +47,23 @@ enum class SettingValue : std::uint8_t {
     text,
 };
 
+/// Which numbers are values of a setting.
+struct SettingLimits {
+    enum class Kind : std::uint8_t {
+        none,
+        between,
+        above,   ///< Above `low`, and finite.
+        whole,   ///< Whole numbers.
+        count,   ///< The same; what is wrong with another one is said exactly.
+        length,  ///< From `low`, which is above 0.
+        word,    ///< Only words.
+    };
+    Kind kind = Kind::none;
+    double low = 0, high = 0;
+
+    bool contain(double value) const;
+};
+
 struct SettingInfo {
     std::string_view word;
     SettingBlock block;
@@ -54,6 +71,9 @@ struct SettingInfo {
     SettingValue value;
     std::string_view words;
     std::string_view meaning;
+    SettingLimits limits = {};
+    std::string_view refusal = "";
+    std::string_view hint = "";
 };
 const SettingInfo& info(Setting setting);
 /// All rows of the table: those of `Setting` in its order, then those of words that another block
