@@ -4,9 +4,6 @@
 #include "app/add_value.h"
 #include "app/help.h"
 #include "core/file_format.h"
-#include "core/palette.h"
-#include "lang/program/models.h"
-#include "lang/program/program.h"
 #include "run/commands/dump.h"
 #include "run/simulation/simulation.h"
 #include "run/stage/kernel_cache.h"
@@ -21,99 +18,6 @@ void add_script(CLI::App& app, Options& options, const std::string& help) {
     app.add_option_function<std::string>(
            "SCRIPT", [&](const std::string& path) { options.scripts.push_back(path); }, help)
         ->type_name("");
-}
-
-void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about) {
-    app.add_option_function<std::vector<std::string>>(
-           "--allow-read",
-           [&](const std::vector<std::string>& folders) {
-               for (const std::string& folder : folders) {
-                   if (folder == "all") reads.everything = true;
-                   else reads.folders.emplace_back(folder);
-               }
-           },
-           about)
-        ->allow_extra_args(false)
-        ->trigger_on_parse()
-        ->type_name("FOLDER|all")
-        ->group("Limits");
-}
-
-constexpr const char* changes_group = "Changes to the script, without editing it";
-
-/// Of the domain.
-void add_domain_overrides(CLI::App& app, Overrides& overrides) {
-    const std::string group = changes_group;
-    add_value(
-        app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices",
-        [&](const std::string& text) {
-            overrides.grid_is_one_number = text.find('x') == std::string::npos;
-            return parse_grid(text);
-        },
-        [&](auto grid) { overrides.grid = grid; })
-        ->group(group);
-    add_value(app, "--mesh", "MODEL",
-              "Grow on this model: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box, "
-              "knot, creature,\nleopard, giraffe, zebra, fish or frog",
-              any_text,
-              [&](const std::string& model) {
-                  overrides.model = model;
-                  overrides.model_is_asked_for = true;
-              })
-        ->group(group);
-    add_value(app, "--cells", "N", "Cells on the model: a number, 'faces' or 'vertices'", any_text,
-              [&](const std::string& cells) { overrides.cells = cells; })
-        ->group(group);
-    add_value(app, "--up", "x|y|z", "Which axis of the model points upwards; without it y",
-              one_of({"x", "y", "z"}),
-              [&](const std::string& up) { overrides.up = axis_of_name(up); })
-        ->group(group);
-    add_value(app, "--facing", "AXIS",
-              "Along which axis of the model it looks, such as -y; pictures\nshow its face",
-              one_of({heading_names.begin(), heading_names.end()}),
-              [&](const std::string& facing) { overrides.facing = heading_of_name(facing); })
-        ->group(group);
-    add_value(app, "--seed", "N", "The seed of all random numbers",
-              whole_number(0, std::numeric_limits<std::uint32_t>::max()),
-              [&](auto seed) { overrides.seed = static_cast<std::uint32_t>(seed); })
-        ->group(group);
-    add_value(app, "--precision", "NAME", "Numbers of 32 bits, 'single', or of 64, 'double'",
-              one_of({"single", "double"}),
-              [&](const std::string& name) { overrides.precision = precision_of_name(name); })
-        ->group(group);
-}
-
-void add_overrides(CLI::App& app, Overrides& overrides) {
-    add_domain_overrides(app, overrides);
-    const std::string group = changes_group;
-    app.add_flag(
-           "--fast", overrides.fast,
-           "Steps with fewer roundings: a * b + c in one operation;\nother bits than without it")
-        ->group(group);
-    app.add_option("--set", overrides.sets,
-                   "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
-        ->allow_extra_args(false)
-        ->type_name("NAME=EXPR")
-        ->group(group);
-    // Accepted here as in scripts, though no longer listed (solver_of()).
-    std::vector<std::string> solvers = solver_names();
-    solvers.emplace_back("imex2");
-    add_value(app, "--solver", "NAME",
-              help::in_lines(solver_names()) +
-                  "\nfor every stage, which takes as much time as before",
-              one_of(std::move(solvers)), [&](auto solver) { overrides.solver = solver; })
-        ->group(group);
-    add_value(app, "--steps", "N", "At most N steps in every stage",
-              whole_number(0, std::numeric_limits<std::int64_t>::max()),
-              [&](auto steps) { overrides.steps = steps; })
-        ->group(group);
-    add_value(app, "--until-stage", "NAME", "The last stage that runs", any_text, [&](auto stage) {
-        overrides.until_stage = stage;
-    })->group(group);
-    add_allow_read(
-        app, overrides.reads,
-        "The script may read files below this folder too, not\nonly below its own; 'all': "
-        "everywhere; may be given\nagain");
 }
 
 void add_simulation(CLI::App& app, Options& options, const std::string& threads) {

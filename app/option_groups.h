@@ -15,6 +15,7 @@ inline constexpr const char* execution_group =
     "How it is computed (the results are the same, bit for bit)";
 
 void add_script(CLI::App& app, Options& options, const std::string& help);
+void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about);
 void add_overrides(CLI::App& app, Overrides& overrides);
 /// Of `cascade run`, or those of them that `cascade sweep` has, too.
 void add_picture_options(CLI::App& app, PictureChanges& picture, bool is_sweep = false);

@@ -1,10 +1,13 @@
-// Options of pictures and of `cascade run`, from their tables.
+// Options of pictures and runs, and of what changes a script, from their tables.
 #include "app/add_value.h"
 #include "app/help.h"
 #include "app/option_groups.h"
+#include "core/axis.h"
 #include "core/palette.h"
+#include "lang/program/program.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <type_traits>
@@ -75,6 +78,18 @@ auto word_of(const Names& names, Named value_of) {
 }
 auto quality() { return word_of(quality_names, quality_named); }
 auto lighting() { return word_of(lighting_names, lighting_named); }
+auto axis() { return word_of(axis_names, axis_of_name); }
+auto heading() { return word_of(heading_names, heading_of_name); }
+auto precision() {
+    return word_of(std::array{name_of(Precision::single), name_of(Precision::binary64)},
+                   precision_of_name);
+}
+/// `imex2` is taken as in scripts, though no longer listed (solver_of()).
+auto solver() {
+    std::vector<std::string> names = solver_names();
+    names.emplace_back("imex2");
+    return one_of(std::move(names));
+}
 auto yes_or_no() {
     return named({"yes", "no"}, [](const std::string& word) { return word == "yes"; });
 }
@@ -120,6 +135,12 @@ CLI::Option* add_row(CLI::App& app, const std::string& flag, const std::string& 
                      const std::string& help, typed_values::Texts,
                      std::vector<std::string>& member) {
     return app.add_option(flag, member, help)->allow_extra_args(false)->type_name(value);
+}
+
+/// Of the name of a member.
+std::string flag_of(std::string name) {
+    std::replace(name.begin(), name.end(), '_', '-');
+    return "--" + name;
 }
 
 /// What the table does not say: options that need or exclude another one.
@@ -175,6 +196,66 @@ void add_files(CLI::App& app, RunRequest& run) {
         ->type_name("FILE")
         ->group(files);
     add_run_options(app, run, RunOption::sheet, RunOption::resume);
+}
+
+void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about) {
+    app.add_option_function<std::vector<std::string>>(
+           "--allow-read",
+           [&](const std::vector<std::string>& folders) {
+               for (const std::string& folder : folders) {
+                   if (folder == "all") reads.everything = true;
+                   else reads.folders.emplace_back(folder);
+               }
+           },
+           about)
+        ->allow_extra_args(false)
+        ->trigger_on_parse()
+        ->type_name("FOLDER|all")
+        ->group("Limits");
+}
+
+void add_overrides(CLI::App& app, Overrides& overrides) {
+    const std::string group = "Changes to the script, without editing it";
+    const auto add_rows = [&](bool with_domain) {
+#define CASCADE_OVERRIDE(type, member, of_domain, is_statement, values, value, help)        \
+    if (of_domain == with_domain) {                                                         \
+        add_row(app, flag_of(#member), value, help, typed_values::values, overrides.member) \
+            ->group(group);                                                                 \
+    }
+#include "run/script/override_options.def"
+    };
+    add_value(
+        app, "--grid", "WxH", "Columns and rows; '60' is a line of cells, '64x64x32'\nhas slices",
+        [&](const std::string& text) {
+            overrides.grid_is_one_number = text.find('x') == std::string::npos;
+            return parse_grid(text);
+        },
+        [&](auto grid) { overrides.grid = grid; })
+        ->group(group);
+    add_value(app, "--mesh", "MODEL",
+              "Grow on this model: a file (PLY, OBJ, OFF, STL,\nglTF, GLB), sphere, torus, box, "
+              "knot, creature,\nleopard, giraffe, zebra, fish or frog",
+              any_text,
+              [&](const std::string& model) {
+                  overrides.model = model;
+                  overrides.model_is_asked_for = true;
+              })
+        ->group(group);
+    add_rows(true);
+    app.add_flag(
+           "--fast", overrides.fast,
+           "Steps with fewer roundings: a * b + c in one operation;\nother bits than without it")
+        ->group(group);
+    app.add_option("--set", overrides.sets,
+                   "A parameter or setting: ka=1/400, large.ka=1/400;\nmay be given again")
+        ->allow_extra_args(false)
+        ->type_name("NAME=EXPR")
+        ->group(group);
+    add_rows(false);
+    add_allow_read(
+        app, overrides.reads,
+        "The script may read files below this folder too, not\nonly below its own; 'all': "
+        "everywhere; may be given\nagain");
 }
 
 }  // namespace cascade::option_groups

@@ -34,6 +34,26 @@ std::vector<std::string> texts_of(const std::string& text) {
     return texts;
 }
 
+template <typename T>
+nlohmann::json stored_override(const T& value) {
+    if constexpr (requires { name_of(value); }) return name_of(value);
+    else return value;
+}
+
+template <typename T>
+void read_override(JsonFields& fields, const char* key, std::optional<T>& value) {
+    fields.read(key, value);
+}
+void read_override(JsonFields& fields, const char* key, std::optional<Precision>& value) {
+    fields.read(key, value, precision_of_name);
+}
+void read_override(JsonFields& fields, const char* key, std::optional<Axis>& value) {
+    fields.read(key, value, axis_of_name);
+}
+void read_override(JsonFields& fields, const char* key, std::optional<Heading>& value) {
+    fields.read(key, value, heading_of_name);
+}
+
 }  // namespace
 
 std::string overrides_to_json(const Overrides& overrides) {
@@ -43,17 +63,12 @@ std::string overrides_to_json(const Overrides& overrides) {
         json["grid"] = {overrides.grid->width, overrides.grid->height};
         if (overrides.grid->depth > 1) json["grid"].push_back(overrides.grid->depth);
     }
-    if (overrides.seed) json["seed"] = *overrides.seed;
-    if (overrides.steps) json["steps"] = *overrides.steps;
-    if (overrides.until_stage) json["until_stage"] = *overrides.until_stage;
+#define CASCADE_OVERRIDE(type, member, ...) \
+    if (overrides.member) json[#member] = stored_override(*overrides.member);
+#include "run/script/override_options.def"
     if (!overrides.used.empty()) json["used"] = overrides.used;
-    if (overrides.solver) json["solver"] = *overrides.solver;
-    if (overrides.precision) json["precision"] = name_of(*overrides.precision);
     if (overrides.fast) json["fast"] = true;
     if (overrides.model) json["mesh"] = portable_path(*overrides.model);
-    if (overrides.cells) json["cells"] = *overrides.cells;
-    if (overrides.up) json["up"] = name_of(*overrides.up);
-    if (overrides.facing) json["facing"] = name_of(*overrides.facing);
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -66,17 +81,11 @@ Result<Overrides> overrides_from_json(const std::string& text) {
     std::vector<std::int64_t> grid;
     fields.read("set", overrides.sets);
     fields.read("grid", grid);
-    fields.read("seed", overrides.seed);
-    fields.read("steps", overrides.steps);
-    fields.read("until_stage", overrides.until_stage);
+#define CASCADE_OVERRIDE(type, member, ...) read_override(fields, #member, overrides.member);
+#include "run/script/override_options.def"
     fields.read("used", overrides.used);
-    fields.read("solver", overrides.solver);
-    fields.read("precision", overrides.precision, precision_of_name);
     fields.read("fast", overrides.fast);
     fields.read("mesh", overrides.model);
-    fields.read("cells", overrides.cells);
-    fields.read("up", overrides.up, axis_of_name);
-    fields.read("facing", overrides.facing, heading_of_name);
     if (!fields.is_sound() || grid.size() == 1 || grid.size() > 3) {
         return tl::unexpected(unreadable);
     }
@@ -87,9 +96,9 @@ Result<Overrides> overrides_from_json(const std::string& text) {
 namespace {
 
 /// Of a model that gives way to another.
-void leave_stance(Overrides& overrides) {
-    overrides.up.reset();
-    overrides.facing.reset();
+void leave_stance(Overrides& base, const Overrides& changes) {
+    base.up = changes.up;
+    base.facing = changes.facing;
 }
 
 }  // namespace
@@ -98,13 +107,10 @@ Overrides merge(Overrides base, const Overrides& changes) {
     base.sets.insert(base.sets.end(), changes.sets.begin(), changes.sets.end());
     if (changes.grid) base.grid = changes.grid;
     base.grid_is_one_number = changes.grid_is_one_number;
-    if (changes.seed) base.seed = changes.seed;
-    if (changes.steps) base.steps = changes.steps;
-    if (changes.solver) base.solver = changes.solver;
-    if (changes.precision) base.precision = changes.precision;
     base.fast = base.fast || changes.fast;
-    if (changes.until_stage) base.until_stage = changes.until_stage;
-    if (changes.cells) base.cells = changes.cells;
+#define CASCADE_OVERRIDE(type, member, ...) \
+    if (changes.member) base.member = changes.member;
+#include "run/script/override_options.def"
     if (changes.model) {
         // A picture holds only the name of its model; the user says where it is now.
         const bool is_same_model =
@@ -113,14 +119,12 @@ Overrides merge(Overrides base, const Overrides& changes) {
         base.model = changes.model;
         base.model_is_asked_for = changes.model_is_asked_for;
         base.grid.reset();
-        if (!is_same_model) leave_stance(base);
+        if (!is_same_model) leave_stance(base, changes);
     } else if (changes.grid) {
         base.model.reset();
         base.cells.reset();
-        leave_stance(base);
+        leave_stance(base, changes);
     }
-    if (changes.up) base.up = changes.up;
-    if (changes.facing) base.facing = changes.facing;
     base.reads = changes.reads;
     return base;
 }

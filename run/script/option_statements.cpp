@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,13 @@ private:
     Script& script_;
 };
 
+std::string as_typed(const std::string& text) { return text; }
+template <typename T>
+std::string as_typed(const T& value) {
+    if constexpr (std::is_integral_v<T>) return std::to_string(value);
+    else return std::string(name_of(value));
+}
+
 }  // namespace
 
 void add_option_statements(Script& script) {
@@ -77,16 +85,12 @@ void add_option_statements(Script& script) {
     OptionStatements statements(script);
     if (asked.grid) statements.add_grid(*asked.grid, asked.grid_is_one_number);
     if (asked.model) statements.add_model(*asked.model);
-    if (asked.cells) statements.add("cells", *asked.cells);
-    if (asked.up) statements.add("up", std::string(name_of(*asked.up)));
-    if (asked.facing) statements.add("facing", std::string(name_of(*asked.facing)));
-    if (asked.seed) statements.add("seed", std::to_string(*asked.seed));
-    if (asked.precision) statements.add("precision", std::string(name_of(*asked.precision)));
+#define CASCADE_OVERRIDE(type, member, of_domain, is_statement, ...) \
+    if (is_statement && asked.member) statements.add(#member, as_typed(*asked.member));
+#include "run/script/override_options.def"
     if (asked.fast) statements.add("fast");
     if (asked.detail > 1) statements.add("detail", std::to_string(asked.detail));
     if (asked.coarse > 1) statements.add("coarse", std::to_string(asked.coarse));
-    if (asked.solver) statements.add("solver", *asked.solver);
-    if (asked.steps) statements.add("steps", std::to_string(*asked.steps));
 }
 
 }  // namespace cascade

@@ -25,24 +25,19 @@ struct Overrides {
     std::vector<std::string> sets;  ///< "large.ka=1/400", in order.
     std::optional<GridSize> grid;
     bool grid_is_one_number = false;  ///< As in --grid 100, which is a line of cells. Not stored.
-    std::optional<std::uint32_t> seed;
-    std::optional<std::int64_t> steps;       ///< The most steps of every stage.
-    std::optional<std::string> until_stage;  ///< The last stage that runs.
+#define CASCADE_OVERRIDE(type, member, ...) std::optional<type> member;
+#include "run/script/override_options.def"
+
     /// The files that the script uses, as (path, text), as far as they have been read, so that a
     /// picture can be drawn again without them.
     std::vector<std::pair<std::string, std::string>> used;
-    ReadAccess reads;                   ///< Not stored.
-    std::optional<std::string> solver;  ///< For every stage.
-    std::optional<Precision> precision;
+    ReadAccess reads;   ///< Not stored.
     bool fast = false;  ///< Steps are computed with fewer roundings.
     /// The domain becomes this model: a file, or the name of a shape.
     std::optional<std::string> model;
-    bool model_is_asked_for = false;   ///< By the user, so the file may be anywhere. Not stored.
-    std::optional<std::string> cells;  ///< Of the model: a number, faces or vertices.
-    std::optional<Axis> up;            ///< Of the model: its axis that points upwards.
-    std::optional<Heading> facing;     ///< Likewise: the direction in which it looks.
-    std::int64_t detail = 1;           ///< As in DomainSettings, of Script::detailed(). Not stored.
-    std::int64_t coarse = 1;           ///< Likewise, of Script::coarser(). Not stored.
+    bool model_is_asked_for = false;  ///< By the user, so the file may be anywhere. Not stored.
+    std::int64_t detail = 1;          ///< As in DomainSettings, of Script::detailed(). Not stored.
+    std::int64_t coarse = 1;          ///< Likewise, of Script::coarser(). Not stored.
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
