@@ -1,16 +1,11 @@
-// Plans and runs kernels block by block.
-//
-// Uniform values (constants, uniforms and what is computed from them) are single words, computed
-// once per run. All others are in registers of 256 words, which are reused as soon as no later
-// instruction reads them: a chain of a million operations needs two. Fields are read in place.
-// Values of links are computed for the first links of all cells of a block, then for the second
-// ones, and so on.
+// Runs the plans of kernels (ir/block_plan.h) block by block. Fields are read in place. Values of
+// links are computed for the first links of all cells of a block, then for the second ones, and so
+// on.
 #include "ir/interpreter.h"
 
 #include "core/check.h"
 #include "core/floating_point.h"
-#include "ir/block_loops.h"
-#include "ir/loop_levels.h"
+#include "ir/block_plan.h"
 #include "ir/word_operations.h"
 
 #include <algorithm>
@@ -24,197 +19,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t block_cells = 256;
-
-/// The location of a value while a block is computed.
-struct Location {
-    enum class Kind : std::uint8_t {
-        nowhere,  ///< For operands that an operation does not have.
-        scalar,   ///< Uniform: `index` counts scalars.
-        field,    ///< In memory: `index` is a field slot.
-        beside,   ///< In memory: `index` is the payload of a neighbour.
-        vector,   ///< In a register: `index` counts registers.
-    };
-    Kind kind = Kind::nowhere;
-    std::uint32_t index = 0;
-};
-
-/// An instruction that is computed once per run.
-struct ScalarStep {
-    Op op = Op::constant;
-    std::uint64_t payload = 0;
-    std::array<std::uint32_t, 3> operands{};  ///< Scalars.
-};
-
-/// An instruction that is computed once per block, or once per link of its cells, into a register.
-template <typename Number>
-struct BlockStep {
-    Op op = Op::constant;
-    std::uint64_t payload = 0;  ///< A slot, or two.
-    std::uint32_t target = 0;
-    std::array<Location, 3> operands{};
-    BlockLoop<Number> loop = nullptr;  ///< For operations that only depend on their operands.
-};
-
-/// A value of cells that is computed from one of each link, in a register.
-struct Reduction {
-    Op op = Op::link_sum;
-    std::uint32_t target = 0;
-    Location operand;
-};
-
-/// Steps that are computed once per block, or for each link if there are reductions.
-template <typename Number>
-struct Section {
-    std::vector<BlockStep<Number>> steps;
-    std::vector<Reduction> reductions;
-};
-
-template <typename Number>
-struct Plan {
-    std::vector<ScalarStep> scalar_steps;  ///< Step k computes scalar k.
-    std::vector<Section<Number>> sections = std::vector<Section<Number>>(1);
-    std::vector<Location> results;
-    std::uint32_t register_count = 0;
-};
-
-/// Assigns a location to every value.
-template <typename Number>
-class Planner {
-public:
-    explicit Planner(const CellKernel& kernel)
-        : kernel_(kernel),
-          varies_(varying(kernel)),
-          levels_(loop_levels_of(kernel)),
-          schedule_(cell_schedule_of(kernel, levels_)),
-          locations_(kernel.code.size()),
-          readers_(kernel.code.size()) {}
-
-    Plan<Number> plan() && {
-        count_readers();
-        for (const ValueId id : kernel_.code.ids()) {
-            if (levels_[id] < LoopLevel::cell) locate(id);
-        }
-        for (const LinkLoop& loop : schedule_.loops) locate_loop(loop);
-        for (const ValueId id : schedule_.after) locate(id);
-        for (const ValueId id : kernel_.results) plan_.results.push_back(locations_[id]);
-        return std::move(plan_);
-    }
-
-private:
-    std::size_t arity(ValueId id) const {
-        return static_cast<std::size_t>(info(kernel_.code[id].op).arity);
-    }
-
-    void count_reads(const std::vector<ValueId>& values) {
-        for (const ValueId id : values) {
-            for (std::size_t k = 0; k < arity(id); ++k) ++readers_[kernel_.code[id].operands[k]];
-        }
-    }
-
-    void count_readers() {
-        for (const ValueId id : kernel_.code.ids()) {
-            if (levels_[id] < LoopLevel::cell) count_reads({id});
-        }
-        for (const LinkLoop& loop : schedule_.loops) {
-            count_reads(loop.before);
-            count_reads(loop.values);
-            count_reads(loop.reductions);
-        }
-        count_reads(schedule_.after);
-        // Results are read at the end of the block, so their registers are never released.
-        for (const ValueId id : kernel_.results) ++readers_[id];
-    }
-
-    void locate(ValueId id) {
-        if (!varies_[id]) {
-            locate_scalar(id);
-        } else if (kernel_.code[id].op == Op::field) {
-            locations_[id] = {Location::Kind::field, kernel_.code[id].slot()};
-        } else if (kernel_.code[id].op == Op::neighbour) {
-            locations_[id] = {Location::Kind::beside, kernel_.code[id].slot()};
-        } else {
-            locate_vector(id);
-        }
-    }
-
-    /// What the loop reads of the cells is released after it, since each link reads it.
-    void locate_loop(const LinkLoop& loop) {
-        for (const ValueId id : loop.before) locate(id);
-        for (const ValueId id : loop.reductions) {
-            locations_[id] = {Location::Kind::vector, take_register()};
-        }
-        plan_.sections.emplace_back();
-        is_in_loop_ = true;
-        for (const ValueId id : loop.values) locate(id);
-        for (const ValueId id : loop.reductions) {
-            const ValueId operand = kernel_.code[id].operands[0];
-            plan_.sections.back().reductions.push_back(
-                {kernel_.code[id].op, locations_[id].index, locations_[operand]});
-            release(operand);
-        }
-        is_in_loop_ = false;
-        for (const ValueId id : std::exchange(read_in_loop_, {})) release(id);
-        plan_.sections.emplace_back();
-    }
-
-    void locate_scalar(ValueId id) {
-        const Instruction& instruction = kernel_.code[id];
-        ScalarStep step{instruction.op, instruction.payload, {}};
-        for (std::size_t k = 0; k < arity(id); ++k) {
-            step.operands[k] = locations_[instruction.operands[k]].index;
-        }
-        const auto index = static_cast<std::uint32_t>(plan_.scalar_steps.size());
-        locations_[id] = {Location::Kind::scalar, index};
-        plan_.scalar_steps.push_back(step);
-    }
-
-    void locate_vector(ValueId id) {
-        const Instruction& instruction = kernel_.code[id];
-        BlockStep<Number> step;
-        step.op = instruction.op;
-        step.payload = instruction.payload;
-        unsigned scalars = 0;
-        for (std::size_t k = 0; k < arity(id); ++k) {
-            step.operands[k] = locations_[instruction.operands[k]];
-            if (step.operands[k].kind == Location::Kind::scalar) scalars |= 1u << k;
-        }
-        if (is_function_of_operands(step.op)) step.loop = block_loop<Number>(step.op, scalars);
-        // Taken before operands are released, because a loop's output overlaps no operand.
-        step.target = take_register();
-        for (std::size_t k = 0; k < arity(id); ++k) release(instruction.operands[k]);
-        locations_[id] = {Location::Kind::vector, step.target};
-        if (readers_[id] == 0) free_.push_back(step.target);
-        plan_.sections.back().steps.push_back(step);
-    }
-
-    std::uint32_t take_register() {
-        if (free_.empty()) return plan_.register_count++;
-        const std::uint32_t taken = free_.back();
-        free_.pop_back();
-        return taken;
-    }
-
-    void release(ValueId id) {
-        if (is_in_loop_ && levels_[id] < LoopLevel::link) {
-            read_in_loop_.push_back(id);
-            return;
-        }
-        if (--readers_[id] != 0 || locations_[id].kind != Location::Kind::vector) return;
-        free_.push_back(locations_[id].index);
-    }
-
-    const CellKernel& kernel_;
-    const IdVector<ValueId, bool> varies_;
-    const IdVector<ValueId, LoopLevel> levels_;
-    const CellSchedule schedule_;
-    IdVector<ValueId, Location> locations_;
-    IdVector<ValueId, std::uint32_t> readers_;  ///< Remaining reads of a value.
-    bool is_in_loop_ = false;
-    std::vector<ValueId> read_in_loop_;
-    std::vector<std::uint32_t> free_;
-    Plan<Number> plan_;
-};
+using namespace interpreting;
 
 /// One run of a plan: its arguments and its working memory.
 template <typename Number>
@@ -527,7 +332,7 @@ template <typename Number>
 class InterpretedKernel : public Kernel {
 public:
     InterpretedKernel(const CellKernel& kernel, Stencil stencil)
-        : plan_(Planner<Number>(kernel).plan()),
+        : plan_(plan_blocks<Number>(kernel)),
           stencil_(stencil),
           field_count_(kernel.field_names.size()),
           mask_count_(kernel.mask_names.size()),

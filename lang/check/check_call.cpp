@@ -1,4 +1,4 @@
-// Calls: number of arguments, contexts in which a function may stand, types, and constants.
+// Calls: number of arguments, types, and constants. Contexts are in check_context.cpp.
 #include "core/check.h"
 #include "core/palette.h"
 #include "ir/space.h"
@@ -167,74 +167,6 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
     }
     work.diagnostics.error(name.span, fmt::format("there is no function '{}'", name.text),
                            std::move(hint));
-}
-
-bool ExpressionChecker::belongs_here(Function function, Span span) {
-    const FunctionInfo& row = info(function);
-    const Context context = scope_.context;
-    const bool at_step = context == Context::rate;
-    const bool at_start = context == Context::value || context == Context::mask;
-    const auto refuse = [&](const char* where) {
-        error(span, fmt::format("{} cannot stand here", row.spelling), where);
-        return false;
-    };
-    const bool varies = row.is_aggregate || varies_by_cell(function);
-    if (scope_.reads_volumes && function == Function::field) return true;
-    if (context == Context::position && !is_elementary(function)) {
-        return refuse("a surface is made of numbers, sx, sy and functions of numbers");
-    }
-    if (context == Context::shape) {
-        const bool is_of_space =
-            (row.kind == FunctionKind::geometry && !varies) || function == Function::vector;
-        return is_elementary(function) || is_of_space ||
-               refuse("a shape is made of functions of numbers and vectors");
-    }
-    const bool reads_others = row.is_aggregate || differentiates(function) || is_nonlocal(function);
-    if (context == Context::mask && reads_others) {
-        return refuse("a mask says which cells the domain has, and reads no others");
-    }
-    if (context == Context::mask && needs_model(function)) {
-        return refuse("a mask is that of a plane; it belongs to the cells of a model");
-    }
-    const bool is_derivative = row.kind == FunctionKind::derivative;
-    if (work_.on_surface && is_derivative && !includes(row.domains, Domains::surface)) {
-        return refuse("second derivatives by name have no meaning on a surface; lap and div have");
-    }
-    if (context == Context::constant && varies) {
-        error(span, fmt::format("{} must be one number, but {} {}", scope_.subject, row.spelling,
-                                row.is_aggregate ? "is known only in a run" : "varies by cell"));
-        return false;
-    }
-    if (context == Context::bound && varies) {
-        return refuse("a bound is made of numbers and parameters only");
-    }
-    if (row.domains == Domains::crawling && !in_cells()) {
-        return refuse("it belongs in a system of cells that crawl");
-    }
-    if (in_cells() && !includes(row.domains, Domains::crawling) && !needs_model(function)) {
-        return refuse(
-            "cells that crawl are no grid; lap(e) and sums over neighbours have a meaning");
-    }
-    switch (row.places) {
-        case Contexts::any:
-        case Contexts::cells: return true;
-        case Contexts::steps:
-            return at_step || context == Context::picture ||
-                   refuse("cells have no neighbours before the stage starts");
-        case Contexts::rates:
-            return at_step || refuse("it belongs in rates and definitions of a system");
-        case Contexts::values:
-            // A cell that crawls reads the domain where it is.
-            if (in_cells() && at_step && reads_file(function)) return true;
-            // The kernel of a convolution is computed before the stage.
-            if (stands_in_kernel() && at_step && reads_file(function)) return true;
-            return at_start || refuse("it belongs in values (name: …)");
-        case Contexts::noisy:
-            return at_start || at_step || refuse("pictures have no randomness of their own");
-        case Contexts::picture:
-            return context == Context::picture || refuse("colours belong in pictures");
-    }
-    return true;
 }
 
 void ExpressionChecker::apply(Function function, const Operands& operands, std::size_t count) {

@@ -4,6 +4,7 @@
 #include "core/palette.h"
 #include "lang/calculus/algebra.h"
 #include "lang/check/check_directions.h"
+#include "lang/check/note_uses.h"
 #include "lang/program/dependencies.h"
 #include "lang/program/order.h"
 

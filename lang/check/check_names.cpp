@@ -2,6 +2,8 @@
 #include "lang/check/check_names.h"
 
 #include "lang/check/cell_stages.h"
+#include "lang/check/note_uses.h"
+#include "lang/check/unknown_names.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/format.h>
@@ -26,34 +28,6 @@ bool is_constant(const Scope& scope) {
 bool is_of_model(std::string_view name) {
     const auto builtin = builtin_named(name);
     return builtin && is_of_model(*builtin);
-}
-
-bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
-
-void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
-    if (scope.context == Context::position) {
-        report(work, span, fmt::format("a surface cannot read '{}'", name),
-               "it is made of numbers, sx, sy, pi and functions of them");
-        return;
-    }
-    if (scope.context == Context::mask) {
-        report(work, span, fmt::format("a mask cannot read '{}'", name),
-               "it is made of coordinates, numbers, shapes, noise and files");
-        return;
-    }
-    if (scope.context == Context::shape) {
-        report(work, span, fmt::format("a shape cannot read '{}'", name),
-               "it is made of t, s, part, numbers of its own and functions of them");
-        return;
-    }
-    if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
-        report(work, span,
-               fmt::format("{} must be one number, but '{}' varies by cell", scope.subject, name),
-               "");
-        return;
-    }
-    report(work, span, fmt::format("{} must be one number", scope.subject),
-           "only numbers, operators and functions of them can stand here");
 }
 
 std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::string_view name,
@@ -101,61 +75,6 @@ bool report_reserved(Workspace& work, const Scope& scope, std::string_view name,
         return true;
     }
     return false;
-}
-
-std::vector<std::string> readable_names(const System& system, const Scope& scope) {
-    std::vector<std::string> names = quantity_names(system);
-    if (scope.context == Context::rate || scope.is_side) {
-        for (const Definition& definition : system.definitions) names.push_back(definition.name);
-    }
-    for (const std::string_view name : builtin_names) {
-        if (varies_by_cell(name)) names.emplace_back(name);
-    }
-    for (const char* name : {"pi", "frozen", "speed"}) names.push_back(name);
-    return names;
-}
-
-std::string not_a_parameter(std::string_view name, const System& system) {
-    return fmt::format("'{}' is not a parameter of {}", name, system.name);
-}
-
-/// "write 'dxx(u)'" for u_xx, if there is a u.
-std::string hint_of_subscript(std::string_view name, const std::vector<std::string>& known) {
-    const std::size_t bar = name.rfind('_');
-    if (bar == name.npos) return "";
-    const std::string_view of = name.substr(0, bar), axes = name.substr(bar + 1);
-    const bool is_derivative = !axes.empty() && axes.size() <= 2 &&
-                               axes.find_first_not_of("xyz") == axes.npos &&
-                               function_named(fmt::format("d{}", axes));
-    if (!is_derivative || std::find(known.begin(), known.end(), of) == known.end()) return "";
-    return fmt::format("write 'd{}({})'", axes, of);
-}
-
-void report_unknown_own(Workspace& work, const Scope& scope, std::string_view name, Span span) {
-    const System& system = system_at(work, scope.system);
-    if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
-    if (auto explained = explain_family(work, system, name)) {
-        return report(work, span, std::move(explained->message), std::move(explained->hint));
-    }
-    if (is_incomplete(work, scope.system)) return;
-    const std::string names = list_names(quantity_names(system));
-    std::string hint(advice_about(name, WordContext::value));
-    const std::vector<std::string> readable = readable_names(system, scope);
-    if (hint.empty()) hint = hint_of_subscript(name, readable);
-    if (hint.empty()) hint = did_you_mean(work, name, readable);
-    if (hint.empty() && scope.context == Context::rate)
-        hint = fmt::format("add {}: 0.1, for example", name);
-    if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
-    if (name == "steady") hint = "write steady(0.1)";
-    if (cell_value_named(name)) hint = fmt::format("'{}' is known to cells that crawl only", name);
-    std::string note = fmt::format("{} has {}", system.name, names);
-    if (scope.context == Context::value && scope.stage) {
-        note = fmt::format("[name] reads this stage ({}: {})", system.name, names);
-        if (reserved(name) == Reserved::builtin) {
-            hint = fmt::format("'{}' is built in and needs no brackets", name);
-        }
-    }
-    report(work, span, not_a_parameter(name, system), std::move(hint), std::move(note));
 }
 
 /// Rates have the values of definitions; sides and pictures compute them.
@@ -216,42 +135,6 @@ std::optional<Node> resolve_in_shape(Workspace& work, const Scope& scope, std::s
         return Node{std::get<DefinitionId>(meaning->id), span, meaning->type};
     }
     return Node{meaning->item(), span};
-}
-
-void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span) {
-    std::string hint;
-    if (scope.system != unknown_system && !is_hopeless(work)) {
-        const System& system = system_at(work, scope.system);
-        if (find(work.names[scope.system], name) != nullptr) {
-            hint = fmt::format("[{0}] is the '{0}' of this stage", name);
-        } else {
-            hint = did_you_mean(work, name, readable_names(system, scope));
-        }
-    }
-    report(work, span,
-           fmt::format("'{}' reads the previous stage, but this is the first stage", name),
-           std::move(hint));
-}
-
-void report_unknown_previous(Workspace& work, const Scope& scope, std::string_view name,
-                             Span span) {
-    const Stage& previous = work.program.stages[*scope.stage - 1];
-    const System& system = system_at(work, previous.system);
-    if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
-    if (auto explained = explain_family(work, system, name)) {
-        return report(work, span, std::move(explained->message), std::move(explained->hint));
-    }
-    if (is_incomplete(work, previous.system)) return;
-    std::string hint;
-    if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
-        hint = fmt::format("[{0}] is the '{0}' of this stage", name);
-    } else {
-        hint = advice_about(name, WordContext::value);
-        if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
-    }
-    report(work, span, not_a_parameter(name, system), std::move(hint),
-           fmt::format("bare names read the previous stage '{}' ({}: {})", previous.name,
-                       system.name, list_names(quantity_names(system))));
 }
 
 std::optional<Node> resolve_other(Workspace& work, const Scope& scope, std::uint32_t stage,
@@ -331,52 +214,6 @@ std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
 }
 
 }  // namespace
-
-void note_use(Workspace& work, Span use, Span declaration) {
-    if (work.uses != nullptr) work.uses->push_back({use, declaration});
-}
-
-void note_use(Workspace& work, Span use, SystemId index,
-              const std::variant<ItemId, DefinitionId>& id) {
-    if (work.uses == nullptr || index == unknown_system) return;
-    const System& system = system_at(work, index);
-    if (const auto* definition = std::get_if<DefinitionId>(&id)) {
-        return note_use(work, use, system.definitions[*definition].span);
-    }
-    const ItemId item = std::get<ItemId>(id);
-    if (item >= system.frozen_item()) return;
-    // Quantities that every system of its kind has, such as t of a shape, stand nowhere.
-    const Span declaration = system.quantities[item].span;
-    if (declaration != system.span) note_use(work, use, declaration);
-}
-
-void note_declarations(Workspace& work, SystemId index) {
-    const System& system = system_at(work, index);
-    note_use(work, system.span, system.span);
-    std::vector<SystemId> bases = system.joined;
-    if (system.base) bases.push_back(*system.base);
-    const auto note = [&](const auto& declared) {
-        if (declared.span == system.span) return;
-        note_use(work, declared.span, declared.span);
-        for (const SystemId base : bases) {
-            const Meaning* meaning = find(work.names[base], declared.name);
-            if (meaning != nullptr && !meaning->has_error)
-                note_use(work, declared.span, base, meaning->id);
-        }
-    };
-    for (const Quantity& quantity : system.quantities) note(quantity);
-    for (const Definition& definition : system.definitions) note(definition);
-}
-
-void note_use(Workspace& work, const Scope& scope, const Node& node, Span use) {
-    if (const auto* item = node.as<ItemId>()) return note_use(work, use, scope.system, *item);
-    if (const auto* rate = node.as<Rate>()) return note_use(work, use, scope.system, rate->species);
-    if (const auto* id = node.as<DefinitionId>()) return note_use(work, use, scope.system, *id);
-    const auto* sensed = node.as<SensedItem>();
-    const auto* other = sensed != nullptr ? &sensed->item : node.as<StageItem>();
-    if (other == nullptr) return;
-    note_use(work, use, work.program.stages[other->stage].system, other->item);
-}
 
 std::optional<Node> resolve_bare(Workspace& work, const Scope& scope, std::string_view name,
                                  Span span) {

@@ -129,17 +129,6 @@ std::optional<Node> resolve_qualified(Workspace& work, const Scope& scope,
 std::optional<Node> resolve_rate(Workspace& work, const Scope& scope, const ast::Word& name,
                                  Span span);
 
-/// Notes that the name at `use` refers to a declaration.
-void note_use(Workspace& work, Span use, Span declaration);
-/// The same for a name that means an item or a definition of a system.
-void note_use(Workspace& work, Span use, SystemId system,
-              const std::variant<ItemId, DefinitionId>& id);
-/// The same for a name in an expression, which has become `node`.
-void note_use(Workspace& work, const Scope& scope, const Node& node, Span use);
-
-/// Notes that each declaration of a system refers to itself, and to one of its name in a base.
-void note_declarations(Workspace& work, SystemId system);
-
 /// True where vectors are those of space: in systems of cells that crawl, and in shapes.
 bool is_of_cells(const Workspace& work, const Scope& scope);
 /// The node of such a value in a system of cells, not in constants; reports an error if it has none

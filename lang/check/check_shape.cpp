@@ -6,6 +6,7 @@
 #include "lang/check/check.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
+#include "lang/check/note_uses.h"
 #include "lang/check/typed_definitions.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"

@@ -6,6 +6,7 @@
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_expression.h"
 #include "lang/check/check_time.h"
+#include "lang/check/note_uses.h"
 #include "lang/check/read_setting.h"
 #include "lang/check/setting_words.h"
 #include "lang/program/dependencies.h"

@@ -1,6 +1,7 @@
 // A `system` or `cells` block: what it declares.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_cycles.h"
+#include "lang/check/note_uses.h"
 #include "lang/check/system_checker.h"
 #include "lang/vocabulary/settings.h"
 

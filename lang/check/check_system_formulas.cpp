@@ -1,6 +1,7 @@
 // The formulas of a `system` or `cells` block: values, definitions, rates, bounds and settings.
 #include "lang/check/check_blocks.h"
 #include "lang/check/check_time.h"
+#include "lang/check/note_uses.h"
 #include "lang/check/system_checker.h"
 #include "lang/check/typed_definitions.h"
 #include "lang/program/order.h"

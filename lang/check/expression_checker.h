@@ -1,10 +1,10 @@
 // Checks one expression, node by node (internal to the checker).
 //
 // check_expression.cpp walks the nodes and resolves names and strings; check_call.cpp checks calls:
-// arguments, contexts, types and constants; check_operators.cpp checks operators of derivatives,
-// vectors and tensors; check_links.cpp what cells that crawl read of their neighbours;
-// check_directions.cpp the directions that `along` takes; check_convolution.cpp the kernels of
-// convolutions.
+// arguments, types and constants; check_context.cpp where they stand; check_operators.cpp checks
+// operators of derivatives, vectors and tensors; check_links.cpp what cells that crawl read of
+// their neighbours; check_directions.cpp the directions that `along` takes; check_convolution.cpp
+// the kernels of convolutions.
 #pragma once
 
 #include "lang/check/check_expression.h"

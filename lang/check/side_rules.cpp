@@ -4,6 +4,7 @@
 #include "lang/calculus/side_values.h"
 #include "lang/check/check_blocks.h"
 #include "lang/check/declarations.h"
+#include "lang/check/note_uses.h"
 #include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // The stages of a script and their systems.
 #include "lang/check/check_blocks.h"
+#include "lang/check/note_uses.h"
 #include "lang/library/library.h"
 
 #include <fmt/format.h>

@@ -6,6 +6,7 @@
 #include "lang/check/check_cycles.h"
 #include "lang/check/check_shape.h"
 #include "lang/check/declarations.h"
+#include "lang/check/note_uses.h"
 #include "lang/check/system_statements.h"
 #include "lang/program/order.h"
 #include "lang/syntax/index_words.h"

@@ -37,6 +37,11 @@ struct NextStage {
 
 using Change = std::variant<SetText, SetNumber, Paint, NextStage>;
 
+/// Does it change the script, and not only values?
+inline bool is_of_script(const Change& change) {
+    return std::holds_alternative<SetText>(change) || std::holds_alternative<SetNumber>(change);
+}
+
 /// A moment of a run: a stage, by its position, and its number of complete steps.
 struct RunPlace {
     std::uint32_t stage = 0;

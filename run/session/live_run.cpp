@@ -19,35 +19,6 @@
 namespace cascade {
 namespace {
 
-Refusal refusal(Failure failure) {
-    Refusal refused;
-    refused.failure = std::move(failure);
-    return refused;
-}
-
-tl::unexpected<Refusal> refuse(Failure failure) {
-    return tl::unexpected(refusal(std::move(failure)));
-}
-
-tl::unexpected<Refusal> refuse(std::string message, std::string hint = "") {
-    return refuse(Failure{std::move(message), std::move(hint)});
-}
-
-/// The errors of a script that is not used. Its warnings are of no interest then.
-tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure = {}) {
-    Refusal refused;
-    refused.diagnostics = std::move(script.diagnostics);
-    refused.sources = std::move(script.sources);
-    // The messages say all that the failure would.
-    if (!refused.diagnostics.has_errors()) refused.failure = std::move(failure);
-    return tl::unexpected(std::move(refused));
-}
-
-/// Does it change the script, and not only values?
-bool is_of_script(const Change& change) {
-    return std::holds_alternative<SetText>(change) || std::holds_alternative<SetNumber>(change);
-}
-
 /// Places of a tissue's planes that no cell is in do not count.
 bool has_not_finite(const Field& values, const Tissue& tissue) {
     for (std::size_t cell = 0; cell < tissue.count(); ++cell) {
@@ -66,24 +37,6 @@ std::size_t texts_of(const SessionLog& log) {
 }
 
 }  // namespace
-
-std::string Refusal::messages(bool colour) const {
-    RenderStyle style;
-    style.colour = colour;
-    std::string text = render(diagnostics, sources, style);
-    if (!failure) return text;
-    text += fmt::format("{}\n", failure->message);
-    if (!failure->hint.empty()) text += fmt::format("  {}\n", failure->hint);
-    return text;
-}
-
-Failure Refusal::in_brief() const {
-    if (failure) return *failure;
-    for (const Diagnostic& diagnostic : diagnostics.sorted()) {
-        if (diagnostic.severity == Severity::error) return {diagnostic.message, diagnostic.hint};
-    }
-    return {};
-}
 
 Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunControl& control) const {
     SimulationOptions options = options_;
@@ -365,10 +318,6 @@ Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
     return {};
 }
 
-LiveRun::Moment LiveRun::present() const {
-    return {log(), script_->text, script_->overrides, values()};
-}
-
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
     // Of values of one number at one step the last one counts, as a slider gives many. With strokes
     // it does not: a number that is the same in all cells drops what was painted, for good. Nor in
@@ -425,105 +374,6 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
     future_.clear();
     tell_of(false);
     return {};
-}
-
-Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
-    if (stage >= script_->stage_count()) {
-        return refuse(fmt::format("there is no stage {}", stage + 1));
-    }
-    if (stage > stage_) {
-        bool joins_last = false;
-        while (stage_ < stage) {
-            if (auto next = apply(NextStage{}, control, joins_last); !next) return next;
-            joins_last = true;
-        }
-        return {};
-    }
-    Moment before = present();
-    Script script = load_script(script_->name, script_->text, script_->folder, script_->overrides);
-    auto adopted = adopt(std::move(script), *before.values, Continuation::changed, control, stage);
-    if (!adopted) return adopted;
-    if (stage > 0) {
-        // It is not cancelled, because going back would be cancelled, too.
-        if (auto started = start_stage(stage, never_cancelled); !started) {
-            // The values of the stage before are as they were.
-            const auto back = return_to(before, control);
-            return back ? started : back;
-        }
-    }
-    const auto changes = std::exchange(log_.changes, {});
-    for (const auto& logged : changes) {
-        if (logged->at.stage < stage) {
-            log_.changes.push_back(logged);
-        } else if (is_of_script(logged->change)) {
-            add_to_log(logged->change, {stage, 0});
-        }
-    }
-    remember(std::move(before));
-    future_.clear();
-    tell_of(false);
-    return {};
-}
-
-Accepted<void> LiveRun::return_to(Moment& moment, RunControl& control) {
-    if (!moment.values) {
-        auto again = play(moment.log, script_->folder, options_, control);
-        if (!again) return tl::unexpected(std::move(again.error()));
-        simulation_ = std::move((*again)->simulation_);
-        script_ = std::move((*again)->script_);
-        painted_ = std::move((*again)->painted_);
-        stage_ = (*again)->stage_;
-    } else {
-        Script script = load_script(script_->name, moment.text, script_->folder, moment.overrides);
-        auto adopted = adopt(std::move(script), *moment.values, Continuation::same, control);
-        if (!adopted) return adopted;
-    }
-    log_ = std::move(moment.log);
-    return {};
-}
-
-Accepted<void> LiveRun::undo(RunControl& control) {
-    if (past_.empty()) return refuse("nothing is left to undo");
-    return step_through(past_, future_, control);
-}
-
-Accepted<void> LiveRun::redo(RunControl& control) {
-    if (future_.empty()) return refuse("nothing was undone");
-    return step_through(future_, past_, control);
-}
-
-/// Takes the last moment of `from`, and keeps the present one in `to`.
-Accepted<void> LiveRun::step_through(std::vector<Moment>& from, std::vector<Moment>& to,
-                                     RunControl& control) {
-    Moment now = present();
-    if (auto there = return_to(from.back(), control); !there) return there;
-    from.pop_back();
-    to.push_back(std::move(now));
-    forget_old_values();
-    tell_of(false);
-    return {};
-}
-
-void LiveRun::remember(Moment moment) {
-    past_.push_back(std::move(moment));
-    forget_old_values();
-}
-
-void LiveRun::forget_old_values() {
-    std::size_t bytes = 0, other = 0;
-    for (std::vector<Moment>* moments : {&past_, &future_}) {
-        for (std::size_t k = moments->size(); k-- > 0;) {
-            Moment& moment = (*moments)[k];
-            if (moment.values) bytes += moment.values->bytes();
-            if (bytes > undo_memory_) moment.values.reset();
-            // Texts and logs cannot be grown again: without them the moment is gone.
-            other += moment.text.size() + moment.log.text.size() +
-                     moment.log.changes.size() * sizeof moment.log.changes[0];
-            if (other <= undo_texts_) continue;
-            moments->erase(moments->begin(), moments->begin() + static_cast<std::ptrdiff_t>(k + 1));
-            break;
-        }
-    }
 }
 
 SessionLog LiveRun::log() const {

@@ -2,11 +2,11 @@
 // the public library.
 #pragma once
 
-#include "core/diagnostics.h"
 #include "core/run_control.h"
 #include "run/script/script.h"
 #include "run/session/change.h"
 #include "run/session/kept_state.h"
+#include "run/session/refusal.h"
 #include "run/session/session_log.h"
 #include "run/simulation/simulation.h"
 
@@ -19,21 +19,6 @@
 #include <vector>
 
 namespace cascade {
-
-/// Why a change was refused: messages about a text, or a failure, or both.
-struct Refusal {
-    Diagnostics diagnostics;
-    Sources sources;  ///< Of the diagnostics.
-    std::optional<Failure> failure;
-
-    /// All of it as text, as the command line draws it.
-    std::string messages(bool colour) const;
-    /// The failure, or else the first error without its place.
-    Failure in_brief() const;
-};
-
-template <typename T>
-using Accepted = tl::expected<T, Refusal>;
 
 /// What a caller wants to know while steps are taken. Functions may be empty.
 struct Watching {
