@@ -33,7 +33,7 @@ Statistics statistics_of(const LibraryText& text, std::uint32_t seed) {
     const bool is_line = whole.program && whole.program->domain.grid.height == 1;
     if (!is_line) overrides.grid = {statistics_side, statistics_side};
     overrides.seed = seed;
-    TestRun run(name, script, overrides, fastest_backend());
+    TestRun run(name, script, overrides, on_fastest_backend());
     run.finish_all();
     if (!run.ok()) return {};
     const auto last = static_cast<std::uint32_t>(run.program().stages.size() - 1);

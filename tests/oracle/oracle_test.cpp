@@ -228,7 +228,7 @@ system_name: turing_spots
 iterations: 0
 beta: random(12, random(0, 2)) + random(0, 3)
 )";
-    TestRun run("noisy.cascade", script, {}, fastest_backend());
+    TestRun run("noisy.cascade", script, {}, on_fastest_backend());
     run.finish_all();
     ASSERT_TRUE(run.ok());
     const auto kicked = run.values(0, "c"), beta = run.values(1, "beta");

@@ -54,7 +54,7 @@ protected:
         overrides.grid = {side, side};
         overrides.seed = seed;
         const std::string file = "examples/" + GetParam() + ".cascade";
-        TestRun run(file, source_file(file), overrides, fastest_backend());
+        TestRun run(file, source_file(file), overrides, on_fastest_backend());
         run.finish_all();
         if (!run.ok()) return;
         for (const Look& look : recipe_looks()) {
@@ -97,7 +97,8 @@ TEST(Squirrel, OnALargerGridNeedsLessNoise) {
     overrides.grid = {128, 128};
     overrides.sets = {"stage1.ai=random(1, 0.00001) + (x > 0.9)", "stage1.iterations=8000",
                       "stage2.iterations=1"};
-    TestRun run("squirrel", source_file("examples/squirrel.cascade"), overrides, fastest_backend());
+    TestRun run("squirrel", source_file("examples/squirrel.cascade"), overrides,
+                on_fastest_backend());
     run.finish_all();
     ASSERT_TRUE(run.ok());
     const Pattern2d stripes{run.width(), run.height(), run.values(0, "b")};
@@ -110,7 +111,7 @@ TEST(Figure32, HasSevenValleys) {
         Overrides overrides;
         overrides.seed = seed;
         TestRun run("figure_3_2", source_file("examples/figure_3_2.cascade"), overrides,
-                    fastest_backend());
+                    on_fastest_backend());
         run.finish_all();
         ASSERT_TRUE(run.ok());
         const Pattern2d row{60, 1, run.values(0, "b")};
@@ -125,7 +126,7 @@ TEST(Figure32, HasSevenValleys) {
 
 /// Where the leopard's large spots are frozen, a and b are 4 and stay so.
 TEST(Leopard, HasGreyDiscs) {
-    TestRun run("leopard", source_file("examples/leopard.cascade"), {}, fastest_backend());
+    TestRun run("leopard", source_file("examples/leopard.cascade"), {}, on_fastest_backend());
     run.finish_all();
     ASSERT_TRUE(run.ok());
     const auto before = run.values(0, "b"), after = run.values(1, "b");
@@ -137,7 +138,7 @@ TEST(Leopard, HasGreyDiscs) {
 
 /// The spots of the first stage are frozen as they are.
 TEST(Cheetah, KeepsItsLargeSpots) {
-    TestRun run("cheetah", source_file("examples/cheetah.cascade"), {}, fastest_backend());
+    TestRun run("cheetah", source_file("examples/cheetah.cascade"), {}, on_fastest_backend());
     run.finish_all();
     ASSERT_TRUE(run.ok());
     const auto before = run.values(0, "b"), after = run.values(1, "b");

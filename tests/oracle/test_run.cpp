@@ -92,7 +92,7 @@ std::string source_file(const std::string& path) {
     return *text;
 }
 
-SimulationOptions fastest_backend() {
+SimulationOptions on_fastest_backend() {
     SimulationOptions options;
     options.threads = 1;
     return options;

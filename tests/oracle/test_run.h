@@ -46,6 +46,6 @@ private:
 std::string source_file(const std::string& path);
 
 /// Native code where it is compiled in, else the interpreter, on one thread.
-SimulationOptions fastest_backend();
+SimulationOptions on_fastest_backend();
 
 }  // namespace cascade
