@@ -1,4 +1,4 @@
-// The axes of space, and the rotation that brings a model upright and to look along z.
+// The axes of space, and the rotation that turns a model upright and makes it face along z.
 #pragma once
 
 #include "core/vector3.h"
@@ -18,7 +18,7 @@ inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 /// The name "x", "y" or "z".
 constexpr std::string_view name_of(Axis axis) { return axis_names[static_cast<std::size_t>(axis)]; }
 
-/// The axis of that name; nothing if there is none.
+/// The axis of that name, if there is one.
 constexpr std::optional<Axis> axis_of_name(std::string_view name) {
     for (std::size_t k = 0; k < axis_names.size(); ++k) {
         if (axis_names[k] == name) return static_cast<Axis>(k);
@@ -40,7 +40,7 @@ constexpr std::string_view name_of(Heading heading) {
     return heading_names[static_cast<std::size_t>(heading.axis) + (heading.is_backwards ? 3 : 0)];
 }
 
-/// The direction of that name; nothing if there is none.
+/// The direction of that name, if there is one.
 constexpr std::optional<Heading> heading_of_name(std::string_view name) {
     for (std::size_t k = 0; k < heading_names.size(); ++k) {
         if (heading_names[k] == name) return Heading{static_cast<Axis>(k % 3), k >= 3};
@@ -48,22 +48,22 @@ constexpr std::optional<Heading> heading_of_name(std::string_view name) {
     return std::nullopt;
 }
 
-/// How a model stands: what points upwards, and where it looks, at a right angle to that.
+/// A model's orientation: its up direction, and the direction it faces, at a right angle to it.
 struct Stance {
     Axis up = Axis::y;
     Heading facing;
     bool operator==(const Stance&) const = default;
 };
 
-/// Where a model looks if nothing is said of it. With z up that is −y: the convention of programs
-/// that model with z up and export glTF, which has y up.
+/// The usual facing direction. With z up it is −y, as in programs that model with z up and export
+/// glTF, which has y up.
 constexpr Stance usual_stance(Axis up) {
     return {up, up == Axis::y ? Heading{Axis::z} : Heading{Axis::y, up == Axis::z}};
 }
 
 namespace axis_detail {
 
-/// What becomes x: the cross product of what points upwards and where the model looks.
+/// The direction that becomes x: the cross product of the up and the facing direction.
 constexpr Heading side_of(const Stance& stance) {
     const auto up = static_cast<unsigned>(stance.up);
     const auto facing = static_cast<unsigned>(stance.facing.axis);
@@ -79,8 +79,8 @@ constexpr Number along(const BasicVector3<Number>& v, Heading heading) {
 
 }  // namespace axis_detail
 
-/// Rotates `v` so that what points upwards becomes y, and where the model looks z. The rotation
-/// only permutes coordinates and changes signs, so no bit is lost.
+/// Rotates `v` so that the up direction becomes y and the facing direction z. The rotation only
+/// permutes coordinates and changes signs, so no bit is lost.
 template <typename Number>
 constexpr BasicVector3<Number> turned_upright(const BasicVector3<Number>& v, const Stance& stance) {
     return {axis_detail::along(v, axis_detail::side_of(stance)), axis_detail::along(v, {stance.up}),

@@ -1,16 +1,16 @@
 // Values between the cells of a row: cubic curves that stay in range at sharp edges.
 //
-// Through each cell goes a cubic Hermite curve whose slope there is the mean of the differences to
-// both neighbours (E. Catmull and R. Rom, 1974), but at most three times the smaller of them, so
-// that the curve rises where values rise (F. Fritsch and R. Carlson, "Monotone Piecewise Cubic
-// Interpolation", SIAM J. Numer. Anal. 17, 1980) and is even beside an even stretch. Around a
-// smooth extremum that would leave a plateau. So the slope may be as large as the smallest of the
-// three bends (second differences) in the cell and its neighbours if they have one sign; beside an
-// edge they have not (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
-// smooth extrema", J. Comput. Phys. 227, 2008). Of cells with two values no curve leaves their
-// range. Elsewhere a crest between cells may be higher than both. That is right for what is looked
-// at; where a run goes on, and a negative value may have no meaning, slopes are limited further.
-// The functions are always inlined, so that compilers make vectors of loops that call them.
+// Each pair of cells is joined by a cubic Hermite curve. The slope at a cell is the mean of the
+// differences to both neighbours (E. Catmull and R. Rom, 1974), but at most three times the smaller
+// difference, so that the curve is monotone where the values are (F. Fritsch and R. Carlson,
+// "Monotone Piecewise Cubic Interpolation", SIAM J. Numer. Anal. 17, 1980). This would flatten
+// smooth extrema. So the slope may be as large as the smallest of the three bends (second
+// differences) in the cell and its neighbours if they have one sign, which they do not beside an
+// edge (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at smooth extrema", J.
+// Comput. Phys. 227, 2008). If the cells hold only two values, no curve leaves their range.
+// Elsewhere a crest between cells may be higher than both. This suits pictures. When a run
+// continues from the values, and negative ones may be meaningless, slopes are limited further. The
+// functions are always inlined, so that compilers vectorise loops that call them.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,10 @@
 
 namespace cascade {
 
-/// The cells that a place between the third and the fourth of them depends on.
+/// The number of cells that determine a value between the third and the fourth of them.
 inline constexpr std::size_t cells_between = 6;
 
-/// The slope in the middle one of five cells, per cell.
+/// The slope at the middle of five cells, per cell.
 template <typename Number>
 [[gnu::always_inline]] inline Number slope_in(Number a, Number b, Number c, Number d, Number e) {
     const Number before = c - b, after = d - c;
@@ -35,8 +35,8 @@ template <typename Number>
     return std::clamp((before + after) / 2, -most, most);
 }
 
-/// The value at `part`, 0 … 1, of the way from a cell to the next one, whose slopes are `first` and
-/// `last`.
+/// The value at the fraction `part`, 0 … 1, of the way from a cell to the next one, with the slopes
+/// `first` and `last` at the two.
 template <typename Number>
 [[gnu::always_inline]] inline Number value_on_curve(Number from, Number to, Number first,
                                                     Number last, Number part) {
@@ -45,8 +45,8 @@ template <typename Number>
            part * (first + part * (3 * rise - 2 * first - last + part * (first + last - 2 * rise)));
 }
 
-/// The value at `part`, 0 … 1, of the way from the third of six cells to the fourth. NaN if one of
-/// the four in the middle is.
+/// The value at the fraction `part`, 0 … 1, of the way from the third of six cells to the fourth.
+/// NaN if one of the middle four is.
 template <typename Number>
 [[gnu::always_inline]] inline Number value_between(const std::array<Number, cells_between>& v,
                                                    Number part) {
@@ -55,7 +55,7 @@ template <typename Number>
 }
 
 /// slope_in(), limited so that the curves on both sides stay in the range of the four cells around
-/// them: a curve lies between its ends and the points a third of a cell from them along its slopes.
+/// them: a curve lies between its ends and the points on its tangents a third of a cell away.
 template <typename Number>
 [[gnu::always_inline]] inline Number slope_in_range(Number a, Number b, Number c, Number d,
                                                     Number e) {
@@ -65,9 +65,8 @@ template <typename Number>
     return std::clamp(slope_in(a, b, c, d, e), 3 * least, 3 * largest);
 }
 
-/// value_between() with a curve that stays in the range of the four cells in the middle. Values at
-/// evenly spread places have the mean of the cells, as they have on any curve whose slopes on both
-/// sides of each cell are the same.
+/// value_between() with a curve that stays in the range of the middle four cells. Values at evenly
+/// spaced points have the mean of the cells, because slopes on both sides of a cell are equal.
 template <typename Number>
 [[gnu::always_inline]] inline Number value_in_range(const std::array<Number, cells_between>& v,
                                                     Number part) {

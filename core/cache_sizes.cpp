@@ -1,5 +1,5 @@
-// The sizes of the caches, read from sysfs. hwloc offers them too, but needs 15 ms and more, which
-// is longer than a whole small run; sysconf() is wrong on some processors.
+// The sizes of the caches, read from sysfs. hwloc offers them too, but needs at least 15 ms, longer
+// than a whole small run. sysconf() is wrong on some processors.
 #include "core/cache_sizes.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 namespace cascade {
 
-/// Calls `use` with the cell of each plane, cell by cell and in order. The planes are of one
+/// Calls `use` for each cell in order, with that cell's value in each plane. The planes have one
 /// layout.
 template <typename Use, typename First, typename... Others>
 void for_each_cell(const Use& use, First& first, Others&... others) {
@@ -20,8 +20,8 @@ void for_each_cell(const Use& use, First& first, Others&... others) {
     }
 }
 
-/// Calls `use(row, i)` for the cells in which the mask `counted` is not 0, in order; for all cells
-/// without a mask.
+/// Calls `use(row, i)` for all cells in order, or for those where the mask `counted`, if any, is
+/// not 0.
 template <typename Use>
 void for_each_counted(const PlaneLayout& layout, const Mask* counted, const Use& use) {
     for (std::int64_t row = 0; row < layout.row_count(); ++row) {

@@ -1,4 +1,4 @@
-// Calls that a signal interrupts are repeated; a write of no bytes counts as a full disk.
+// Interrupted calls are repeated. A write of no bytes counts as a full disk.
 #include "core/descriptor.h"
 
 #include <cerrno>
@@ -29,7 +29,7 @@ int write_all(const Descriptor& file, std::string_view bytes) {
 
 std::vector<std::string> names_in(const Descriptor& folder) {
     std::vector<std::string> names;
-    // Reading moves the position of a descriptor, so this opens another one.
+    // Reading a folder moves its descriptor's position, so this opens another one.
     const int again = ::openat(folder.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (again < 0) return names;
     const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(again), &::closedir);

@@ -34,9 +34,9 @@ struct Diagnostic {
     std::vector<Note> notes;
 };
 
-/// The diagnostics of one program. A message that repeats at the same location is kept once. At
-/// most `most_kept` of each severity are kept, further ones are only counted: a text that is no
-/// script at all has very many.
+/// The diagnostics of one program. A message that repeats at the same location is stored once. At
+/// most `most_kept` of each severity are stored and further ones only counted, because a text that
+/// is no script at all causes very many.
 class Diagnostics {
 public:
     static constexpr std::size_t most_kept = 10'000;

@@ -1,5 +1,5 @@
-// Lack of memory as a failure. What asks for memory throws std::bad_alloc; where programs have no
-// exceptions, as in WebAssembly, it ends the program instead.
+// Lack of memory as a failure. Allocations throw std::bad_alloc. Without exceptions, as in
+// WebAssembly, they end the program instead.
 #pragma once
 
 #include "core/result.h"
@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Says that there is too little memory.
+/// Reports a lack of memory.
 [[noreturn]] inline void lack_memory() {
 #ifdef __cpp_exceptions
     throw std::bad_alloc();
@@ -19,8 +19,7 @@ namespace cascade {
 #endif
 }
 
-/// The result of an action, a Result; a failure with this message if there was too little memory
-/// for it.
+/// The Result of an action, or a failure with this message if memory ran out.
 template <typename Action>
 auto enough_memory_for(const Action& action,
                        const std::string& message = "there is not enough memory")

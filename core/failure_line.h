@@ -7,7 +7,7 @@
 
 namespace cascade {
 
-/// "message (hint)", or the message alone where there is no hint.
+/// "message (hint)", or the message alone if there is no hint.
 inline std::string line_of(const Failure& failure) {
     return failure.hint.empty() ? failure.message : failure.message + " (" + failure.hint + ")";
 }

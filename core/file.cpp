@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// open(), repeated when a signal interrupts it. `mode` only matters when a file is created.
+/// open(), repeated after signals. `mode` only matters when a file is created.
 int open_file(const fs::path& path, int flags, mode_t mode = 0) {
     int number = -1;
     do {
@@ -28,7 +28,7 @@ int open_file(const fs::path& path, int flags, mode_t mode = 0) {
 }
 
 /// write_all for a descriptor opened with O_NONBLOCK. A signal that this process handles ends the
-/// wait, so that Ctrl-C does not wait for the reader of a pipe.
+/// wait, so Ctrl-C need not wait for the reader of a pipe.
 int write_all_waiting(const Descriptor& file, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
@@ -59,13 +59,14 @@ Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     return {};
 }
 
-/// Writes a new file that replaces the one with status `replaced`, if any. Returns 0 or the error.
+/// Writes a new file, which replaces the one with status `replaced`, if any. Returns 0 or the
+/// error.
 int replace(const fs::path& target, std::string_view bytes, const struct stat* replaced) {
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return errno;
     TemporaryFile temporary(folder);
     if (const int error = temporary.error()) return error;
-    // A replaced file keeps its permissions if possible; failing to is no reason to lose the data.
+    // The new file gets the old permissions if possible. Failing to is no reason to lose the data.
     if (replaced) (void)::fchmod(temporary.file().number(), replaced->st_mode & 07777);
     if (const int error = temporary.write(bytes)) return error;
     return temporary.rename_to(target.filename().string());
@@ -103,7 +104,7 @@ Result<void> check_writable(const fs::path& path) {
                                    folder_of(target).string()),
                        "make the folder first");
     }
-    // Only a trial is sure: permissions, read-only disks and quotas all matter.
+    // Only trying is reliable: permissions, read-only disks and quotas all matter.
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return cannot("write", path.string(), errno);
     const TemporaryFile temporary(folder, 0600);

@@ -12,26 +12,27 @@
 
 namespace cascade {
 
-/// The content of a file. Fails on a folder, on a missing or unreadable file, and on a file of more
+/// The content of a file. Fails for folders, for missing or unreadable files, and for files of more
 /// than `largest` bytes, which is checked before reading.
 Result<std::string> read_file(const std::filesystem::path& path, std::uint64_t largest);
 
-/// The number of bytes of a file; nothing if there is none or it cannot be told.
+/// The number of bytes of a file, if it exists and its size is known.
 std::optional<std::uint64_t> size_of_file(const std::filesystem::path& path);
 
 /// The first bytes of a file, at most `count`. Empty if it cannot be opened, and for pipes and
-/// devices, whose bytes can be read only once.
+/// devices, whose bytes can only be read once.
 std::string first_bytes(const std::filesystem::path& path, std::size_t count);
 
 /// The content of a regular file. Refuses symbolic links, pipes and devices, without waiting.
 Result<std::string> read_plain_file(const std::filesystem::path& path, std::uint64_t largest);
 
-/// read_plain_file, but follows symbolic links. Messages call the file `name`, or `path` if empty.
+/// read_plain_file, but follows symbolic links. Messages call the file `name`, or `path` if that is
+/// empty.
 Result<std::string> read_linked_file(const std::filesystem::path& path, std::uint64_t largest,
                                      std::string_view name = "");
 
 /// read_plain_file for a file below `folder`: `file` is relative, has no "..", and no part of it
-/// may be a symbolic link. Nothing outside of the folder is opened even if names change meanwhile.
+/// may be a symbolic link. Opens nothing outside the folder, even if names change meanwhile.
 Result<std::string> read_file_below(const std::filesystem::path& folder,
                                     const std::filesystem::path& file, std::uint64_t largest,
                                     std::string_view name);
@@ -43,8 +44,8 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view byte
 /// Creates a folder and its missing parents.
 Result<void> make_folder(const std::filesystem::path& folder);
 
-/// Checks that a file can be written at `path`, and leaves nothing behind: the folder exists and is
-/// writable, and `path` is no folder.
+/// Checks that a file can be written at `path`: the folder exists and is writable, and `path` is no
+/// folder. Leaves no file.
 Result<void> check_writable(const std::filesystem::path& path);
 
 }  // namespace cascade

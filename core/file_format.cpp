@@ -1,4 +1,4 @@
-// Endings of two parts, such as ".cells.vtp", come before their last part alone.
+// Two-part endings, such as ".cells.vtp", are tried before their last part alone.
 #include "core/file_format.h"
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The formats that Cascade writes, and what a file's name says of its own (core/file_formats.def).
+// The formats that Cascade writes, and how a file's name selects one (core/file_formats.def).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ enum class FileFormat : std::uint8_t {
 #include "core/file_formats.def"
 };
 
-/// What is written in a format; `run -o` writes those up to `cells`.
+/// What a format holds. `run -o` writes the kinds up to `cells`.
 enum class FormatKind : std::uint8_t {
     picture,
     figure,
@@ -30,16 +30,16 @@ enum class FormatKind : std::uint8_t {
 
 enum class FormatTrait : std::uint16_t {
     none = 0,
-    drawing = 1 << 0,       ///< Diagrams can be written in it.
-    transparency = 1 << 1,  ///< Of films.
+    drawing = 1 << 0,       ///< Films may be transparent.
+    transparency = 1 << 1,  ///< Points of models have colours. The next two are also about points.
     colours = 1 << 2,       ///< Of the points of a model, like the following two.
     numbers = 1 << 3,
     texture = 1 << 4,  ///< Texture coordinates.
-    copies = 1 << 5,   ///< A model with copies of shapes on it.
+    copies = 1 << 5,   ///< Holds copies of shapes placed on a model.
     maps = 1 << 6,     ///< Textures.
     growth = 1 << 7,   ///< How a model changed over time.
     levels = 1 << 8,   ///< All levels of detail of a model in one file.
-    planes = 1 << 9,   ///< Of volumes: planes, too.
+    planes = 1 << 9,   ///< Volumes may be written as planes, too.
 };
 
 constexpr FormatTrait operator|(FormatTrait a, FormatTrait b) {
@@ -58,7 +58,7 @@ struct FormatRow {
     }
 };
 
-/// In the order of the table.
+/// All formats, in the order of the table.
 consteval auto all_formats() {
     using enum FormatTrait;
     return std::array{
@@ -69,7 +69,7 @@ consteval auto all_formats() {
 }
 inline constexpr auto file_formats = all_formats();
 
-/// The row of the format that a file's name ends with, regardless of case; null for other names.
+/// The format whose ending the file's name has, ignoring case; null if there is none.
 const FormatRow* find_format(const std::filesystem::path& path);
 bool is_of_format(const std::filesystem::path& path, FileFormat format);
 bool is_of_kind(const std::filesystem::path& path, FormatKind kind);
@@ -77,11 +77,11 @@ bool can_hold(const std::filesystem::path& path, FormatTrait trait);
 inline bool is_film(const std::filesystem::path& path) {
     return is_of_kind(path, FormatKind::film);
 }
-/// The kind of a file that `run -o` writes; nothing for other names.
+/// The kind of file that `run -o` writes under this name, if any.
 std::optional<FormatKind> output_kind(const std::filesystem::path& path);
 
-/// The endings of a kind, or of formats with a trait, in the order of the table: ".svg or .pdf"
-/// with the joint "or", ".svg, .pdf" with none.
+/// The endings of a kind, or of formats with a trait, in table order: ".svg or .pdf" with the joint
+/// "or", ".svg, .pdf" without.
 std::string endings_of(FormatKind kind, std::string_view joint = "");
 std::string endings_of(FormatTrait trait, std::string_view joint = "");
 /// "-o NAME.svg or .pdf", for hints.
@@ -93,7 +93,7 @@ std::string output_of(Which which) {
 /// The extension of a file's name with its letters A to Z in lower case, such as ".glb".
 std::string lower_ending(const std::filesystem::path& path);
 
-/// The row of a format in a table whose rows have a member `format`.
+/// The row for a format in a table whose rows have a member `format`.
 template <typename Table>
 constexpr const auto* row_of(const Table& table, FileFormat format) {
     const auto found = std::find_if(table.begin(), table.end(),
@@ -101,7 +101,7 @@ constexpr const auto* row_of(const Table& table, FileFormat format) {
     return found == table.end() ? nullptr : &*found;
 }
 
-/// Whether a table of writers has one for each format of a kind.
+/// Whether a table of writers covers every format of a kind.
 template <typename Table>
 constexpr bool has_all_of(const Table& table, FormatKind kind) {
     return std::all_of(file_formats.begin(), file_formats.end(), [&](const FormatRow& row) {

@@ -28,7 +28,7 @@ void write_control(unsigned long long value) {
 
 #else
 
-constexpr unsigned long long flushing = 1ull << 24;       // Of operands and results.
+constexpr unsigned long long flushing = 1ull << 24;       // Operands and results.
 constexpr unsigned long long rounding_bits = 3ull << 22;  // 0 rounds to nearest even.
 
 unsigned long long read_control() {

@@ -3,9 +3,9 @@
 
 namespace cascade {
 
-/// While an object of this class lives, its thread reads denormal numbers as zero and rounds
-/// denormal results to zero (keeping the sign), and rounds to nearest even. All execution of
-/// kernels and all constant folding happens in this environment, which the spec prescribes.
+/// While an object of this class lives, its thread reads denormal numbers as zero, rounds denormal
+/// results to zero (with their sign), and rounds to nearest even. The spec prescribes this
+/// environment for all execution of kernels and all constant folding.
 class FlushDenormals {
 public:
     FlushDenormals();
@@ -17,9 +17,9 @@ private:
     unsigned long long saved_;
 };
 
-/// From now on FlushDenormals only sets the rounding, in all threads, and the interpreter flushes
-/// what it writes to planes, so that tests can compare results with those of WebAssembly, whose
-/// arithmetic keeps denormal numbers.
+/// Makes FlushDenormals set only the rounding from now on, in all threads, and the interpreter
+/// flush what it writes to planes. Tests then can compare results with WebAssembly, whose
+/// arithmetic has denormal numbers.
 void keep_denormals();
 bool keeps_denormals();
 

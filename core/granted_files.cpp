@@ -1,5 +1,5 @@
-// Links are resolved before a path is compared with the granted folders. The file is then opened
-// below its folder by core/open_below, so that a name that changes in between leads nowhere else.
+// Links are resolved before a path is compared with the granted folders. core/open_below then opens
+// the file below its folder, so that a name that changes meanwhile leads nowhere else.
 #include "core/granted_files.h"
 
 #include "core/file.h"
@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path with symbolic links resolved as far as it exists.
+/// The path with symbolic links resolved, as far as it exists.
 fs::path real_path(const fs::path& path, std::error_code& error) {
     const fs::path absolute = fs::absolute(path, error);
     return error ? fs::path() : fs::weakly_canonical(absolute, error);
 }
 
-/// The path from `folder` to `file`, both resolved; nothing if `file` is not below `folder`.
+/// The path from `folder` to `file`, both resolved, if `file` is below `folder`.
 std::optional<fs::path> way_down(const fs::path& folder, const fs::path& file) {
     auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
     // A folder written with a trailing slash ends in an empty name.
@@ -34,7 +34,7 @@ std::optional<fs::path> way_down(const fs::path& folder, const fs::path& file) {
     return way;
 }
 
-/// Whether a name, as written, stays inside the folder that it is relative to.
+/// Whether a relative name, as written, stays inside its folder.
 bool stays_inside(const std::string& name) {
     const fs::path path = fs::path(name).lexically_normal();
     return path.is_relative() && *path.begin() != "..";

@@ -1,4 +1,4 @@
-// Reading of the files that a script, a model, a picture or a saved run may name.
+// Reads the files that a script, a model, a picture or a saved run may name.
 #pragma once
 
 #include "core/result.h"
@@ -19,8 +19,8 @@ struct ReadAccess {
     friend bool operator==(const ReadAccess&, const ReadAccess&) = default;
 };
 
-/// Reads files by the names that other files give them. All such reads go through this class and no
-/// path leaves it, so that every file opened has been checked.
+/// Reads files that other files name. All such reads go through this class and no path leaves it,
+/// so every file it opens has been checked.
 class GrantedFiles {
 public:
     /// Names are relative to `folder`, and every file below it may be read. Messages name its
@@ -31,15 +31,15 @@ public:
     /// Grants nothing.
     static GrantedFiles none();
 
-    /// The same grants for names relative to the folder of `file`, which is such a name itself: the
-    /// names in a model are relative to the model.
+    /// The same grants for names relative to the folder of `file`, itself such a name: names in a
+    /// model are relative to the model.
     GrantedFiles beside(const std::string& file) const;
 
     /// The content of a regular file. A relative name is looked up in the folder, then in each
     /// folder of `--allow-read`, by the whole name and by its last part. Symbolic links are
-    /// followed. A file that then lies below none of the granted folders is refused with the same
-    /// message whether it exists or not. Fails also on folders, pipes, devices, unreadable files,
-    /// and more than `largest` bytes.
+    /// followed. A file outside all granted folders is refused with the same message whether it
+    /// exists or not. Also fails for folders, pipes, devices, unreadable files, and files of more
+    /// than `largest` bytes.
     Result<std::string> read(const std::string& name, std::uint64_t largest) const;
 
 private:

@@ -6,13 +6,13 @@
 
 namespace cascade {
 
-/// What a cell at a side of the grid sees beyond it, unless a species says otherwise.
+/// What a cell at a side of the grid sees beyond the side, unless a species says otherwise.
 enum class Boundary {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< The cell itself: nothing flows through the side.
 };
 
-/// The boundary along each axis. Converts from one boundary for all axes.
+/// The boundary along each axis. Converts implicitly from one boundary for all axes.
 struct Boundaries {
     Boundary x = Boundary::periodic;
     Boundary y = Boundary::periodic;
@@ -20,27 +20,27 @@ struct Boundaries {
 
     constexpr Boundaries() = default;
     constexpr Boundaries(Boundary all)
-        : x(all), y(all), z(all) {}  // NOLINT: a number of words for one.
+        : x(all), y(all), z(all) {}  // NOLINT: scripts give one word for all axes.
     constexpr Boundaries(Boundary along_x, Boundary along_y, Boundary along_z)
         : x(along_x), y(along_y), z(along_z) {}
 
     friend bool operator==(const Boundaries&, const Boundaries&) = default;
 };
 
-/// The neighbours of a cell: those along the axes of more than one cell. An axis of one cell has no
-/// neighbours along it, so a grid of W × 1 or 1 × H cells is one-dimensional. A Laplacian is summed
-/// as ((((N + S) + E) + W) + U) + D − 2·axes·c, without the absent pairs.
+/// Which neighbours a cell has. An axis of one cell has none, so a grid of W × 1 or 1 × H cells is
+/// one-dimensional. A Laplacian is summed as ((((N + S) + E) + W) + U) + D − 2·axes·c, without the
+/// absent pairs.
 struct Stencil {
     bool x = true;   ///< W and E, the columns before and after.
     bool y = true;   ///< N and S, the rows above and below.
     bool z = false;  ///< U and D, the slices before and after.
-    /// Neighbours are given by a list of links instead of the axes (core/links.h).
+    /// A list of links gives the neighbours instead of the axes (core/links.h).
     bool links = false;
 
     static const Stencil row, column, plane, volume, linked;
 
     constexpr int axes() const { return int{x} + int{y} + int{z}; }
-    /// A distinct number for each stencil, 0 to 8.
+    /// A number from 0 to 8 that identifies the stencil.
     constexpr unsigned number() const {
         return unsigned{x} + 2u * unsigned{y} + 4u * unsigned{z} + 8u * unsigned{links};
     }
@@ -61,20 +61,21 @@ struct GridSize {
     friend bool operator==(const GridSize&, const GridSize&) = default;
 };
 
-/// A grid of width × height × depth cells, squares or cubes of side `spacing`. N is the row above
-/// (j − 1), E the next column (i + 1), D the next slice (k + 1).
+/// A grid of width × height × depth square or cubic cells of side `spacing`. N is the row above (j
+/// − 1), E the next column (i + 1), D the next slice (k + 1).
 struct Grid {
     std::int64_t width = 64;
     std::int64_t height = 64;
     Boundaries boundary = {};
     std::int64_t depth = 1;
     double spacing = 1;  ///< In the user's unit of length; above 0.
-    /// The cells are those of a surface, row after row; padding cells may fill the last row.
+    /// The cells lie on a surface and fill the grid row after row. Padding cells may end the last
+    /// row.
     bool linked = false;
 
     std::int64_t cell_count() const { return width * height * depth; }
     std::int64_t longest_side() const { return std::max({width, height, depth}); }
-    /// A grid of one cell has the stencil of a row; both neighbours are the cell itself.
+    /// A grid of one cell has the stencil of a row, with the cell itself as both neighbours.
     Stencil stencil() const {
         if (linked) return Stencil::linked;
         return {width > 1 || (height == 1 && depth == 1), height > 1, depth > 1};
@@ -84,10 +85,9 @@ struct Grid {
 
 /// The memory layout of a plane: slices one after the other, each with `height` rows and one halo
 /// row above and below. A row starts on a multiple of `row_pad` elements and has `row_pad` elements
-/// before it and at least `row_pad` after it, so that a vector may be read or written at the end of
-/// a row without touching cells of another row. Columns −1 and `width` and rows −1 and `height` are
-/// the halo, edges and corners included. A grid of several slices also has the halo slices −1 and
-/// `depth`; a grid of one slice has none.
+/// before it and at least `row_pad` after it, so that a vector at the end of a row touches no cells
+/// of another row. Columns −1 and `width` and rows −1 and `height` are the halo, including edges
+/// and corners. A grid of several slices also has the halo slices −1 and `depth`.
 ///
 /// Rows are numbered through all slices: row r is row r % height of slice r / height.
 struct PlaneLayout {

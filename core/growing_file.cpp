@@ -1,4 +1,4 @@
-// Bytes go to a TemporaryFile, which is renamed at the end.
+// Appends to a TemporaryFile and renames it at the end.
 #include "core/growing_file.h"
 
 #include "core/file_failure.h"
@@ -29,7 +29,7 @@ Result<std::unique_ptr<GrowingFile>> GrowingFile::create(const std::filesystem::
     if (!file->folder_.is_open()) return cannot("write", path.string(), errno);
     file->file_.emplace(file->folder_);
     if (const int error = file->file_->error()) return cannot("write", path.string(), error);
-    // A replaced file keeps its permissions if possible.
+    // The new file gets the old permissions if possible.
     struct stat replaced {};
     if (::stat(file->target_.c_str(), &replaced) == 0) {
         (void)::fchmod(file->file_->file().number(), replaced.st_mode & 07777);

@@ -1,4 +1,4 @@
-// A file that is written piece by piece, and takes its name when it is complete.
+// A file that is written piece by piece and takes its name when it is complete.
 #pragma once
 
 #include "core/result.h"
@@ -12,37 +12,37 @@
 
 namespace cascade {
 
-/// Grows under a temporary name in the folder of its target. Destroyed before complete(), it leaves
-/// nothing, and a file that already has the name stays as it is.
+/// Grows under a temporary name in the folder of its target. If destroyed before complete(), it
+/// leaves no file, and a file that already has the name stays as it is.
 class GrowingFile {
 public:
-    /// Begins an empty file. Fails as write_file does, and if `path` is a pipe or a device, where
-    /// nothing can be overwritten later.
+    /// Begins an empty file. Fails as write_file does, and if `path` is a pipe or a device, whose
+    /// bytes cannot be overwritten later.
     static Result<std::unique_ptr<GrowingFile>> create(const std::filesystem::path& path);
 
     /// Adds bytes at the end.
     Result<void> append(std::string_view bytes);
-    /// Replaces bytes that were written before, beginning with byte `place`.
+    /// Replaces bytes written before, from byte `place` on.
     Result<void> overwrite(std::uint64_t place, std::string_view bytes);
-    /// The number of bytes that were appended.
+    /// The number of appended bytes.
     std::uint64_t size() const { return size_; }
-    /// Where the bytes are until it is complete, for another program that writes them.
+    /// The path of the file until it is complete, for another program that writes it.
     std::filesystem::path temporary_path() const;
 
-    /// Moves the file to its name, once it is on the disk. Nothing may follow.
+    /// Syncs the file to the disk and renames it to its final name. Must be the last call.
     Result<void> complete();
 
 private:
     GrowingFile(const std::filesystem::path& path, const std::filesystem::path& target);
 
     std::filesystem::path path_;    ///< As the user wrote it.
-    std::filesystem::path target_;  ///< Behind links.
+    std::filesystem::path target_;  ///< With links resolved.
     Descriptor folder_;
     std::optional<TemporaryFile> file_;
     std::uint64_t size_ = 0;
 };
 
-/// Fails if something other than a regular file has this name: only those can grow.
+/// Fails if something other than a regular file has this name, because only regular files can grow.
 Result<void> check_can_grow(const std::filesystem::path& path);
 
 }  // namespace cascade

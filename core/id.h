@@ -1,5 +1,5 @@
-// Numbers that name one thing of a kind, and lists that are read by them: an id of one kind is no
-// id of another, nor a plain number.
+// Ids: numbers that name one thing of a kind, and lists indexed by them. An id of one kind converts
+// neither to another kind nor to a plain number.
 #pragma once
 
 #include <compare>
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// `Tag` is a type that only tells kinds apart: `using NodeId = Id<struct NodeTag>`.
+/// `Tag` is a type that only distinguishes kinds: `using NodeId = Id<struct NodeTag>`.
 template <typename Tag>
 class Id {
 public:
@@ -36,7 +36,7 @@ auto ids_below(std::size_t count) {
            std::views::transform([](std::size_t index) { return Key(index); });
 }
 
-/// A list whose places are ids.
+/// A list indexed by ids.
 template <typename Key, typename Value>
 class IdVector : public std::vector<Value> {
 public:
@@ -46,7 +46,7 @@ public:
 
     typename Base::reference operator[](Key id) { return Base::operator[](id.index()); }
     typename Base::const_reference operator[](Key id) const { return Base::operator[](id.index()); }
-    /// The id of what is added next.
+    /// The id that the next added value gets.
     Key next() const { return Key(Base::size()); }
     auto ids() const { return ids_below<Key>(Base::size()); }
     auto ids_backwards() const { return ids() | std::views::reverse; }

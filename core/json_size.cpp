@@ -1,4 +1,4 @@
-// One pass counts brackets and commas outside of strings; nothing is parsed.
+// Counts brackets and commas outside of strings in one pass, without parsing.
 #include "core/json_size.h"
 
 #include <algorithm>

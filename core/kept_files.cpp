@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t digits_of_name = 32;
 constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 
-/// The start of a file; key and content follow.
+/// The start of a file. The key and the content follow.
 struct Header {
     char magic[8] = {};
     std::uint64_t checksum = 0;  ///< Of all bytes after it.
@@ -41,7 +41,7 @@ bool is_private(const struct stat& status) {
     return status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-/// Opens a folder of the user. A link is refused, because its owner decides where it leads.
+/// Opens a folder of the user. Refuses links, because a link's owner decides where it leads.
 int open_own_folder(const fs::path& folder) {
     Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
     struct stat status {};
@@ -68,7 +68,7 @@ std::string read_own_file(const Descriptor& folder, const std::string& name) {
         if (got <= 0) return {};
         used += static_cast<std::size_t>(got);
     }
-    // A file in use gets a new time at most once a day; the files unused for longest are removed
+    // A file in use gets a new time at most once a day. The files unused for longest are removed
     // first.
     constexpr long day = 24 * 60 * 60;
     if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number(), nullptr);
@@ -106,7 +106,8 @@ std::optional<std::string> content_of(std::string_view file, std::string_view ma
     return std::string(file.substr(sizeof header + header.key_size));
 }
 
-/// Opens a folder, creating it with access for this user only, and its parents as usual.
+/// Opens a folder. Creates it, if missing, with access for this user only, and its parents as
+/// usual.
 int make_own_folder(const fs::path& folder) {
     if (const int opened = open_own_folder(folder); opened >= 0) return opened;
     std::error_code error;

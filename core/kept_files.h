@@ -1,10 +1,10 @@
-// Small files kept on disk under keys, for later processes: compiled kernels and measurements.
+// Small files stored on disk under keys for later processes: compiled kernels and measurements.
 //
-// A folder has one file for each key. If anything is wrong with a file, its owner or the folder,
-// the key counts as unknown; nothing here can fail a run. Processes may share the folder, because
-// files appear under their names complete. A file holds the whole key, so that a hash collision
-// does no harm, and a checksum of everything. The checksum guards against accidents only; against
-// other users, files and folder must belong to this user and be writable by no one else.
+// A folder has one file per key. If anything is wrong with a file, its owner or the folder, the key
+// counts as unknown, so no problem with them can fail a run. Processes may share the folder,
+// because files appear under their names complete. A file holds the whole key, so that a hash
+// collision does no harm, and a checksum of everything. The checksum guards against accidents only.
+// Against other users, files and folder must belong to this user and be writable by no one else.
 #pragma once
 
 #include <atomic>
@@ -20,23 +20,23 @@ class Descriptor;
 
 class KeptFiles {
 public:
-    /// The common properties of the files of one kind. Several kinds may share a folder.
+    /// The properties shared by all files of one kind. Several kinds may share a folder.
     struct Kind {
-        std::string_view suffix;  ///< Of the names, such as ".kernel".
-        std::string_view magic;   ///< The first eight bytes of each file, the last a version.
-        std::uint64_t limit = 0;  ///< Total bytes above which the oldest are removed.
+        std::string_view suffix;  ///< Ends all names, such as ".kernel".
+        std::string_view magic;   ///< The first eight bytes of each file. The last is a version.
+        std::uint64_t limit = 0;  ///< Above this total of bytes, the oldest are removed.
     };
 
-    /// With an empty `folder` nothing is kept or found.
+    /// With an empty `folder`, stores and finds no files.
     KeptFiles(std::filesystem::path folder, const Kind& kind)
         : folder_(std::move(folder)), kind_(kind) {}
 
     bool is_on() const { return !folder_.empty(); }
 
-    /// The content kept under this key. Thread-safe, as is `keep`.
+    /// The content stored under this key. Thread-safe, as is `keep`.
     std::optional<std::string> find(std::string_view key) const;
 
-    /// Keeps `content` if possible. Creates the folder and its parents if they are missing.
+    /// Stores `content` if possible. Creates missing folders.
     void keep(std::string_view key, std::string_view content);
 
 private:
@@ -46,7 +46,7 @@ private:
 
     std::filesystem::path folder_;
     Kind kind_;
-    std::atomic<unsigned> kept_{0};  ///< Calls of `keep`.
+    std::atomic<unsigned> kept_{0};  ///< Number of calls of `keep`.
 };
 
 }  // namespace cascade

@@ -27,7 +27,7 @@ std::string_view take_reason() {
 LateLibrary::LateLibrary(const char* file)
     : file_(file), handle_(::dlopen(file, RTLD_LAZY | RTLD_LOCAL)) {
     if (handle_) return;
-    // The words of the loader where the system gives it no room.
+    // The loader's message if the system gives it no memory.
     const std::string_view reason = take_reason();
     for (const char* words : {"failed to map segment", "annot allocate memory"}) {
         if (reason.find(words) != std::string_view::npos) throw std::bad_alloc();

@@ -1,10 +1,9 @@
-// Shared libraries that are loaded at their first use: loading some takes longer than most
-// commands.
+// Shared libraries loaded at first use, because loading some takes longer than most commands.
 #pragma once
 
 namespace cascade {
 
-/// The address of a function, which becomes a pointer to it where one is asked for.
+/// The address of a function. Converts to any function pointer.
 struct LateFunction {
     void* address;
     template <typename Function>
@@ -13,13 +12,13 @@ struct LateFunction {
     }
 };
 
-/// Never unloaded, since libraries may leave threads or handlers behind.
+/// Is never unloaded, since libraries may leave threads or handlers behind.
 class LateLibrary {
 public:
-    /// Loads the library of this file name, which is searched as the system's loader does. Aborts,
-    /// with a message that names the library, if it cannot be loaded: it is installed with Cascade.
+    /// Loads the library of this file name from the system's search path. If that fails, aborts
+    /// with a message that names the library, because it is installed with Cascade.
     explicit LateLibrary(const char* file);
-    /// Aborts in the same way if the library has no such function.
+    /// Aborts likewise if the library lacks the function.
     LateFunction operator[](const char* name) const;
 
 private:

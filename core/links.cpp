@@ -1,4 +1,4 @@
-// Builds the slices: the links of a cell in the order of its list, padded by links of weight 0.
+// Builds slices of links. Cells list their links in order, padded by links of weight 0.
 #include "core/links.h"
 
 #include "core/check.h"
@@ -33,7 +33,7 @@ public:
             return first++;
         }
     };
-    /// The links of the cell at this position; none in the padding of a row.
+    /// The links of the cell at this position; empty in the padding of a row.
     Range links_at(std::int64_t row, std::int64_t column) const {
         if (column >= layout_.width) return {};
         const auto last = static_cast<std::int64_t>(ends_.size()) - 1;
@@ -43,7 +43,7 @@ public:
         return {first, ends_[cell] - first};
     }
 
-    /// For each cell of the list, its element counted from cell (0, 0).
+    /// The element of each cell of the list, counted from cell (0, 0).
     std::vector<std::int32_t> elements() const {
         std::vector<std::int32_t> result(ends_.size());
         for (std::size_t k = 0; k < result.size(); ++k) {
@@ -55,11 +55,11 @@ public:
     }
 
     struct Slice {
-        std::int64_t first = 0;  ///< The element of its first cell.
+        std::int64_t first = 0;  ///< The element of the slice's first cell.
         std::array<Range, slice_cells> links;
         std::array<std::int64_t, slice_cells> own{};
 
-        /// Null if no links are left.
+        /// The cell with most links left; null if none are left.
         const Range* longest() const {
             const auto most =
                 std::max_element(links.begin(), links.end(),
@@ -73,7 +73,7 @@ public:
     std::size_t slice_count() const {
         return slices_of_row() * static_cast<std::size_t>(layout_.height);
     }
-    /// The cells of a slice; slices are numbered row after row.
+    /// The cells of a slice. Slices are numbered row after row.
     Range cells_of(std::size_t number) const {
         const auto width = static_cast<std::size_t>(layout_.width);
         const std::size_t column = number % slices_of_row() * slice_cells;
@@ -92,7 +92,7 @@ public:
         }
         return slice;
     }
-    /// Calls `use(slice)` for each of them.
+    /// Calls `use(slice)` for each slice.
     void for_each_slice(auto use) const {
         for (std::size_t number = 0; number < slice_count(); ++number) {
             Slice each = slice(number);
@@ -106,7 +106,7 @@ private:
     std::span<const std::uint32_t> order_;
 };
 
-/// Room for the offsets of entries after the present ones.
+/// Makes room for the offsets of more entries.
 std::int16_t* Links::add_offsets(std::size_t entries) {
     const std::size_t present = slices_.bases.size() * slice_cells,
                       all = present + entries * slice_cells;
@@ -172,8 +172,8 @@ Links::Links(const LinkList& list, const PlaneLayout& layout, Precision precisio
     if (!list.gradients.empty()) *this = with_gradients(list.gradients, list.ends, layout, order);
 }
 
-/// Adds a slice all of whose links lead near its first cell. `elements` are the targets of its
-/// links, from the first link of its first cell on.
+/// Adds a slice whose links all lead near its first cell. `elements` are their targets, starting
+/// with the first link of the first cell.
 void Links::add_near_slice(const auto& slice, std::span<const std::int32_t> elements) {
     const auto* const longest = slice.longest();
     const std::size_t entries = longest != nullptr ? longest->count : 0;
@@ -201,8 +201,8 @@ void Links::add_near_slice(const auto& slice, std::span<const std::int32_t> elem
     }
 }
 
-// Nearly all slices lead near. Their links fill each lane from the first entry on, so they are
-// placed lane by lane.
+// Nearly all slices have only near links. These fill each lane from the first entry on, so they are
+// stored lane by lane.
 void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& layout,
                       std::vector<std::int32_t>& elements) {
     const double row_of_cell = 1 / static_cast<double>(layout.width);
@@ -214,7 +214,7 @@ void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& l
     auto least = static_cast<std::int32_t>(slice.first), most = least;
     for (std::size_t k = 0; k < elements.size(); ++k) {
         const auto cell = static_cast<std::int32_t>(links.neighbours[first + k]);
-        // Exact: half a cell is far more than the product's error.
+        // Exact, because half a cell far exceeds the product's error.
         const auto row = static_cast<std::int32_t>((cell + 0.5) * row_of_cell);
         elements[k] = cell + row * beside_row;
         least = std::min(least, elements[k]);
@@ -233,7 +233,7 @@ void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& l
     slices_.starts.push_back(static_cast<std::uint32_t>(slices_.bases.size()));
 }
 
-/// Adds these slices as they were.
+/// Copies unchanged slices.
 void Links::copy_slices(const Slices& from, std::size_t first, std::size_t end) {
     const std::uint32_t begin = from.starts[first], count = from.starts[end] - begin;
     std::copy_n(from.offsets.data() + begin * slice_cells, count * slice_cells, add_offsets(count));
@@ -260,7 +260,7 @@ void Links::assign(const PlacedLinks& links, const PlaneLayout& layout, Precisio
     slices_.cells = links.ends.size();
     if (changed.empty()) reach_ = 1;
     const Placing placing(links.ends, layout, {});
-    // The cells before these are no padding, neither now nor before.
+    // No cell before these is padding, neither now nor before.
     const std::size_t whole = std::min(before_.cells, slices_.cells) - 1;
     const auto is_kept = [&](std::size_t number) {
         const auto [first, count] = placing.cells_of(number);
@@ -280,7 +280,7 @@ void Links::assign(const PlacedLinks& links, const PlaneLayout& layout, Precisio
     }
 }
 
-/// Calls `use(at, link)` for each link, where `at` is its place in the arrays.
+/// Calls `use(at, link)` for each link, where `at` is its index in the arrays.
 void Links::for_each_link(const Placing& placing, const auto& use) const {
     std::size_t entry = 0, slices = 0;
     placing.for_each_slice([&](Placing::Slice& slice) {

@@ -2,14 +2,14 @@
 //
 // Cells are numbered in rows as on a grid (PlaneLayout). Sixteen adjacent cells of a row form a
 // slice. An entry of a slice holds one link of each of the sixteen cells, so a slice has as many
-// entries as its cell with the most neighbours has links. A vector of cells thus loads the
-// positions and weights of its neighbours as vectors and gathers their values. Padding links have
-// weight 0 and lead to the cell itself.
+// entries as the largest number of links of one cell. A vector of cells thus loads the positions
+// and weights of its neighbours as vectors and gathers their values. Padding links have weight 0
+// and lead to the cell itself.
 //
-// Neighbours are near each other in memory, so an entry holds 16-bit offsets from one element: the
-// first cell of the slice or, if some link leads too far for that, the target of some link. Links
-// that are still too far wait for a later entry; the offset of a padding link that is too far from
-// its own cell is 0.
+// Neighbours are near each other in memory, so an entry holds 16-bit offsets from a base element:
+// the first cell of the slice or, if some link leads too far, the target of some link. Links that
+// are still too far wait for a later entry. If a padding link is too far from its own cell, its
+// offset is 0.
 #pragma once
 
 #include "core/grid.h"
@@ -26,39 +26,40 @@
 
 namespace cascade {
 
-/// Links as kernels read them. Entry e is at [16·e, 16·e + 16); slice s has the entries starts[s] …
-/// starts[s + 1] − 1. In a plane of W columns, slice s is at column 16·(s mod n) of row s / n, with
-/// n = ⌈W/16⌉.
+/// Links as kernels read them. Entry e is at [16·e, 16·e + 16), and slice s has the entries
+/// starts[s] … starts[s + 1] − 1. In a plane of W columns, slice s is at column 16·(s mod n) of row
+/// s / n, with n = ⌈W/16⌉.
 template <typename Number>
 struct LinkTable {
     static constexpr std::int64_t slice_cells = PlaneLayout::row_pad;
 
     const std::uint32_t* starts = nullptr;
-    const std::int32_t* bases = nullptr;    ///< By entry: elements from cell (0, 0) to its base.
+    const std::int32_t* bases = nullptr;    ///< Per entry: elements from cell (0, 0) to the base.
     const std::int16_t* offsets = nullptr;  ///< Elements from the base to the neighbour.
     /// Factor of (neighbour − cell) in a Laplacian; null if the links have no weights.
     const Number* weights = nullptr;
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
-    std::int64_t reach = 1;                 ///< No link spans more rows; at least 1.
-    const std::uint16_t* filled = nullptr;  ///< By entry: bit k is set if lane k has a link there.
+    std::int64_t reach = 1;                 ///< Upper bound of the rows that a link spans, at least
+                                            ///< 1.
+    const std::uint16_t* filled = nullptr;  ///< Per entry: bit k is set if lane k has a link there.
 
-    /// Elements from cell (0, 0) to the neighbour to which a link leads.
+    /// The element to which a link leads, counted from cell (0, 0).
     std::int64_t target(std::int64_t link) const {
         return std::int64_t{bases[link / slice_cells]} + offsets[link];
     }
 };
 
-/// The links of all cells, in the order of the cells: those of cell i end before ends[i].
+/// The links of all cells, cell after cell. The links of cell i end before ends[i].
 struct LinkList {
     std::vector<std::size_t> ends;
     std::vector<std::uint32_t> neighbours;  ///< Cell indices, in the order of summation.
     std::vector<double> weights;
-    std::vector<Vector3d> gradients;  ///< Empty, or one for each link.
+    std::vector<Vector3d> gradients;  ///< Empty, or one per link.
 };
 
-/// Links without weights between cells in the order in which they lie in memory: those of cell k
-/// end before ends[k]. For links that are made anew while cells move.
+/// Links without weights between cells in memory order, for links that change while cells move. The
+/// links of cell k end before ends[k].
 struct PlacedLinks {
     std::span<const std::size_t> ends;
     std::span<const std::uint32_t> neighbours;  ///< Cells, in the order of summation.
@@ -82,30 +83,29 @@ private:
     std::shared_ptr<T[]> data_;
 };
 
-/// Owns a table in one precision. Copies share its arrays, which do not change but by assign().
+/// Owns a table of links in one precision. Copies share its arrays, which only assign() changes.
 class Links {
 public:
     Links() = default;
     /// Cell order[k] of the list, or cell k if `order` is empty, is at column k mod width of row k
     /// / width. Padding cells that complete the last row get the links, and so the values, of the
-    /// last cell. Links keep the order of the list, which is the order of summation. Throws
+    /// last cell. Links stay in the list's order, which is the order of summation. Throws
     /// std::bad_alloc.
     Links(const LinkList& list, const PlaneLayout& layout, Precision precision,
           std::span<const std::uint32_t> order = {});
 
-    /// Makes these the links, without weights, in the memory of the present ones where that is
-    /// large enough and not shared with a copy. Tables of the present ones become invalid. `ends`
-    /// has at least one cell and at most those of `layout`, in which cell k is at column k mod
-    /// width of row k / width; padding cells as above. Throws std::bad_alloc.
+    /// Replaces the links by these, without weights, in the present memory if it is large enough
+    /// and not shared with a copy. Invalidates earlier tables. `ends` has at least one cell and at
+    /// most as many as `layout`. Cell k is at column k mod width of row k / width; padding cells
+    /// are as above. Throws std::bad_alloc.
     ///
-    /// `changed`: empty, or by cell whether its links are not those of the present table, which was
-    /// then made for the same layout and precision. Slices of cells that all have theirs are
-    /// copied.
+    /// `changed` is empty, or says for each cell whether its links differ from the present table,
+    /// which then must have the same layout and precision. Slices without changes are copied.
     void assign(const PlacedLinks& links, const PlaneLayout& layout, Precision precision,
                 const std::vector<bool>& changed = {});
 
-    /// A copy with gradient weights, one for each link of the list given to the constructor; `ends`
-    /// is that list's, and layout and order are the same. Throws std::bad_alloc.
+    /// A copy with gradient weights, one for each link of the list given to the constructor.
+    /// `ends`, layout and order are the list's. Throws std::bad_alloc.
     Links with_gradients(std::span<const Vector3d> gradients, std::span<const std::size_t> ends,
                          const PlaneLayout& layout,
                          std::span<const std::uint32_t> order = {}) const;
@@ -125,13 +125,13 @@ private:
         std::array<AlignedArray<Number>, 3> gradients;
     };
 
-    /// What is made for each slice, one after the other.
+    /// The arrays built slice by slice.
     struct Slices {
         std::vector<std::uint32_t> starts;
         std::vector<std::int32_t> bases;
         std::vector<std::uint16_t> filled;
         AlignedArray<std::int16_t> offsets;
-        std::size_t cells = 0;  ///< That have a list of their own.
+        std::size_t cells = 0;  ///< Cells with a list of their own.
     };
 
     void add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& layout,
@@ -143,7 +143,7 @@ private:
     void for_each_link(const Placing& placing, const auto& use) const;
 
     std::int64_t reach_ = 1;
-    Slices slices_, before_;  ///< The table, and the memory of the one before.
+    Slices slices_, before_;  ///< The present table, and the memory of the previous one.
     std::variant<Weights<float>, Weights<double>> weights_;
 };
 

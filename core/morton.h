@@ -1,4 +1,5 @@
-// Places along a Morton curve (G. M. Morton, "A computer oriented geodetic data base", IBM, 1966).
+// Positions along a Morton curve (G. M. Morton, "A computer oriented geodetic data base", IBM,
+// 1966).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ constexpr std::uint64_t every_third(std::uint64_t bits) {
     return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// The place of a box along the curve by its coordinates, of which the lower 21 bits count.
+/// The position of a box along the curve, by the lower 21 bits of its coordinates.
 constexpr std::uint64_t morton_place(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
     return every_third(x) | every_third(y) << 1 | every_third(z) << 2;
 }

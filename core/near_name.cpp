@@ -1,5 +1,5 @@
-// Distance of names: optimal string alignment, the variant of the Damerau-Levenshtein distance that
-// edits no substring twice (F. Damerau, "A technique for computer detection and correction of
+// Edit distance of names: optimal string alignment, the variant of the Damerau-Levenshtein distance
+// that edits no substring twice (F. Damerau, "A technique for computer detection and correction of
 // spelling errors", CACM 7(3), 1964).
 #include "core/near_name.h"
 
@@ -48,7 +48,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
         const std::size_t shorter = std::min(name.size(), candidate.size());
         if (longer - shorter > allowed) continue;
         const std::size_t edits = distance(name, candidate);
-        // Names with no letter in common are not near, however short they are.
+        // Names without a common letter are not near, however short they are.
         if (edits >= longer || edits >= smallest) continue;
         smallest = edits;
         nearest = &candidate;

@@ -8,9 +8,9 @@
 namespace cascade {
 
 /// The candidate with the smallest Damerau-Levenshtein distance (insertions, deletions,
-/// replacements, swaps of neighbours, ignoring case) if that is at most a third of the length of
-/// `name`, or 1, and some letter stays as it was. The first of equally near ones; empty if none is
-/// near. Names longer than 64 bytes have no near name.
+/// replacements, swaps of neighbours, ignoring case) if this is at most 1 or a third of the length
+/// of `name`, and some letter is unchanged. The first of equally near ones; empty if none is near.
+/// Names longer than 64 bytes have no near name.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 }  // namespace cascade

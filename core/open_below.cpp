@@ -1,4 +1,5 @@
-// Uses openat2() with RESOLVE_BENEATH if available, else openat() for each part with O_NOFOLLOW.
+// Uses openat2() with RESOLVE_BENEATH if available, otherwise openat() with O_NOFOLLOW for each
+// part.
 #include "core/open_below.h"
 
 #include <cerrno>
@@ -42,7 +43,7 @@ int open_by_kernel([[maybe_unused]] const Descriptor& folder,
 }
 
 int open_by_parts(const Descriptor& folder, const fs::path& file) {
-    int here = -1;  // The folder reached so far; negative for the caller's.
+    int here = -1;  // The folder reached so far; negative at the start.
     for (auto part = file.begin(); part != file.end(); ++part) {
         const bool is_last = std::next(part) == file.end();
         const Descriptor above(here);

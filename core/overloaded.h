@@ -1,4 +1,5 @@
-// One function from several: `std::visit(Overloaded{[](int) {…}, [](Text) {…}}, variant)`.
+// Combines several functions into one: `std::visit(Overloaded{[](int) {…}, [](Text) {…}},
+// variant)`.
 #pragma once
 
 namespace cascade {

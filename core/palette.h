@@ -12,7 +12,7 @@ namespace cascade {
 /// Red, green and blue as stored in a picture (sRGB), each 0 … 1.
 using Colour = std::array<float, 3>;
 
-/// The colour of NaN: magenta, which no palette comes near.
+/// The colour for NaN: magenta, unlike the colours of all palettes.
 inline constexpr Colour colour_of_nan{1.0F, 0.0F, 1.0F};
 
 /// Colours at equal distances from 0 to 1, interpolated linearly in sRGB.
@@ -25,12 +25,12 @@ struct Palette {
 /// All palettes, "grey" first.
 std::span<const Palette> palettes();
 
-/// The palette of that name, or one of the user's own: 2 to 64 colours in hexadecimal with blanks
+/// The palette of that name, or one given by its colours: 2 to 64 in hexadecimal with blanks
 /// between them, "#1b2a49 #f08a5d #fff3d6" or "#000 #fff". nullptr if there is none. Never
 /// destroyed.
 const Palette* find_palette(std::string_view name);
 
-/// "#1b2a49" or "#fff"; nothing for other words.
+/// "#1b2a49" or "#fff"; nullopt for other words.
 std::optional<Colour> find_colour(std::string_view word);
 /// "#1b2a49": each channel rounded to 256 levels.
 std::string hexadecimal(const Colour& colour);

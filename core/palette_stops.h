@@ -1,4 +1,4 @@
-// The colours of the palettes: numbers only. palette.cpp names them.
+// The colours of the palettes, which palette.cpp names.
 #pragma once
 
 #include "core/palette.h"
@@ -72,7 +72,7 @@ constexpr std::array<Colour, 17> cividis{{
 }};
 
 // Coats, drawn for this project. They go from the dark of the pattern to the light of the ground,
-// so that a species that is low in its spots (b of turing_spots) looks like the animal.
+// so that a species that is low in its spots (b of turing_spots) resembles the animal.
 
 constexpr std::array<Colour, 9> leopard{{
     hex(0x1b120b), hex(0x26180d), hex(0x49301a), hex(0x875a2c), hex(0xb27c3e),

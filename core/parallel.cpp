@@ -24,7 +24,7 @@
 namespace cascade {
 namespace {
 
-/// Tells the core that this is a waiting loop, so that the other hyper-thread gets its turn.
+/// Tells the core that this is a waiting loop, so that it serves its other hyper-thread.
 void relax() {
 #if defined(__x86_64__)
     _mm_pause();
@@ -34,7 +34,7 @@ void relax() {
 }
 
 /// Waits until `word` differs from `old`. Spinning responds within tens of nanoseconds while every
-/// thread has a core; sleeping keeps an oversubscribed machine from wasting whole time slices.
+/// thread has a core. Sleeping saves whole time slices on an oversubscribed machine.
 void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t old, int spins) {
     for (int spin = 0; spin < spins; ++spin) {
         if (word.load(std::memory_order_acquire) != old) return;
@@ -54,7 +54,7 @@ int quota_of_control_group() {
     std::FILE* file = std::fopen("/sys/fs/cgroup/cpu.max", "r");
     if (!file) return 0;
     double quota = 0, period = 0;
-    const int read = std::fscanf(file, "%lf %lf", &quota, &period);  // "max" reads as no number.
+    const int read = std::fscanf(file, "%lf %lf", &quota, &period);  // "max" is no number.
     std::fclose(file);
     if (read != 2 || quota <= 0 || period <= 0) return 0;
     return std::max(1, static_cast<int>(std::lround(quota / period)));
@@ -74,16 +74,16 @@ int hardware_threads() {
 
 namespace {
 
-/// Thrown at a barrier to which another thread will not come.
+/// Thrown at a barrier that another thread will never reach.
 struct Abandoned {};
 
 /// A reusable barrier. Each word that threads wait for has its own cache line.
 struct Meeting {
     alignas(64) std::atomic<std::uint32_t> count{0};  ///< Completed meetings.
-    std::atomic<bool> is_off{false};                  ///< Set before `count` says so.
+    std::atomic<bool> is_off{false};                  ///< Set before `count` is increased.
     alignas(64) std::atomic<int> arrived{0};          ///< Threads waiting for the others.
 
-    /// Ends the waiting of the others, and their next meetings.
+    /// Ends the other threads' waiting, now and at later meetings.
     void call_off() {
         is_off = true;
         ++count;
@@ -109,9 +109,9 @@ struct Meeting {
 struct Team::State {
     alignas(64) std::atomic<std::uint32_t> task{
         0};              ///< Counts calls of run(); workers wait for it to change.
-    Meeting barrier;     ///< Of the active threads.
-    Meeting end_of_run;  ///< Of all threads.
-    alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null asks workers to end.
+    Meeting barrier;     ///< For the active threads.
+    Meeting end_of_run;  ///< For all threads.
+    alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null tells workers to end.
     int active = 1;
     int size = 1;
     int spins = 0;
@@ -119,11 +119,11 @@ struct Team::State {
     std::mutex of_error;
     std::exception_ptr error;  ///< The first one of a run.
 
-    /// Does the work of a thread, and keeps what it throws.
+    /// Does a thread's work and stores the exception it throws.
     void attempt(int index) noexcept {
         try {
             (*work)(index);
-        } catch (const Abandoned&) {  // The other thread has said why.
+        } catch (const Abandoned&) {  // The other thread's exception gives the reason.
         } catch (...) {
             const std::lock_guard lock(of_error);
             if (!error) error = std::current_exception();
@@ -155,8 +155,8 @@ Team::Team(int size) : state_(std::make_unique<State>()) {
     for (int index = 1; index < size; ++index) {
         try {
             state_->workers.emplace_back([state = state_.get(), index] { state->serve(index); });
-        } catch (const std::exception&) {  // Of the system, or for want of memory.
-            state_->size = index;          // Workers read it only when they are given work.
+        } catch (const std::exception&) {  // The system refused, or memory ran out.
+            state_->size = index;          // Workers read it only when they have work.
             break;
         }
     }

@@ -17,18 +17,18 @@ struct RowRange {
 /// Part `index` of `count` nearly equal parts of [0, rows).
 RowRange split_rows(std::int64_t rows, int index, int count);
 
-/// The number of threads that the machine offers this process; at least 1.
+/// The number of threads that the machine offers this process, at least 1.
 int hardware_threads();
 
-/// Leaves work that nobody waits for any more, such as a step of a run that is to end: what a Team
-/// runs, on any of its threads, and its callers up to complete().
+/// Abandons work that is no longer needed, such as a step of a run that is to end: unwinds the work
+/// of a Team, on any of its threads, and its callers up to complete().
 [[noreturn]] void abandon_work();
 
-/// Calls `work`. Returns whether it came to its end; false if it was abandoned.
+/// Calls `work`. Returns false if the work was abandoned.
 bool complete(const std::function<void()>& work);
 
 /// A team of `size` threads, or fewer if the system refuses to start more. The calling thread is
-/// number 0. Each works under FlushDenormals.
+/// number 0. All work under FlushDenormals.
 class Team {
 public:
     explicit Team(int size);
@@ -39,7 +39,7 @@ public:
     int size() const;
 
     /// Runs `work(index)` once on every thread and waits for all. If a thread throws, for example
-    /// because memory is short, threads that wait at a barrier give up, and run() throws the first
+    /// for lack of memory, threads that wait at a barrier give up, and run() throws the first
     /// exception. Not reentrant.
     void run(const std::function<void(int index)>& work);
 

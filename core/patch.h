@@ -12,15 +12,15 @@ namespace cascade {
 /// Half-open range of columns.
 struct ColumnRange {
     std::int64_t begin = 0;
-    std::int64_t end = std::numeric_limits<std::int64_t>::max();  ///< May be beyond the last one.
+    std::int64_t end = std::numeric_limits<std::int64_t>::max();  ///< May exceed the width.
 
     bool contains(std::int64_t column) const { return begin <= column && column < end; }
-    /// The columns that a row of this width has.
+    /// The range limited to a row of this width.
     ColumnRange within(std::int64_t width) const { return {begin, std::min(end, width)}; }
     std::int64_t count() const { return end - begin; }
 };
 
-/// Rows, numbered through all slices, and the columns that count in each; by default all columns.
+/// Rows, numbered through all slices, and a range of columns in each; by default all columns.
 struct Patch {
     RowRange rows;
     ColumnRange columns = {};

@@ -1,4 +1,4 @@
-// What a number of a picture is made of.
+// The kinds of number that make up a picture.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Filling of halos, and conversion of planes.
+// Fills halos and converts planes.
 #include "core/plane.h"
 
 #include "core/check.h"
@@ -26,7 +26,7 @@ Number beyond(const SideRule& rule, Number cell, Number value, Number spacing) {
 template <typename Number>
 class HaloFill {
 public:
-    /// `has_rows`: are the rows above and below each slice filled, too?
+    /// `has_rows` says whether the rows above and below each slice are filled, too.
     HaloFill(Number* origin, const PlaneLayout& layout, const SideRules& sides, ColumnRange columns,
              bool has_rows)
         : origin_(origin),
@@ -43,7 +43,7 @@ public:
         is_right_given_ = columns_.contains(source(Side::right));
     }
 
-    /// Each row of the halo depends on one row of cells and is filled together with it.
+    /// Each halo row depends on one row of cells and is filled together with it.
     void from_rows(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
         fill_columns(slice, begin, end);
         const auto is_given = [&](Side side) {
@@ -70,7 +70,7 @@ private:
         std::int64_t row, slice;
     };
 
-    /// The value e of a side at a cell beside it.
+    /// The side's value e at a cell beside it.
     static Number value_at(const SideRule& rule, std::int64_t cell) {
         return static_cast<Number>(rule.values ? rule.values->at(cell) : rule.value);
     }
@@ -101,8 +101,8 @@ private:
         }
     }
 
-    /// The cell beside a side that comes first in a row, which may be one of the halo: its values
-    /// go on as the field does.
+    /// The first cell beside a side in a row. Halo cells count, because side values continue as the
+    /// field does.
     std::int64_t first_beside(Side side, RowPlace from) const {
         const std::int64_t of_slice = from.row < 0                 ? source(Side::top)
                                       : from.row >= layout_.height ? source(Side::bottom)
@@ -111,13 +111,12 @@ private:
         return SideCells::of_rows(layout_, side, {row, row + 1}).first;
     }
 
-    /// Fills the columns of a row of the halo beyond a side, with the halo columns that depend on
-    /// them.
+    /// Fills the columns of a halo row beyond a side, and the halo columns that depend on them.
     void fill_row(Side side, RowPlace from, RowPlace to) const {
         const SideRule& rule = sides_[side];
         const Number* cells = origin_ + start(from);
         Number* halo = origin_ + start(to);
-        // `set` fills a column, with the value of the side at another one.
+        // `set` fills a column with the side's value at another one.
         const auto fill = [&](const auto& set) {
             if (is_left_given_) set(-1, source(Side::left));
             for (std::int64_t i = columns_.begin; i < columns_.end; ++i) set(i, i);

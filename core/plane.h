@@ -17,9 +17,8 @@
 namespace cascade {
 
 /// Zeroed memory, aligned to 64 bytes. Large planes use huge pages if the system has them, because
-/// a step walks through eight and more planes at once. Their memory is first touched where it is
-/// first used, so threads share that work, and planes that are not used take none. Throws
-/// std::bad_alloc.
+/// a step reads at least eight planes at once. Threads touch the memory first when they first use
+/// it, so they share that work, and unused planes take no memory. Throws std::bad_alloc.
 void* allocate_plane(std::size_t bytes);
 void free_plane(void* plane);
 
@@ -29,15 +28,15 @@ void free_plane(void* plane);
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides);
 
-/// Fills all halo cells that kernels read and whose values come from these cells. Rows above and
-/// below a single row are left out, because no stencil reads them. Threads with disjoint patches
-/// fill the whole halo without reading each other's cells.
+/// Fills all halo cells that kernels read and that depend on these cells. Leaves out rows above and
+/// below a single row, because no stencil reads them. Threads with disjoint patches fill the whole
+/// halo without reading each other's cells.
 template <typename Number>
 void fill_halo_from(Number* origin, const PlaneLayout& layout, const SideRules& sides,
                     const Patch& patch);
 
 /// Owns one value per cell in the layout of PlaneLayout, aligned to 64 bytes and initially zero.
-/// Movable; copied only where that is written: by clone(), or together with what owns it.
+/// Movable. Copied only explicitly: by clone(), or together with its owner.
 template <typename T>
 class Plane {
 public:
@@ -92,11 +91,11 @@ private:
 
 using Mask = Plane<std::uint8_t>;  ///< 1 if a cell is frozen, else 0.
 
-/// The values of a species or of a varying parameter, in the precision of the run and in memory of
-/// this process. Loops over cells (core/counted_cells.h) are written for a `Plane<Number>` and
-/// selected once, by visit(). If the precision is known, rows are accessed as in a plane:
-/// `field.row<double>(j)`, or `field.row(j)` for binary32. A pointer into a field may be held until
-/// the field is assigned, given away or destroyed.
+/// The values of a species or of a varying parameter, in the run's precision and in this process's
+/// memory. Loops over cells (core/counted_cells.h) are written for a `Plane<Number>`, which visit()
+/// selects once. If the precision is known, rows are accessed as in a plane:
+/// `field.row<double>(j)`, or `field.row(j)` for binary32. A pointer into a field is valid until
+/// the field is assigned, moved from or destroyed.
 class Field {
 public:
     Field() = default;
@@ -134,7 +133,7 @@ public:
     }
     Field clone() const { return Field(*this); }
     void fill_halo(const SideRules& sides) const;  ///< As Plane::fill_halo().
-    /// A copy in another precision, with rounded values if that is lower; includes the halo.
+    /// A copy in another precision, including the halo. Rounds if that is lower.
     Field converted(Precision precision) const;
 
     template <typename Number = float>

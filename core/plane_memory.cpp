@@ -1,6 +1,6 @@
-// Small planes come from the heap, large ones straight from the system, which clears their pages
-// when a thread first touches them. That takes longer than to fill the plane of a picture, so the
-// memory of one freed plane waits for the next of its size.
+// Small planes come from the heap. Large ones come from the system, which clears their pages when a
+// thread first touches them. That takes longer than filling a picture's plane, so the memory of one
+// freed plane is reused for the next of its size.
 #include "core/enough_memory.h"
 #include "core/plane.h"
 
@@ -16,18 +16,18 @@ namespace {
 constexpr std::size_t cache_line = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-/// Stands before each plane, in the last bytes of a cache line of its own.
+/// Precedes each plane, at the end of a cache line of its own.
 struct Block {
     void* begin;
-    std::size_t mapped_bytes;  ///< 0 if the block is of the heap.
+    std::size_t mapped_bytes;  ///< 0 if the block is on the heap.
 };
 
-/// Bytes from the start of a memory block to the plane in it. Planes that start at equal offsets in
-/// their pages map their rows to the same cache sets, which have too few ways for a tile of five
-/// planes; and the processor mistakes a load from one plane for a store to another, because it
-/// first compares only the low 12 bits of addresses. So each plane is shifted by a different part
-/// of 128 KiB, a way of a second-level cache, or of a page if the plane is too small for that.
-/// Multiples of 783 are spread evenly over 2048 lines as well as over 64.
+/// The offset of a plane in its memory block. Planes at equal offsets in their pages map rows to
+/// the same cache sets, which have too few ways for a tile of five planes. The processor also
+/// mistakes a load from one plane for a store to another, because it first compares only the low 12
+/// bits of addresses. So each plane is shifted by a different part of 128 KiB, one way of a
+/// second-level cache, or of a page if the plane is too small for that. Multiples of 783 are spread
+/// evenly over 2048 lines as well as over 64.
 std::size_t next_shift(std::size_t bytes) {
     constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
     static std::atomic<std::size_t> planes{0};
@@ -45,7 +45,7 @@ std::size_t round_up(std::size_t bytes, std::size_t unit) {
 
 /// Zeroed pages that begin with a huge one; null if there are none.
 void* map_pages(std::size_t bytes) {
-    // Of any huge_page more bytes, enough lie after the first place that a huge page can have.
+    // After the first position aligned for a huge page, at least `bytes` remain.
     const std::size_t reserved = bytes + huge_page;
     void* const all =
         ::mmap(nullptr, reserved, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -55,12 +55,12 @@ void* map_pages(std::size_t bytes) {
     char* const begin = static_cast<char*>(all) + before;
     if (before > 0) ::munmap(all, before);
     ::munmap(begin + bytes, huge_page - before);
-    // Advice only: the plane works without huge pages, but slower.
+    // Advice only: without huge pages the plane works, but slower.
     ::madvise(begin, bytes, MADV_HUGEPAGE);
     return begin;
 }
 
-/// Pages of a freed plane that wait for the next one. This is in their first bytes.
+/// The pages of a freed plane, stored in their own first bytes, for reuse by the next plane.
 struct SparePages {
     std::size_t bytes;
 };
@@ -71,7 +71,7 @@ void unmap_pages(SparePages* pages) {
     if (pages != nullptr) ::munmap(pages, pages->bytes);
 }
 
-/// The pages that wait, if there are so many; else null, and none wait any more.
+/// Takes the spare pages if they have this size. Otherwise frees them and returns null.
 void* take_spare_pages(std::size_t bytes) {
     SparePages* const pages = spare_pages.exchange(nullptr);
     if (pages != nullptr && pages->bytes == bytes) return pages;

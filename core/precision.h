@@ -32,8 +32,8 @@ template <typename Number>
 inline constexpr Precision precision_of =
     std::is_same_v<Number, double> ? Precision::binary64 : Precision::single;
 
-/// Calls `visit` with a zero of the type that corresponds to a precision, so that the type is
-/// selected once, before the loops.
+/// Calls `visit` with a zero of the precision's type, so that the type is selected once, before the
+/// loops.
 template <typename Visit>
 constexpr decltype(auto) with_number(Precision precision, Visit&& visit) {
     return precision == Precision::single ? visit(float{}) : visit(double{});

@@ -1,4 +1,4 @@
-// Bytes that are not UTF-8 and characters that are not printable become U+FFFD.
+// Replaces bytes that are not UTF-8 and unprintable characters by U+FFFD.
 #include "core/printable.h"
 
 #include "core/utf8.h"

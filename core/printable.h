@@ -1,4 +1,4 @@
-// Text from files, made safe for a terminal and for a message.
+// Makes text from files safe for a terminal and for messages.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,15 @@
 
 namespace cascade {
 
-/// The text as one line that is safe on a terminal: control characters (with line ends and tabs),
-/// invisible ones that change the text around them, and bytes that are not UTF-8 become U+FFFD.
+/// The text as one line that is safe on a terminal. U+FFFD replaces control characters (including
+/// line ends and tabs), invisible ones that change the text around them, and bytes that are not
+/// UTF-8.
 std::string printable(std::string_view text);
 
-/// The same for a text of several lines: keeps line ends and tabs.
+/// The same for a text of several lines: line ends and tabs remain.
 std::string printable_lines(std::string_view text);
 
-/// A name for a message; if longer than `most` characters, shortened by "…" in the middle. Not
+/// A name for a message, shortened by "…" in the middle if longer than `most` characters. Not
 /// cleaned.
 std::string short_name(std::string_view name, std::size_t most = 160);
 

@@ -22,14 +22,14 @@ inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// The same direction at length 1; no rotation for 0 and for what is not finite.
+/// Normalises `q`. Returns the identity if it is 0 or not finite.
 inline Quaternion of_length_1(const Quaternion& q) {
     const double size = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (!(size > 0) || !std::isfinite(size)) return {};
     return {q.w / size, q.x / size, q.y / size, q.z / size};
 }
 
-/// The vector turned by a quaternion of length 1.
+/// The vector rotated by a quaternion of length 1.
 inline Vector3d turned(const Quaternion& q, Vector3d v) {
     const Vector3d axis{q.x, q.y, q.z};
     const Vector3d twice = cross(axis, v) * 2;
@@ -38,7 +38,7 @@ inline Vector3d turned(const Quaternion& q, Vector3d v) {
 
 /// The rotation that takes the axes x, y and z to three directions, which are orthonormal and
 /// right-handed: S. W. Shepperd, "Quaternion from Rotation Matrix", Journal of Guidance and Control
-/// 1(3), 1978. Of the two, the one whose largest component is positive.
+/// 1(3), 1978. Of q and −q, returns the one whose largest component is positive.
 inline Quaternion quaternion_of(Vector3d x, Vector3d y, Vector3d z) {
     const double trace = x.x + y.y + z.z;
     const double most = std::max({trace, x.x, y.y, z.z});

@@ -14,8 +14,9 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t widest_excerpt = 100;   // Columns of a source line that are shown.
-constexpr std::size_t columns_in_front = 60;  // Further right, the start of the line is cut off
+constexpr std::size_t widest_excerpt = 100;   // The widest shown part of a source line.
+constexpr std::size_t columns_in_front = 60;  // If the span starts further right, the start of the
+                                              // line is cut off
 constexpr std::size_t columns_kept = 40;      // and this many characters precede the span.
 constexpr std::size_t tab_stop = 8;
 constexpr std::string_view ellipsis = "\xe2\x80\xa6";  // U+2026.
@@ -30,14 +31,14 @@ Colours colours_of(const RenderStyle& style) {
     return {"\x1b[1m", "\x1b[1;31m", "\x1b[1;35m", "\x1b[1;36m", "\x1b[32m", "\x1b[0m"};
 }
 
-/// The shown part of a source line, and the underlined columns in it.
+/// The shown part of a source line, and the columns underlined in it.
 struct Excerpt {
     std::string text;
     std::size_t marker_begin = 0;
     std::size_t marker_width = 0;
 };
 
-/// The byte at which the excerpt begins: the line's first, or some characters before the span.
+/// The byte at which the excerpt begins: the line's start, or some characters before the span.
 std::size_t excerpt_begin(std::string_view line, std::size_t span_begin) {
     const bool may_be_near = span_begin <= 4 * columns_in_front;  // At most 4 bytes per character.
     if (may_be_near && count_code_points(line.substr(0, span_begin)) <= columns_in_front) return 0;
@@ -83,7 +84,7 @@ Excerpt make_excerpt(std::string_view line, std::size_t span_begin, std::size_t 
     return excerpt;
 }
 
-/// The source line of a span with the span underlined, and the hint after it.
+/// The source line of a span, underlined, followed by the hint.
 std::string draw_excerpt(Span span, std::string_view hint, const Sources& sources,
                          const Colours& colours) {
     const Source& source = sources[span.source];
@@ -102,7 +103,7 @@ std::string draw_excerpt(Span span, std::string_view hint, const Sources& source
     return result + "\n";
 }
 
-/// `name:line:column: `, or nothing for a span of no source.
+/// `name:line:column: `; empty for a span without a source.
 std::string draw_place(Span span, const Sources& sources) {
     if (span.source >= sources.size()) return {};
     const Source& source = sources[span.source];

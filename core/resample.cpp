@@ -1,5 +1,5 @@
-// Restriction takes the mean of the fine cells in a coarse cell; refinement interpolates linearly
-// along each axis, with weights 3/4 and 1/4. Division interpolates on cubic curves.
+// Restriction averages the fine cells in each coarse cell. Refinement interpolates linearly along
+// each axis, with weights 3/4 and 1/4. Division interpolates on cubic curves.
 #include "core/resample.h"
 
 #include "core/between_cells.h"
@@ -109,8 +109,8 @@ Grid finer_grid(const Grid& grid, std::int64_t times) {
 
 namespace {
 
-/// Where the middle of a finer cell lies: the cells around it along an axis, and the part of the
-/// way from the third to the fourth.
+/// The position of a finer cell's centre along an axis: the cells around it, and the fraction of
+/// the way from the third to the fourth.
 template <typename Number>
 struct Around {
     std::array<std::int64_t, cells_between> cells{};
@@ -139,7 +139,7 @@ std::vector<Around<Number>> around(std::int64_t cells, std::int64_t finer, Bound
     return result;
 }
 
-/// Interpolates one slice of a grid, which begins at `from`, into slice k of the finer one.
+/// Interpolates one slice of a grid, which begins at `from`, into slice k of the finer grid.
 template <typename Number, typename Between>
 void divide_slice(const Number* from, const PlaneLayout& layout, const Grid& grid,
                   const std::vector<Around<Number>>& columns,

@@ -5,33 +5,33 @@
 
 namespace cascade {
 
-/// The grid of the same domain with cells `times` as wide. The number of cells along each axis must
-/// be 1, which stays, or a multiple of `times`.
+/// The grid of the same domain with cells `times` as wide. Along each axis, the number of cells
+/// must be a multiple of `times`, or 1, which stays.
 Grid coarser(const Grid& grid, std::int64_t times);
 
-/// A plane on a coarser grid: the mean of the fine cells in each cell, summed in binary64.
+/// A plane on a coarser grid: each cell has the mean of its fine cells, summed in binary64.
 template <typename Number>
 Plane<Number> restricted(const Plane<Number>& fine, const Grid& fine_grid, const Grid& coarse_grid);
 
 /// A plane on a grid twice as fine, interpolated from the four nearest cells (two on a line, eight
-/// in a volume); the nearest has weight 3/4 along each axis. Fills the halo of `coarse` by the
+/// in a volume). The nearest has weight 3/4 along each axis. Fills the halo of `coarse` by the
 /// rules `sides`.
 template <typename Number>
 Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid& fine_grid,
                       const SideRules& sides);
 
-/// The grid of the same domain with `times` cells along each axis in each of its cells. An axis of
-/// one cell stays one.
+/// The grid of the same domain with each cell divided into `times` along each axis. An axis of one
+/// cell stays one.
 Grid finer_grid(const Grid& grid, std::int64_t times);
 
-/// A plane on a finer_grid(). Values between cells lie on the curves of core/between_cells.h, along
-/// the third axis first, then along columns and then along rows; beyond a side that is not
-/// periodic, values go on.
+/// A plane on a finer_grid(). Values between cells lie on the curves of core/between_cells.h, first
+/// along the third axis, then along columns, then along rows. Beyond sides that are not periodic,
+/// values continue.
 template <typename Number>
 Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 
-/// The same for values that a run goes on with: none is outside of the range of the four cells
-/// around along each axis. On a periodic grid the mean stays, but for rounding.
+/// The same for values from which a run continues: along each axis, each stays in the range of the
+/// four cells around it. On a periodic grid the mean stays the same up to rounding.
 template <typename Number>
 Plane<Number> divided_in_range(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 

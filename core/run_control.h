@@ -1,4 +1,4 @@
-// What a run reports to its caller, and how the caller stops it.
+// A run's reports to its caller, and the caller's way to stop it.
 #pragma once
 
 #include <atomic>
@@ -8,39 +8,39 @@
 
 namespace cascade {
 
-/// The progress of a stage. Sent some ten times a second and at the end of a stage.
+/// The progress of a stage, sent about ten times a second and at the stage's end.
 struct Progress {
-    std::string doing;     ///< The activity while no stage runs: `step` of `steps`, if above 0.
+    std::string doing;     ///< The activity between stages: `step` of `steps`, if above 0.
     std::string stage;     ///< The stage's name.
     std::string note;      ///< A remark to print after it; usually empty.
-    int stage_number = 1;  ///< From 1.
+    int stage_number = 1;  ///< Counted from 1.
     int stage_count = 1;
     std::int64_t step = 0;        ///< Completed steps of this stage.
     std::int64_t steps = 0;       ///< Steps this stage will take.
-    double t = 0;                 ///< The stage's time if its end is given by time,
-    double duration = 0;          ///< and that end; 0 if the end is given by steps.
+    double t = 0;                 ///< The stage's time if it ends at a time,
+    double duration = 0;          ///< and that end; 0 if it ends after some steps.
     double steps_per_second = 0;  ///< Recent rate; 0 while unknown.
-    double seconds_left = -1;     ///< Of this stage at that rate; negative while unknown.
+    double seconds_left = -1;     ///< Estimate for this stage; negative while unknown.
     bool stage_done = false;
-    bool condition_met = false;  ///< The stage was ended by its own condition, `until`;
+    bool condition_met = false;  ///< The stage ended by its own condition, `until`;
     std::string when_met;        ///< then the word to print, such as "settled".
 };
 
-/// For what takes long and is not to be cancelled.
+/// For long operations that cannot be cancelled.
 inline const std::atomic<bool> never_cancelled{false};
 
-/// Shared between a run and its observer. `cancel` may be set from a signal handler or from another
-/// thread; the run then ends after a complete step; one that takes long is left undone.
+/// Shared between a run and its observer. A signal handler or another thread may set `cancel`. The
+/// run then ends after a complete step, or abandons a step that takes long.
 struct RunControl {
     std::atomic<bool> cancel{false};
-    /// The steps of a stage are taken by many calls: one may leave without looking for values that
-    /// are not finite, which a later call finds, at most 64 steps after they appeared; doubts wait
-    /// for the stage's end; what makes steps faster is tried as if one call took them all.
+    /// Set when many calls take a stage's steps together. A call may then return without a check
+    /// for non-finite values, which a later call makes at most 64 steps after they appear. Doubts
+    /// wait for the stage's end, and faster ways to step are tried as if one call took all steps.
     bool checks_later = false;
     std::function<void(const Progress&)> report;
     /// Warnings that do not stop the run, such as an interpreted kernel.
     std::function<void(const std::string& message)> warn;
-    /// Information; nothing is wrong.
+    /// Information, not a problem.
     std::function<void(const std::string& message)> note;
 };
 

@@ -12,11 +12,11 @@
 
 namespace cascade {
 
-/// The sides in order of the axes: those before the first cells and those after the last. Then the
-/// border of a mask, which runs between cells of the grid.
+/// The sides of the grid, two per axis: before the first and after the last cells. Then the border
+/// of a mask, which runs between cells of the grid.
 enum class Side : std::uint8_t { left, right, top, bottom, front, back, border };
 
-inline constexpr std::size_t side_count = 6;               ///< Of the grid.
+inline constexpr std::size_t side_count = 6;               ///< The sides of the grid.
 inline constexpr std::size_t wall_count = side_count + 1;  ///< With the border.
 inline constexpr std::array<std::string_view, wall_count> side_names{"left",   "right", "top",
                                                                      "bottom", "front", "back",
@@ -33,28 +33,28 @@ enum class SideKind : std::uint8_t {
     no_flux,   ///< c: nothing flows through the side.
     fixed,     ///< 2e − c: the value at the face is e.
     slope,     ///< c + h·e: the derivative along the outward normal is e.
-    flux,      ///< Of scripts only: diffusion carries e in. Halos are filled by the slope that
-               ///< follows from it (lang/calculus/side_values.h).
+    flux,      ///< Only in scripts: diffusion carries e in. Halos are filled by the equivalent
+               ///< slope (lang/calculus/side_values.h).
 };
 
 constexpr bool takes_value(SideKind kind) {
     return kind == SideKind::fixed || kind == SideKind::slope || kind == SideKind::flux;
 }
 
-/// The words for them in scripts.
+/// The words for the kinds in scripts.
 inline constexpr std::array<std::string_view, 5> side_kind_words{"periodic", "noflux", "fixed",
                                                                  "slope", "flux"};
 
-/// The values e of a side that vary along it, numbers of the field's precision. Cells beside a side
-/// are numbered as in core/side_cells.h.
+/// Values e that vary along a side, in the field's precision. Cells beside a side are numbered as
+/// in core/side_cells.h.
 struct SideValues {
-    std::int64_t first = 0;       ///< The cell that the first number belongs to.
-    std::vector<double> numbers;  ///< For as many cells as halo is filled from.
+    std::int64_t first = 0;       ///< The cell of the first number.
+    std::vector<double> numbers;  ///< One per cell that fills halo.
 
     double at(std::int64_t cell) const { return numbers[static_cast<std::size_t>(cell - first)]; }
 };
 
-/// The boundary condition at a side of one field. Where `values` is null, e is `value` everywhere.
+/// The boundary condition of one field at one side. If `values` is null, e is `value` everywhere.
 struct SideRule {
     SideKind kind = SideKind::periodic;
     double value = 0;

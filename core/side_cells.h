@@ -1,5 +1,5 @@
-// The cells beside a side of a plane, numbered along it, so that values of the side can be kept and
-// computed without a plane.
+// The cells beside a side of a plane, numbered along it, so that the side's values can be stored
+// and computed without a plane.
 #pragma once
 
 #include "core/parallel.h"
@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// The numbers of cells beside a side: those in rows [begin, end) are [first, first + count), in
-/// order of rows and columns.
+/// The numbers of cells beside a side: rows [begin, end) have [first, first + count), in order of
+/// rows and columns.
 struct SideCells {
     std::int64_t first = 0, count = 0;
 

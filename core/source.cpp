@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// Some editors write it at the start of a file; it does not count as a character.
+/// Some editors write it at the start of a file. It does not count as a character.
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 /// Lines end with LF, CR LF or CR.

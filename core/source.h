@@ -2,7 +2,7 @@
 //
 // Every text in which a user can make a mistake is a Source: the script, a built-in system, an
 // expression from the command line, a line typed at the prompt. A Span is a range of one of them.
-// Later stages keep only spans; the line and the column are computed when a message is drawn.
+// Later stages store only spans. Drawing a message computes the line and the column.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace cascade {
 /// The index of a source in its Sources.
 using SourceId = std::uint32_t;
 
-/// The bytes [begin, end) of one source. `begin == end` marks a position between two characters.
+/// The bytes [begin, end) of one source. If `begin == end`, a position between two characters.
 struct Span {
     SourceId source = 0;
     std::uint32_t begin = 0;
@@ -45,7 +45,7 @@ public:
     /// The line and column of a byte offset (clamped to the size of the text).
     Location locate(std::uint32_t offset) const;
 
-    /// A line without its line end; `line` counts from 1. Empty after the last line.
+    /// A line without its line end, where `line` counts from 1. Empty after the last line.
     std::string_view line(std::uint32_t line) const;
 
 private:
@@ -54,7 +54,8 @@ private:
     std::vector<std::uint32_t> line_starts_;
 };
 
-/// All texts of one program. Adding one never moves the others: string views into them stay valid.
+/// All texts of one program. Adding one never moves the others, so string views into them stay
+/// valid.
 class Sources {
 public:
     SourceId add(std::string name, std::string text);

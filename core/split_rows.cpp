@@ -1,4 +1,4 @@
-// The parts of a team's work. Apart from the threads themselves, which a browser's tab lacks.
+// Splits a team's work. Separate from the threads, which a browser's tab lacks.
 #include "core/check.h"
 #include "core/parallel.h"
 

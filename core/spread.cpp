@@ -1,4 +1,4 @@
-// Statistics of adjacent values, in vectors, and merging of two sets of values.
+// Vectorised statistics of adjacent values, and merging of two sets of values.
 #include "core/spread.h"
 
 #include "core/wide_vectors.h"
@@ -10,11 +10,11 @@
 namespace cascade {
 namespace {
 
-/// Values that compilers keep in a few vectors.
+/// As many values as compilers hold in a few vectors.
 constexpr std::size_t lanes = 16;
 
-/// Combines values by lanes: `combine(so_far, value)`. Compilers make vectors of one such loop, but
-/// not of one that does several things.
+/// Combines values lane by lane: `combine(so_far, value)`. Compilers vectorise one such loop, but
+/// not a loop that does several things.
 template <typename Result, typename Number, typename Combine>
 [[gnu::always_inline]] inline std::array<Result, lanes> by_lanes(std::span<const Number> values,
                                                                  Result first, Combine combine) {
@@ -28,8 +28,8 @@ template <typename Result, typename Number, typename Combine>
     return results;
 }
 
-/// Finds the smallest and the largest of a multiple of `lanes` values, at least one. Compilers make
-/// no vectors of such loops by themselves.
+/// Finds the smallest and the largest of a multiple of `lanes` values, at least one. Compilers do
+/// not vectorise such loops by themselves.
 template <typename Number>
 [[gnu::always_inline]] inline void find_extremes(std::span<const Number> values, Spread& spread) {
     typedef Number Vector [[gnu::vector_size(lanes * sizeof(Number))]];
@@ -47,7 +47,8 @@ template <typename Number>
     }
 }
 
-/// Of a multiple of `lanes` values, at least one. The mean is not finite if one of them is not.
+/// Statistics of a multiple of `lanes` values, at least one. The mean is not finite if a value is
+/// not.
 template <typename Number>
 [[gnu::always_inline]] inline Spread spread_of_finite(std::span<const Number> values) {
     Spread spread;
@@ -88,7 +89,7 @@ Spread spread_of_all(std::span<const Number> values) {
     return spread;
 }
 
-/// Those that count, one stretch after another.
+/// Statistics of the values that count, one run of them after another.
 template <typename Number>
 Spread spread_of_some(std::span<const Number> values, const std::uint8_t* counts) {
     if (counts == nullptr) return spread_of_all(values);

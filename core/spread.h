@@ -1,4 +1,4 @@
-// Mean, standard deviation and range of values, and the rule for when values count as even.
+// Mean, standard deviation and range of values, and the rule for when values count as uniform.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace cascade {
 
-/// Values count as even if their standard deviation is at most this fraction of their largest
-/// magnitude, about the rounding error of binary32.
+/// Values count as uniform if their standard deviation is at most this fraction of their largest
+/// magnitude, about the rounding error of binary32,
 inline constexpr double even_deviation = 1e-5;
-/// They also do if it is at most this fraction of the largest magnitude they once had: the remains
-/// of a pattern that dies away.
+/// or at most this fraction of their largest magnitude so far: the remains of a pattern that dies
+/// away.
 inline constexpr double remaining_part = 1e-12;
 
 /// The statistics of a set of values. Values that are not finite are ignored.
@@ -28,12 +28,12 @@ struct Spread {
     double magnitude() const {
         return count > 0 ? std::max(std::abs(smallest), std::abs(largest)) : 0;
     }
-    /// A set without values is even. `once`: the largest magnitude they had before. No size of
-    /// values is small by itself: units are the user's.
+    /// A set without values is uniform. `once` is the largest magnitude the values had before. No
+    /// absolute size is small, because users choose the units.
     bool is_even(double once = 0) const {
         return !(deviation() > std::max(even_deviation * magnitude(), remaining_part * once));
     }
-    /// Are they all the same number?
+    /// Whether all values are the same number.
     bool is_one_number() const { return !(smallest < largest); }
 
     /// Merges in another set of values, without cancellation: T. F. Chan, G. H. Golub and R. J.
@@ -41,7 +41,7 @@ struct Spread {
     void add(const Spread& other);
 };
 
-/// The statistics of values: `for_each(take)` calls `take(value)` for every value, in the same
+/// The statistics of values. `for_each(take)` calls `take(value)` for every value, in the same
 /// order each time. Squares are summed in a second pass, because a difference of sums would lose
 /// small patterns.
 template <typename ForEach>
@@ -64,8 +64,8 @@ Spread spread_of(const ForEach& for_each) {
     return spread;
 }
 
-/// The same of adjacent values. `counts` may be null; else values count where it is not 0. Several
-/// times as fast where all are finite and all count.
+/// The same for adjacent values. If `counts` is not null, only values where it is not 0 count.
+/// Several times as fast where all are finite and all count.
 Spread spread_of(std::span<const float> values, const std::uint8_t* counts = nullptr);
 Spread spread_of(std::span<const double> values, const std::uint8_t* counts = nullptr);
 

@@ -1,5 +1,5 @@
 // Creates files with O_EXCL, locks them with flock(), and calls fsync() before renaming. A file's
-// writer is dead if the file can be locked and is older than an hour.
+// writer counts as dead if the file can be locked and is older than an hour.
 #include "core/temporary_file.h"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ namespace {
 constexpr std::string_view beginning = ".cascade-";
 constexpr std::size_t digit_count = 32;
 
-/// A file is locked a moment after its creation, and not every network file system supports locks.
+/// A file is locked only a moment after its creation, and some network file systems support no
+/// locks.
 constexpr std::time_t youngest_dead = 60 * 60;
 
 int make_new(const Descriptor& folder, const std::string& name, mode_t mode) {
@@ -91,7 +92,7 @@ TemporaryFile::~TemporaryFile() {
 int TemporaryFile::write(std::string_view bytes) {
     if (error_ != 0) return error_;
     if (const int error = write_all(file_, bytes)) return error;
-    // Otherwise a crash of the machine may leave the new name with empty content.
+    // Otherwise a crash of the machine could leave an empty file under the new name.
     return ::fsync(file_.number()) == 0 || errno == EINVAL ? 0 : errno;
 }
 

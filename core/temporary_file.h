@@ -1,8 +1,8 @@
 // New files under temporary names, renamed when they are complete.
 //
-// Names are random: in containers that share a folder every process may have the same id, and a
-// file that a killed one left would block the next. A temporary file is locked (flock) while its
-// writer lives, which tells it from the files of killed processes.
+// Names are random: in containers that share a folder, all processes may have the same id, and a
+// file left by a killed process would block the next. While its writer lives, a temporary file is
+// locked (flock), unlike the files of killed processes.
 #pragma once
 
 #include "core/descriptor.h"
@@ -15,10 +15,10 @@
 
 namespace cascade {
 
-/// 128 random bits of the system as 32 hexadecimal digits; none if it gives none.
+/// 128 random bits from the system as 32 hexadecimal digits, if it gives any.
 std::optional<std::string> secret_digits();
 
-/// The same for names, which only have to be unique: without the system's from another source.
+/// The same for names, which only have to be unique: falls back to another source.
 std::string random_digits();
 
 /// A descriptor that only serves to name files in a folder; negative, with errno set, on failure.
@@ -46,23 +46,23 @@ public:
     /// Closes the file and renames it to `name` in the folder, replacing any file of that name.
     /// Returns 0 or the error number.
     int rename_to(const std::string& name);
-    /// Closes the file and keeps it under its temporary name. Returns 0 or the error number.
+    /// Closes the file and leaves it under its temporary name. Returns 0 or the error number.
     int stay();
 
 private:
     const Descriptor& folder_;
     std::string name_;
     Descriptor file_;
-    bool is_ours_ = false;  ///< The file exists and is to be removed.
+    bool is_ours_ = false;  ///< The file exists and must be removed.
     int error_ = 0;
 };
 
-/// Whether a name is that of a TemporaryFile with this ending.
+/// Whether a TemporaryFile with this ending could have this name.
 bool is_temporary_name(std::string_view name,
                        std::string_view ending = TemporaryFile::usual_ending);
 
-/// Removes the temporary files that killed processes of this user left in a folder: those with the
-/// usual ending that are unlocked and have not been written to for an hour.
+/// Removes the temporary files that killed processes of this user left in a folder: they have the
+/// usual ending, are unlocked, and have not been written to for an hour.
 void remove_dead_temporaries(const Descriptor& folder);
 void remove_dead_temporaries(const std::filesystem::path& folder);
 

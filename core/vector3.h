@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// Numbers are floats, doubles, or what has their operators, `sqrt` and `inverse`, such as the
+/// Numbers are floats, doubles, or types with their operators, `sqrt` and `inverse`, such as the
 /// terms of lang/program/terms.h.
 template <typename Number>
 struct BasicVector3 {
@@ -58,8 +58,8 @@ double nearest_fraction(const Vector& a, const Vector& b, const Vector& p) {
     return square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
 }
 
-using Vector3 = BasicVector3<float>;    ///< Of pictures.
-using Vector3d = BasicVector3<double>;  ///< Of measured geometry.
+using Vector3 = BasicVector3<float>;    ///< For pictures.
+using Vector3d = BasicVector3<double>;  ///< For measured geometry.
 
 /// Two directions that form a right-handed frame with `normal` (of length 1): T. Duff et al.,
 /// "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.

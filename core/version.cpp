@@ -1,4 +1,4 @@
-// A separate file, so that a new version recompiles only this one.
+// In a file of its own, so that a new version recompiles only this file.
 #include "core/version.h"
 
 namespace cascade {
