@@ -30,11 +30,11 @@ enum class FormatKind : std::uint8_t {
 
 enum class FormatTrait : std::uint16_t {
     none = 0,
-    drawing = 1 << 0,       ///< Films may be transparent.
-    transparency = 1 << 1,  ///< Points of models have colours. The next two are also about points.
-    colours = 1 << 2,       ///< Of the points of a model, like the following two.
+    drawing = 1 << 0,       ///< Can hold a diagram.
+    transparency = 1 << 1,  ///< Films may be transparent.
+    colours = 1 << 2,       ///< Points of models have colours.
     numbers = 1 << 3,
-    texture = 1 << 4,  ///< Texture coordinates.
+    texture = 1 << 4,  ///< Points of models have texture coordinates.
     copies = 1 << 5,   ///< Holds copies of shapes placed on a model.
     maps = 1 << 6,     ///< Textures.
     growth = 1 << 7,   ///< How a model changed over time.

@@ -233,7 +233,7 @@ void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& l
     slices_.starts.push_back(static_cast<std::uint32_t>(slices_.bases.size()));
 }
 
-/// Copies unchanged slices.
+/// Appends slices [first, end) of `from` unchanged.
 void Links::copy_slices(const Slices& from, std::size_t first, std::size_t end) {
     const std::uint32_t begin = from.starts[first], count = from.starts[end] - begin;
     std::copy_n(from.offsets.data() + begin * slice_cells, count * slice_cells, add_offsets(count));

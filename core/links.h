@@ -40,8 +40,7 @@ struct LinkTable {
     const Number* weights = nullptr;
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
-    std::int64_t reach = 1;                 ///< Upper bound of the rows that a link spans, at least
-                                            ///< 1.
+    std::int64_t reach = 1;                 ///< Most rows that a link spans; at least 1.
     const std::uint16_t* filled = nullptr;  ///< Per entry: bit k is set if lane k has a link there.
 
     /// The element to which a link leads, counted from cell (0, 0).

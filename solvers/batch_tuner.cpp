@@ -1,4 +1,4 @@
-// Measures batches and lets the tuners of threads and of tiles choose by it.
+// Measures batches, from which the tuners of threads and of tiles choose.
 #include "solvers/batch_tuner.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::int64_t BatchTuner::begin_batch(std::int64_t most) {
         const std::int64_t sweeps = sweeps_of_step();
         steps = std::min(steps, (tile_tuner_.sweeps_of_trial() + sweeps - 1) / sweeps);
     }
-    // Tuning for interpreted steps, or for a mixture of both kinds, is of no use.
+    // Measurements of interpreted steps, or of a mixture of both kinds, are useless for tuning.
     is_good_measure_ = !stepper_.problem().is_provisional() && !tile_tuner_.is_trying();
     began_ = Clock::now();
     return steps;
@@ -58,7 +58,7 @@ bool BatchTuner::take_steps(const StepProblem& problem, std::int64_t count, bool
 }
 
 bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
-    // Where only a few steps are judged, the others are measured.
+    // If only a few steps are judged, the others are measured.
     if (!schedule_.judges_all) return take();
     const StepProblem& problem = stepper_.problem();
     const bool is_native = !problem.is_provisional();
@@ -71,8 +71,8 @@ bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
     return true;
 }
 
-/// Begins again if the passes have other candidates; otherwise what is known of tilings stays
-/// valid. Returns whether it began again.
+/// Begins again if the passes have other candidates. Otherwise measurements of tilings stay valid.
+/// Returns whether it began again.
 bool BatchTuner::renew_tile_tuner() {
     auto tilings = tilings_to_try();
     if (tilings == tile_tuner_.candidates()) return false;
@@ -104,7 +104,7 @@ std::int64_t BatchTuner::steps_at_once() const {
     return (stepper_.executor().levels() + sweeps - 1) / sweeps;
 }
 
-/// The time of the remaining steps. If their number is unknown, the time so far.
+/// The estimated time of the remaining steps, or the time so far if their number is unknown.
 BatchTuner::Seconds BatchTuner::time_left(Seconds of_step) const {
     if (schedule_.check > 0) return spent_ + (Clock::now() - began_);
     const auto by_number = static_cast<double>(schedule_.planned_step - clock_.step);

@@ -19,20 +19,19 @@ class BatchTuner {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Takes the steps of `stepper` and sets its threads and tiling. All arguments must outlive the
-    /// tuner.
+    /// Takes the steps of `stepper`, sets its threads and tiling. All arguments must outlive this.
     BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& stepper);
 
     /// Must be called when the loop resumes after a pause.
     void go_on();
-    /// The number of steps in the next batch, at most `most`. Sets up threads and tiles for it.
+    /// The number of steps in the next batch, at most `most`. Sets threads and tiles for it.
     std::int64_t begin_batch(std::int64_t most);
-    /// Ends the batch.
+    /// Records the end of a batch.
     void end_batch(std::int64_t count, Clock::time_point now);
     /// Takes `count` steps of equal length with the passes of `problem`. Returns whether all values
-    /// are finite, or true without `look`.
+    /// are finite, or true if `look` is false.
     bool take_steps(const StepProblem& problem, std::int64_t count, bool look);
-    /// Takes one step whose error is estimated, by that function; returns its result.
+    /// Takes one step with an estimated error by calling `take`; returns its result.
     bool take_judged_step(const std::function<bool()>& take);
 
     int threads() const { return thread_tuner_.threads(); }
@@ -57,7 +56,7 @@ private:
     ThreadTuner thread_tuner_;
     TileTuner tile_tuner_;
     Clock::time_point began_;       ///< The start of the present batch.
-    bool is_good_measure_ = false;  ///< The present batch shows how fast threads are.
+    bool is_good_measure_ = false;  ///< The present batch measures the speed of threads.
     Seconds spent_{};               ///< The time in batches so far.
 };
 

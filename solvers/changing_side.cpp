@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The values of a plane in some cells beside a side, padded with zeros.
+/// A plane's values in some cells beside a side, padded with zeros.
 template <typename Number>
 std::vector<Number> strip_of(const Field* field, Side side, SideCells cells, std::int64_t padded) {
     CHECK(field != nullptr, "a side reads species that the same pass has written");
@@ -25,7 +25,7 @@ std::vector<Number> strip_of(const Field* field, Side side, SideCells cells, std
     return strip;
 }
 
-/// The values of some cells beside a side, padded; the padding may hold anything.
+/// A buffer for values in some cells beside a side. Its padding is undefined.
 template <typename Number>
 std::vector<Number> compute(const ChangingSide& side, SideMoment moment,
                             const SpeciesPlanes& present, SideCells cells) {

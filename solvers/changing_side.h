@@ -1,10 +1,10 @@
-// Sides whose values change: with time, as in u.left: fixed(sin(t)), or with the values of species
-// in the cells beside them, as in u.left: slope(w - u).
+// Sides whose values change: with time, as in u.left: fixed(sin(t)), or with the species in the
+// cells beside them, as in u.left: slope(w - u).
 //
-// The thread that fills a halo first computes the values of the side for the moment at which the
-// halo will be read. The cells beside a side are numbered along it, so that a small kernel computes
-// just the values that a few rows need. Species are read where the pass that computed the plane has
-// just written them, so a halo never waits for another thread.
+// The thread that fills a halo first computes the side's values for the moment at which the halo
+// will be read. The cells beside a side are numbered along it, so that a small kernel computes only
+// the values that a few rows need. Species are read where the pass that computed the plane has just
+// written them, so a halo never waits for another thread.
 #pragma once
 
 #include "core/parallel.h"
@@ -21,7 +21,7 @@
 
 namespace cascade {
 
-/// The moment for which the values of sides are computed.
+/// The moment for which side values are computed.
 struct SideMoment {
     std::int64_t step = 0;  ///< Complete steps.
     double t = 0;           ///< The stage's time.
@@ -30,21 +30,21 @@ struct SideMoment {
 struct ChangingSide {
     SpeciesId species;
     Side side = Side::left;
-    KernelPointer kernel;                     ///< One result; reads no neighbours and no places.
-    Precision precision = Precision::single;  ///< The kernel's.
-    std::vector<std::vector<double>> strips;  ///< By field slot: values along the side …
+    KernelPointer kernel;                         ///< One result; reads no neighbours or positions.
+    Precision precision = Precision::single;      ///< The kernel's.
+    std::vector<std::vector<double>> strips;      ///< Per field slot: values along the side …
     std::vector<std::optional<SpeciesId>> reads;  ///< … or the species whose values are read.
     std::vector<double> uniforms;
-    std::optional<std::uint32_t> time_slot, step_slot;  ///< Uniforms that a moment sets.
-    bool varies = false;                                ///< Along the side.
+    std::optional<std::uint32_t> time_slot, step_slot;  ///< Uniforms set by a moment.
+    bool varies = false;                                ///< Values vary along the side.
 };
 
-/// The planes of all species at one moment; null where no side reads them.
+/// The planes of all species at one moment; null if no side reads the species.
 using SpeciesPlanes = std::vector<const Field*>;
 SpeciesPlanes planes_of(std::span<const Field> species);
 
-/// Sets the rules of a species to a moment, for halo that is filled from these rows. `present` has
-/// the values of that moment in these rows. Must run inside a FlushDenormals.
+/// Sets the rules of a species to a moment, for the halo filled from these rows. `present` has the
+/// values at that moment in these rows. Must run inside a FlushDenormals.
 void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
                      const SpeciesPlanes& present, const PlaneLayout& layout, const Patch& cells,
                      SideRules& rules);

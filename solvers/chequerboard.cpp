@@ -1,4 +1,4 @@
-// Correlations of neighbours in blocks of a field.
+// Measures correlations of neighbours in blocks of a field.
 #include "solvers/chequerboard.h"
 
 #include "solvers/field_norms.h"
@@ -13,13 +13,13 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t cells_of_block = 64;
-/// On a grid of more than `many_cells` cells only every second, third or fourth band of blocks is
-/// examined. On one of more than `most_cells`, the bands hold about `most_cells` cells in all.
+/// On a grid of more than `many_cells` cells, only every second, third or fourth band of blocks is
+/// examined. Above `most_cells`, the bands hold about `most_cells` cells in all.
 constexpr std::int64_t many_cells = std::int64_t{1} << 14, most_cells = std::int64_t{1} << 22;
 /// The limits of correlation, for neighbours on a grid and for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;
 
-/// The correlation of pairs of deviations, and whether the pairs alternate.
+/// The correlation of pairs of deviations, and whether it shows that they alternate.
 class Pairs {
 public:
     void add(double a, double b) {
@@ -44,7 +44,7 @@ struct Stretch {
     std::int64_t begin = 0, end = 0;
 };
 
-/// Ranges that cover an axis, each beginning `stride` after the one before.
+/// Ranges that cover an axis. Each begins `stride` after the previous one.
 std::vector<Stretch> stretches(std::int64_t count, std::int64_t length, std::int64_t stride) {
     std::vector<Stretch> all;
     for (std::int64_t begin = 0; all.empty() || all.back().end < count; begin += stride) {
@@ -72,7 +72,7 @@ public:
           inside_(inside),
           least_variance_(0.01 * deviation * deviation) {}
 
-    /// The part of the blocks whose cells alternate along an axis.
+    /// The fraction of the blocks whose cells alternate along an axis.
     double on_grid() {
         const auto sides = block_sides(layout_);
         const auto cut = [&](std::int64_t count, std::int64_t side, std::int64_t apart = 1) {
@@ -108,7 +108,7 @@ private:
     }
     double part() const { return cells_ > 0 ? alternating_ / cells_ : 0; }
 
-    /// `visit(i, row)` for the cells of a block that count.
+    /// Calls `visit(i, row)` for the cells of a block that count.
     template <typename Visit>
     void for_each_cell(const Block& block, Visit visit) const {
         for (std::int64_t k = block.k.begin; k < block.k.end; ++k) {
@@ -123,8 +123,8 @@ private:
 
     struct Level {
         double cells = 0, mean = 0;
-        bool is_even =
-            true;  ///< Deviations that are rounding, or small beside the field's, are no pattern.
+        bool is_even = true;  ///< Deviations that are rounding, or small compared to the field's,
+                              ///< are no pattern.
     };
     Level level_of(const Block& block) const {
         Level level;
@@ -154,7 +154,7 @@ private:
         }
     }
 
-    /// Pairs along one axis, of which both cells are in the block.
+    /// Judges pairs along one axis with both cells in the block.
     bool alternates(const Block& block, double mean, std::array<std::int64_t, 3> to) const {
         const Block first{{block.i.begin, block.i.end - to[0]},
                           {block.j.begin, block.j.end - to[1]},

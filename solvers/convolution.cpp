@@ -1,7 +1,7 @@
-// By transforms: rows of real numbers become rows of complex waves, then columns along y and z are
-// transformed in place, sixteen elements at a time, whatever the number of threads. On the last
-// axis waves are multiplied by those of the weights, and everything goes back the same way. Along
-// an axis without periodic sides, zeros after the cells keep both ends apart.
+// Transforms turn rows of real numbers into rows of complex waves. Columns along y and z are then
+// transformed in place, sixteen elements at a time, for any number of threads. On the last axis,
+// waves are multiplied by the weights' waves. The same transforms, inverted, lead back. Along an
+// axis whose sides are not periodic, zeros after the cells separate the two ends.
 #include "solvers/convolution.h"
 
 #include "solvers/fftw_transform.h"
@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t columns_of_block = 8;  ///< Of complex waves.
+constexpr std::int64_t columns_of_block = 8;  ///< In complex waves.
 
 struct Extent {
     std::int64_t cells = 1;
@@ -103,7 +103,7 @@ struct ConvolutionRunner<Number>::Implementation {
         if (!is_direct) prepare(weighted);
     }
 
-    // Directly.
+    // The direct sum.
 
     void add(Number* sums, const Number* row, std::int64_t by, Number weight) const {
         const std::int64_t width = layout.width;
@@ -118,7 +118,7 @@ struct ConvolutionRunner<Number>::Implementation {
         add_range(width - shift, width, shift - width);
     }
 
-    /// The number of a row or slice at a lag; nothing beyond a side.
+    /// The number of a row or slice at a lag; nullopt beyond a side.
     std::optional<std::int64_t> place(std::size_t axis, std::int64_t at) const {
         const Extent& extent = axes[axis];
         if (extent.is_periodic) return wrapped(at, extent.cells);
@@ -138,7 +138,7 @@ struct ConvolutionRunner<Number>::Implementation {
         }
     }
 
-    // By transforms.
+    // The sum by transforms.
 
     void prepare(const WeightedLags& weighted) {
         std::array<std::int64_t, 3> farthest{};
@@ -207,7 +207,7 @@ struct ConvolutionRunner<Number>::Implementation {
     Number* row_of(Complex* waves, std::int64_t y, std::int64_t z) const {
         return numbers(waves + (z * size[1] + y) * stride);
     }
-    /// Waves from one to the next along an axis.
+    /// The distance from one wave to the next along an axis, in waves.
     std::int64_t step(std::size_t axis) const { return axis == 1 ? stride : stride * size[1]; }
     /// Blocks of columns along an axis.
     std::int64_t pieces(std::size_t axis) const {
@@ -224,7 +224,7 @@ struct ConvolutionRunner<Number>::Implementation {
         (is_forward ? forward : backward)[axis].run(at, at);
     }
     void multiply(std::int64_t first, std::int64_t count) const {
-        // The compiler makes vectors of these loops if it knows that nothing overlaps.
+        // The compiler vectorises these loops if it knows that the arrays do not overlap.
         Number* __restrict__ const a = numbers(buffer.get() + first);
         const Number* __restrict__ const b = numbers(kernel.get() + first);
         for (std::int64_t n = 0; n < 2 * count; n += 2) {
@@ -290,9 +290,9 @@ struct ConvolutionRunner<Number>::Implementation {
     std::array<Extent, 3> axes;
     WeightedLags direct;
     bool is_direct = false;
-    std::array<std::int64_t, 3> size{1, 1, 1};  ///< Of transforms.
-    std::int64_t blocks = 0;                    ///< Of columns, in a row of waves.
-    std::int64_t stride = 0;                    ///< Waves from one row to the next.
+    std::array<std::int64_t, 3> size{1, 1, 1};  ///< Size of the transforms.
+    std::int64_t blocks = 0;                    ///< Blocks of columns in a row of waves.
+    std::int64_t stride = 0;                    ///< Distance between rows, in waves.
     Buffer buffer, kernel;
     Transform there, back;
     std::array<Transform, 3> forward, backward;
@@ -309,7 +309,7 @@ ConvolutionRunner<Number>::~ConvolutionRunner() = default;
 template <typename Number>
 void ConvolutionRunner<Number>::apply(Team& team, int thread, int threads, const Number* from,
                                       Number* to) {
-    team.barrier();  // All rows have been written, and nothing reads the target any more.
+    team.barrier();  // All rows are written, and no thread reads the target any more.
     if (self_->is_direct) {
         const RowRange own = split_rows(self_->layout.row_count(), thread, threads);
         for (std::int64_t row = own.begin; row < own.end; ++row) self_->sum_row(row, from, to);

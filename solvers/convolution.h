@@ -13,23 +13,22 @@
 
 namespace cascade {
 
-/// The way from a cell to another one, in cells along each axis.
+/// The offset from one cell to another, in cells along each axis.
 struct Lag {
     std::int64_t x = 0, y = 0, z = 0;
     friend bool operator==(const Lag&, const Lag&) = default;
 };
 
-/// The number of lags that a convolution may have.
+/// The largest number of lags that a convolution may have.
 inline constexpr std::int64_t most_lags = std::int64_t{1} << 24;
 
-/// The number of lags in the box around those of lags_within(), or a number above most_lags.
+/// The number of lags in the box around lags_within(), or a number above most_lags.
 std::int64_t lags_in_box(const Grid& grid, std::optional<double> reach);
 
 /// The lags up to a distance `reach` in the unit of Grid::spacing, in order of z, y and x. Along an
-/// axis without periodic sides they end where no two cells of the grid are farther apart; along a
-/// periodic one they go round it as often as the reach says. Without a reach each cell of a
-/// periodic axis has one lag, the shortest (of two equal ones the positive). Nothing if there are
-/// more than most_lags.
+/// axis whose sides are not periodic, they are limited to the extent of the grid. Along a periodic
+/// axis, they wrap around as often as the reach requires. Without a reach, each cell of a periodic
+/// axis has one lag, the shortest (of two equal ones the positive). nullopt if above most_lags.
 std::optional<std::vector<Lag>> lags_within(const Grid& grid, std::optional<double> reach);
 
 /// The sum of the products of `weights` and the values at `lags`.
@@ -39,22 +38,22 @@ struct WeightedLags {
     friend bool operator==(const WeightedLags&, const WeightedLags&) = default;
 };
 
-/// Sums up to this number of lags directly; transforms are faster for more.
+/// Up to this number of lags, sums are computed directly. Transforms are faster for more.
 inline constexpr std::size_t most_direct_lags = 32;
 
 template <typename Number>
 class ConvolutionRunner {
 public:
-    /// Values beyond sides that are not periodic count as 0. The grid is not linked. Throws
+    /// Values beyond sides that are not periodic count as 0. The grid must not be linked. Throws
     /// std::bad_alloc.
     ConvolutionRunner(const Grid& grid, const WeightedLags& weighted);
     ~ConvolutionRunner();
     ConvolutionRunner(ConvolutionRunner&&) noexcept;
 
     /// Writes the sums for all cells of a plane into another one. Planes are given by the addresses
-    /// of their cells (0, 0, 0). Called by the first `threads` threads of the team, each with its
-    /// number. Begins and ends with a barrier of the team, after which the rows of the target, but
-    /// not its halo, are visible to all threads. Bits do not depend on `threads`.
+    /// of their cells (0, 0, 0). The first `threads` threads of the team call this, each with its
+    /// number. Begins and ends with a barrier of the team. After the last one, all threads see the
+    /// rows of the target, but not its halo. Bits do not depend on `threads`.
     void apply(Team& team, int thread, int threads, const Number* from, Number* to);
 
 private:

@@ -1,6 +1,6 @@
-// The other solution comes from the trapezoidal rule: the error is the mean of the rates at both
-// ends times the step, minus the change of the step. The last filter of etdrk4 and the last
-// equations of ros2 have an estimate of their own.
+// The step is compared with the trapezoidal rule: the error is the mean of the rates at both ends
+// times the step, minus the change of the step. The last filter of etdrk4 and the last equations of
+// ros2 have an estimate of their own.
 #include "solvers/error_estimate.h"
 
 #include "solvers/rosenbrock.h"
@@ -15,8 +15,7 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// Inputs: the new step, the old one, the rates at the old one. Outputs: the error, the rates at
-/// the new one.
+/// Inputs: the new step, the old step and its rates. Outputs: the error, the new step's rates.
 SweepForm error_form() {
     SweepForm form;
     form.inputs = 3;
@@ -30,7 +29,7 @@ SweepForm error_form() {
     return form;
 }
 
-/// Lets the first sweep, which evaluates the rates at the old step, read them instead.
+/// Makes the first sweep read the rates at the old step instead of evaluating them.
 void read_first_rates(Scheme& scheme, RegisterId first_rate) {
     Sweep& first = scheme.sweeps.front();
     SweepForm form = scheme.forms[first.form];
@@ -51,7 +50,7 @@ void read_first_rates(Scheme& scheme, RegisterId first_rate) {
     scheme.forms[first.form] = std::move(form);
 }
 
-/// The filter writes the error by time; the sweep multiplies it by the step.
+/// The filter writes the error per unit of time, and the sweep multiplies it by the step.
 Scheme with_error_of_filter(Scheme scheme) {
     const RegisterId error = scheme.add_register();
     scheme.error_register = error;

@@ -1,4 +1,4 @@
-// An estimate of the error of a step, for solvers that have none of their own.
+// Error estimates for the steps of solvers that have none of their own.
 #pragma once
 
 #include "solvers/scheme.h"
@@ -11,18 +11,19 @@ namespace cascade {
 ///
 /// the difference from the trapezoidal rule through the two ends of the step. For Euler's method
 /// this is h/2 · (f(new) − f(old)), the leading term of its error. In general e is proportional to
-/// h² for methods of first order and to h³ for all others; for short steps it is an upper estimate
+/// h² for methods of first order and to h³ for all others. For short steps it is an upper estimate
 /// of their error. E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations
 /// I", 1993, section II.4, treats such pairs.
 ///
-/// For fine grids that is useless to `etdrk4`: f amplifies the rounding errors of `new`. Its e is
-/// the difference from a method of second order that the last stage knows (solvers/etd_stages.h),
-/// whose waves are damped as those of the step. It is as useless to `ros2`, whose f amplifies the
-/// errors of fast reactions; its e is that of solvers/rosenbrock.h.
+/// This estimate is useless for `etdrk4` on fine grids, where f amplifies the rounding errors of
+/// `new`. Its e is the difference from a method of second order that the last stage knows
+/// (solvers/etd_stages.h), with waves damped as in the step. The estimate is also useless for
+/// `ros2`, where f amplifies the errors of fast reactions. Its e is defined in
+/// solvers/rosenbrock.h.
 ///
-/// The rates at `new` are the first rates of the next step, which reads them and does not evaluate
-/// them again. So the estimate costs a sweep without an evaluation, and three more registers
-/// (`etdrk4` and `ros2`: one). e is 0 where a value is frozen or held at a bound.
+/// The rates at `new` are the first rates of the next step, which reuses them. So the estimate
+/// costs a sweep without an evaluation, and three more registers (`etdrk4` and `ros2`: one). e is 0
+/// where a value is frozen or held at a bound.
 Scheme with_error_estimate(Scheme scheme);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// FFTW's functions are looked up by name in the library of the precision, when it is first needed.
+// FFTW's functions are looked up by name in the library for the precision at first use.
 #include "solvers/fftw_transform.h"
 
 #include "core/check.h"

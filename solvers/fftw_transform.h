@@ -1,4 +1,4 @@
-// A transform by FFTW of lines of numbers (internal to solvers/). FFTW is loaded by the first.
+// A transform of lines of numbers by FFTW (internal to solvers/). The first one loads FFTW.
 #pragma once
 
 #include <fftw3.h>
@@ -8,12 +8,12 @@
 
 namespace cascade {
 
-/// An estimated plan: measuring would choose differently from run to run. Memory that is given to
-/// run() is aligned like that of the constructor.
+/// An estimated plan, because measuring would choose differently from run to run. Memory for run()
+/// must be aligned like the constructor's.
 template <typename Number>
 class FftwTransform {
 public:
-    /// Where lines lie: the elements from one number to the next and from one line to the next.
+    /// The layout of lines: the elements from one number to the next and from one line to the next.
     struct Lines {
         Number* at;
         std::int64_t stride, distance;
@@ -21,13 +21,13 @@ public:
     enum Kind : std::uint8_t {
         real,     ///< FFTW's "r2r".
         complex,  ///< "dft": lines of complex numbers, two elements each.
-        there,    ///< "r2c", of one line of real numbers next to each other.
+        there,    ///< "r2c", on one contiguous line of real numbers.
         back      ///< "c2r", its inverse.
     };
 
     FftwTransform() = default;
     /// `count` lines of `cells` numbers each. `direction` is FFTW's kind of a real transform and
-    /// the sign of a complex one. Does not read or write the lines.
+    /// the sign of a complex one. Neither reads nor writes the lines.
     FftwTransform(Kind kind, int direction, std::int64_t cells, std::int64_t count,
                   const Lines& from, const Lines& to);
     FftwTransform(FftwTransform&& other) noexcept;

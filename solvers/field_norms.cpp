@@ -1,4 +1,4 @@
-// Norms and moments of fields.
+// Computes norms and moments of fields.
 #include "solvers/field_norms.h"
 
 #include "core/wide_vectors.h"
@@ -11,8 +11,8 @@
 namespace cascade {
 namespace {
 
-/// Sums value(i) for i of [0, count): sixteen partial sums, which a compiler can keep in vectors,
-/// then those one by one.
+/// Sums value(i) for i in [0, count): sixteen partial sums, which compilers can hold in vectors,
+/// then the partial sums one by one.
 template <typename Value>
 [[gnu::always_inline]] inline double sum(std::int64_t count, Value value) {
     constexpr std::int64_t lanes = 16;
@@ -34,11 +34,11 @@ template <typename Number>
 struct Row {
     const Number* cells;
     const Number* subtracted;    ///< May be null.
-    const std::uint8_t* counts;  ///< Cells count where it is not 0; null: all.
+    const std::uint8_t* counts;  ///< Only cells where it is not 0 count; null: all.
     std::int64_t width;
 
-    /// Calls `use(value, counts)` with functions of the cell. The branches on the kind of row are
-    /// taken here, outside the loops.
+    /// Calls `use(value, counts)` with functions of the cell. Branches on the kind of row here,
+    /// outside the loops.
     template <typename Use>
     [[gnu::always_inline]] auto visit(Use use) const {
         const auto with_counts = [&](auto value) __attribute__((always_inline)) {
@@ -100,8 +100,7 @@ FieldMoments moments_of(const PlaneLayout& layout, RowAt row_at) {
     FieldMoments result;
     result.mean = values / cells;
     result.root_mean_square = root_mean_square_about(0, layout, row_at);
-    // About the mean, because the difference of two squares would lose a pattern of small
-    // amplitude.
+    // About the mean, because a difference of squares would lose a pattern of small amplitude.
     result.deviation = root_mean_square_about(result.mean, layout, row_at);
     return result;
 }

@@ -9,9 +9,9 @@
 
 namespace cascade {
 
-// With a mask `inside`, cells count where it is not 0; without one (nullptr) all cells count.
+// With a mask `inside`, only cells where it is not 0 count. nullptr: all cells count.
 
-/// The number of cells of a row of a mask that count; `width` without one (nullptr).
+/// The number of cells in a row of a mask that count; `width` without a mask (nullptr).
 std::int64_t cells_that_count(const std::uint8_t* counts, std::int64_t width);
 
 /// Mean and deviation of a field's cells.
@@ -27,13 +27,13 @@ FieldMoments moments_of_difference(const Field& a, const Field& b, const Mask* i
 /// The root mean square of a field's cells; NaN if one of them is NaN.
 double root_mean_square(const Field& field, const Mask* inside = nullptr);
 
-/// The same of a − b, in double precision.
+/// The same for a − b, in double precision.
 double root_mean_square_of_difference(const Field& a, const Field& b, const Mask* inside = nullptr);
 
-/// The sum of the squares of the first `cells` cells of a row. Threads can share the rows.
+/// The sum of the squares of the first `cells` cells of a row. Threads may share the rows.
 double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells);
-/// The root mean square of a field of `cells` cells, from the sums of squares of its rows, added in
-/// order: the same bits as root_mean_square(). Fields are 0 outside of a mask, so whole rows may be
+/// The root mean square of a field of `cells` cells, from its rows' sums of squares, added in
+/// order: the same bits as root_mean_square(). Fields are 0 outside a mask, so whole rows may be
 /// summed there.
 double root_mean_square(std::span<const double> sums_of_squares, std::int64_t cells);
 

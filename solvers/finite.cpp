@@ -1,4 +1,4 @@
-// Looking for infinities and NaNs in fields.
+// Finds infinities and NaNs in fields.
 #include "solvers/finite.h"
 
 #include "core/wide_vectors.h"
@@ -9,7 +9,7 @@
 namespace cascade {
 namespace {
 
-/// A number is infinite or NaN if all bits of its exponent are set; adding one to the exponent then
+/// A number is infinite or NaN if all bits of its exponent are set. Adding one to the exponent then
 /// carries into the sign. Integer operations without branches vectorise everywhere, and no compiler
 /// flag can remove them.
 template <typename Number, typename Word>
@@ -35,7 +35,7 @@ bool row_is_finite(const double* row, std::int64_t width) {
 
 namespace {
 
-/// Numbers that are added at once: one vector of the widest kind, or a few narrower ones.
+/// Numbers added at once: one vector of the widest kind, or a few narrower ones.
 template <typename Number>
 struct Lanes {
     typedef Number Vector [[gnu::vector_size(64)]];
@@ -78,8 +78,8 @@ WITH_WIDE_VECTORS void add_rows(const Plane<double>& plane, RowRange rows, Colum
 bool are_finite(const Field& field, const Patch& cells) {
     const ColumnRange columns = cells.columns.within(field.layout().width);
     return field.visit([&]<typename Number>(const Plane<Number>& plane) {
-        // An infinity or a NaN never leaves a sum again. A sum may also overflow without one, which
-        // says nothing.
+        // An infinity or a NaN never leaves a sum again. Finite sums may overflow too, so rows are
+        // checked one by one.
         Lanes<Number> sums{};
         add_rows(plane, cells.rows, columns, sums);
         Number all[3 * Lanes<Number>::count];

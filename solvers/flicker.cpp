@@ -1,4 +1,4 @@
-// Values that jump back and forth from step to step.
+// Detects values that jump back and forth from step to step.
 #include "solvers/flicker.h"
 
 #include "core/wide_vectors.h"
@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// A change that dies out becomes smaller by more than this part.
+/// A change that dies out shrinks by more than this factor.
 constexpr double lasting = 0.95;
 
 /// The changes of a row of cells in two steps.
@@ -22,7 +22,7 @@ struct Changes {
 
     double first(std::int64_t i) const { return double{between[i]} - before[i]; }
     double second(std::int64_t i) const { return double{after[i]} - between[i]; }
-    /// Have both the size `least`, and the second one undoes the first?
+    /// Do both have the size `least`, with opposite signs?
     bool is_undone(std::int64_t i, double least) const {
         const double one = first(i), other = second(i);
         return one * other < 0 && std::abs(one) >= least && std::abs(other) >= least;

@@ -1,4 +1,4 @@
-// Detects values that jump back and forth from step to step because steps are too long for them.
+// Detects values that jump back and forth from step to step because steps are too long.
 #pragma once
 
 #include "core/plane.h"
@@ -9,9 +9,9 @@
 
 namespace cascade {
 
-/// Receives the state after each of a few steps and compares each change with the one before. A
+/// Receives the state after each of a few steps and compares each change with the previous one. A
 /// change counts if it is at least a tenth of the species' deviation and a thousandth of its root
-/// mean square; smaller ones are harmless, or rounding.
+/// mean square. Smaller ones are harmless, or rounding.
 class FlickerWatch {
 public:
     /// `inside` says which cells count; nullptr: all.
@@ -21,14 +21,14 @@ public:
     void see(std::span<const Field> species);
 
     struct Finding {
-        /// The part of the cells in which each change undid the one before and was smaller by a
-        /// twentieth at most.
+        /// The fraction of cells in which each change undid the previous one and was at most a
+        /// twentieth smaller.
         double flickering = 0;
-        /// The part of all changes of all cells that undid the one before, to any degree: high if
-        /// steps are too long even to settle into a regular oscillation, one half for random
-        /// numbers.
+        /// The fraction of all changes of all cells that undid the previous one, to any degree:
+        /// high if steps are too long even to settle into a regular oscillation, one half for
+        /// random numbers.
         double undone = 0;
-        double largest = 0;  ///< The largest last change of a cell in `part`.
+        double largest = 0;  ///< The largest last change of a flickering cell.
     };
     Finding finding(std::size_t species) const;
 
@@ -37,7 +37,7 @@ private:
         Field before_last, last;
         Mask steady;                         ///< 1 where all changes so far undid each other.
         double cells = 0, flickering = 0;    ///< At the last comparison.
-        double comparisons = 0, undone = 0;  ///< So far.
+        double comparisons = 0, undone = 0;  ///< Over all comparisons.
         double largest = 0;
     };
     void compare(Species& seen, const Field& now) const;

@@ -1,4 +1,4 @@
-// No other file of the room includes Eigen.
+// The only file of the room that includes Eigen.
 #include "solvers/linked_laplacian.h"
 
 #include <Eigen/SparseCholesky>
@@ -10,12 +10,13 @@
 namespace cascade {
 namespace {
 
-/// The least s, as a part of the mean of the diagonal, times the number of cells: a hundredth of
-/// the second eigenvalue of −Δ on a sphere. More precision would be lost to rounding where the
-/// surface has several parts, each with a constant of its own.
+/// The smallest s, relative to the mean of the diagonal, times the number of cells: a hundredth of
+/// the second eigenvalue of −Δ on a sphere. A smaller one would drown in rounding where the surface
+/// has several parts, each with a constant of its own.
 constexpr double least_shift = 0.03;
 
-/// `use(row, column, target, weight)` for each link of some rows; elements count from cell (0, 0).
+/// Calls `use(row, column, target, weight)` for each link of some rows. Elements count from cell
+/// (0, 0).
 template <typename Number>
 void each_link(const LinkTable<Number>& table, const PlaneLayout& layout, RowRange rows,
                const auto& use) {
@@ -38,17 +39,16 @@ void each_link(const LinkTable<Number>& table, const PlaneLayout& layout, RowRan
 }  // namespace
 
 struct LinkedLaplacian::Factors {
-    std::vector<std::int64_t> elements;  ///< Of the cells that count, from cell (0, 0) on.
-    Eigen::VectorXd roots;               ///< Of the areas of those.
-    Eigen::SparseMatrix<double>
-        matrix;  ///< −Δ between roots and their reciprocals, its lower half.
+    std::vector<std::int64_t> elements;  ///< Cells that count, from cell (0, 0) on.
+    Eigen::VectorXd roots;               ///< Of their areas.
+    Eigen::SparseMatrix<double> matrix;  ///< Lower half of −Δ between roots and their reciprocals.
     double least_s = 0;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-    std::optional<double> shift;  ///< Of the factors: the s that was given or the least one.
+    std::optional<double> shift;  ///< The s of the factors: as given, or the smallest one.
 
     bool is_singular() const { return shift == least_s; }
 
-    /// Takes out the mean by area of values times roots, as which no s determines it. The order of
+    /// Subtracts the mean by area of values times roots, which no s determines. The order of
     /// summation must not depend on vectors.
     void subtract_mean(Eigen::VectorXd& values) const {
         double sum = 0, area = 0;
@@ -62,7 +62,7 @@ struct LinkedLaplacian::Factors {
 
 LinkedLaplacian::LinkedLaplacian(const Links& links, const PlaneLayout& layout, const Field* areas)
     : links_(links), layout_(layout), factors_(std::make_unique<Factors>()) {
-    std::vector<Eigen::Index> unknowns;  // By element; −1 for those that are left out.
+    std::vector<Eigen::Index> unknowns;  // Per element; −1 for cells left out.
     std::vector<double> roots;
     for (std::int64_t row = 0; row < layout.row_count(); ++row) {
         for (std::int64_t column = 0; column < layout.width; ++column) {

@@ -1,4 +1,4 @@
-// The inverse of a Laplacian of linked cells less a number, as a preconditioner.
+// The inverse of a Laplacian of linked cells minus a number, as a preconditioner.
 #pragma once
 
 #include "core/links.h"
@@ -13,25 +13,25 @@ namespace cascade {
 /// times the roots of their areas make the matrix symmetric.
 class LinkedLaplacian {
 public:
-    /// From this number of cells on, the factors would take gigabytes.
+    /// With at least as many cells, the factors would take gigabytes.
     static constexpr std::int64_t most_cells = std::int64_t{1} << 20U;
 
-    /// Cells with the area 0 are left out; without `areas` all are alike. Throws std::bad_alloc.
+    /// Cells with area 0 are left out. Without `areas`, all are alike. Throws std::bad_alloc.
     LinkedLaplacian(const Links& links, const PlaneLayout& layout, const Field* areas);
     ~LinkedLaplacian();
     LinkedLaplacian(const LinkedLaplacian&) = delete;
     LinkedLaplacian& operator=(const LinkedLaplacian&) = delete;
 
-    /// Writes Δ u of some rows.
+    /// Writes Δ u in some rows.
     template <typename Number>
     void apply(const Number* u, Number* result, RowRange rows) const;
 
-    /// Factorises for s ≥ 0, unless that was done last. For 0 a number is taken that is small
-    /// beside all eigenvalues but the first. The answer is no if that fails, as it may where links
-    /// have weights below 0. Throws std::bad_alloc.
+    /// Factorises for s ≥ 0, unless that was done last. For 0, uses a number that is small compared
+    /// to all eigenvalues but the first. Returns false on failure, which is possible if links have
+    /// weights below 0. Throws std::bad_alloc.
     bool factorise(double s);
-    /// Writes u for the s of factorise(), and 0 in the cells that are left out. Where s is 0, the
-    /// means of f and u are taken out, the areas being weights.
+    /// Writes u for the s of factorise(), and 0 in the cells left out. If s is 0, subtracts the
+    /// means of f and u, weighted by areas.
     template <typename Number>
     void solve(const Number* f, Number* u, double a);
 

@@ -1,4 +1,4 @@
-// Finds stops from the schedule's intervals, its end time and the length of steps.
+// Finds stops from the schedule's intervals and end time and from the length of steps.
 #include "solvers/loop_clock.h"
 
 #include <algorithm>
@@ -59,14 +59,14 @@ std::int64_t LoopClock::next_check() {
     return step + 1;
 }
 
-/// Whole steps that fit into the remaining time, from which rounding may have taken some.
+/// The whole steps that fit into the remaining time, up to rounding.
 std::int64_t LoopClock::whole_steps_left() const {
     if (!has_end_time()) return std::numeric_limits<std::int64_t>::max();
     const double steps = (schedule_.end_time - now()) / time.clock.step;
     return static_cast<std::int64_t>(std::min(std::floor(steps + rounding_of_time), 1e18));
 }
 
-/// The number of steps until t has come this far; at least one.
+/// The number of steps until t is reached, at least one.
 std::int64_t LoopClock::steps_until(double t) const {
     const double steps = std::ceil((t - now()) / time.clock.step - rounding_of_time);
     return static_cast<std::int64_t>(std::clamp(steps, 1.0, 1e9));

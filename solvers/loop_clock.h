@@ -1,4 +1,4 @@
-// How far the time loop of a stage has come, and when it must stop next.
+// The progress of a stage's time loop, and when it must stop next.
 #pragma once
 
 #include "solvers/schedule.h"
@@ -13,30 +13,30 @@ public:
     explicit LoopClock(const Schedule& schedule);
 
     std::int64_t step;       ///< Complete steps.
-    std::int64_t last_look;  ///< The step of the last look for values that are not finite.
+    std::int64_t last_look;  ///< The step of the last check for non-finite values.
     TimeState time;
 
     double now() const { return time.clock.at(step); }
     void set_step(double length) { time.clock.set_step(step, length); }
-    /// A call goes on from this step: tenths of the duration before it have been observed.
+    /// A call continues from this step. Tenths of the duration before it have been observed.
     void go_on();
 
     bool has_end_time() const { return std::isfinite(schedule_.end_time); }
     bool is_over() const;
     /// Has it reached the end of the schedule?
     bool is_at_last_step() const { return step >= schedule_.last_step; }
-    /// The steps to the end if they stay as long as they are now; without an end time, by number.
+    /// The steps to the end if they stay as long as now, or by number without an end time.
     double steps_left() const;
 
     bool is_judging() const { return schedule_.tolerance > 0; }
     /// Is the error of the next step estimated?
     bool judges_next() const;
-    /// The next step after which values are checked, whatever the last step of the present call. No
-    /// picture is made of values that are not finite, and no stage ends with them. Steps change
-    /// their length only after a check, so that the steps since the last one can be repeated. A
-    /// last step that would pass the end is shortened.
+    /// The next step after which values are checked, whatever the last step of the present call.
+    /// Pictures and ends of stages always follow a check. Steps change their length only after a
+    /// check, so that the steps since the last one can be repeated. A last step that would pass the
+    /// end is shortened.
     std::int64_t next_check();
-    /// Must the present step be observed? To be called once for each step.
+    /// Must the present step be observed? Must be called once for each step.
     bool observation_due();
 
 private:

@@ -1,4 +1,4 @@
-// How fast a run goes.
+// Measures how fast a run proceeds.
 #include "solvers/pace.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ void Pace::took(std::int64_t count, std::chrono::duration<double> duration) {
     const auto steps_in = [&](double seconds) {
         return static_cast<std::int64_t>(std::clamp(std::floor(seconds / per_step), 1.0, 1e9));
     };
-    // The average grows by steps: the first ones, with cold caches, say little about the rest.
+    // The average grows gradually, because the first steps, with cold caches, say little.
     batch_ = std::min(steps_in(batch_seconds), batch_ * 8);
     patient_batch_ = steps_in(patient_seconds);
 }

@@ -1,5 +1,5 @@
-// How fast a run goes: sizes of batches that keep it responsive, and the rate and remaining time
-// that the user sees.
+// How fast a run proceeds: batch sizes that let it respond quickly, and the rate and remaining time
+// for the user.
 #pragma once
 
 #include <algorithm>
@@ -9,22 +9,22 @@
 
 namespace cascade {
 
-/// Times are passed in, so that a test can choose them.
+/// Callers pass times in, so that a test can choose them.
 class Pace {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
     Pace(Time now, std::int64_t step);
 
-    /// Steps to take before the clock and `cancel` are read again: about 20 ms of work. At least
-    /// `wanted`, which are faster together, if those take half a second or less.
+    /// The number of steps to take before the clock and `cancel` are read again: about 20 ms of
+    /// work. At least `wanted`, which are faster together, if they take at most half a second.
     std::int64_t batch(std::int64_t wanted = 1) const {
         return std::max(batch_, std::min(wanted, patient_batch_));
     }
-    /// Records that a batch of `count` steps took this time.
+    /// Records the time of a batch of `count` steps.
     void took(std::int64_t count, std::chrono::duration<double> duration);
 
-    /// Goes on after a pause: reports leave out the time before, and batches keep their size.
+    /// Continues after a pause: reports leave out the pause, and batches keep their size.
     void go_on(Time now, std::int64_t step);
 
     /// Is it time for a report? About ten times a second.

@@ -1,6 +1,6 @@
 // Rows are computed in bands that fit into a cache, and the halo of a band is filled while the band
-// is there. Each thread folds the aggregates of all rows itself, which takes one barrier instead of
-// two.
+// is cached. Each thread folds the aggregates of all rows itself, which takes one barrier instead
+// of two.
 #include "solvers/pass_runner.h"
 
 #include "core/check.h"
@@ -15,8 +15,8 @@
 namespace cascade {
 namespace {
 
-/// The halo's columns lie beside rows that were just written. Filled a band at a time, they are
-/// still in the cache.
+/// The halo's columns are beside rows that were just written. If they are filled band by band, the
+/// rows are still in the cache.
 template <typename Number>
 std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
     // A quarter of a MiB of results.
@@ -25,7 +25,7 @@ std::int64_t rows_of_a_band(const PlaneLayout& layout, std::size_t results) {
                                          (layout.stride * static_cast<std::int64_t>(results)));
 }
 
-/// What columns of the halo are copies of; nothing if a side has a value of its own.
+/// The cells that columns of the halo copy; nullopt if a side has a value of its own.
 std::optional<HaloColumns> copied_columns(const SideRules& sides, std::int64_t width) {
     const auto wraps = [&](Side side) { return sides[side].kind == SideKind::periodic; };
     if (sides[Side::left].has_value() || sides[Side::right].has_value()) return std::nullopt;
@@ -153,7 +153,7 @@ void PassRunner::solve(const Worker& worker, std::size_t pass_number, Team& team
     }
 }
 
-/// The halo is filled by the threads that wrote the rows beside it.
+/// The threads that wrote the rows beside the halo fill it.
 template <typename Number>
 void PassRunner::convolve(const Worker& worker, std::size_t pass_number, Team& team,
                           Registers registers) {
@@ -169,7 +169,7 @@ void PassRunner::convolve(const Worker& worker, std::size_t pass_number, Team& t
     }
 }
 
-/// Every thread reduces its rows; then each thread folds the sums of all rows. These are
+/// Every thread reduces its rows. Then each thread folds the sums of all rows, which are
 /// overwritten only after the next barrier of the team.
 template <typename Number>
 void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_t pass_number,
@@ -241,7 +241,7 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
             [&](Sweep::Coefficient by) {
                 value = static_cast<Number>(by.times_step ? by.value * moment.length : by.value);
             },
-            [](AggregateId) {},  // Set by its reduction.
+            [](AggregateId) {},  // Its reduction sets it.
         };
         std::visit(set, uniform.value);
     }
@@ -312,7 +312,7 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
                 fill_halo_of(level, k, part);
                 continue;
             }
-            // The first and the last row alone have copies in rows of the halo.
+            // Only the first and the last row have copies in rows of the halo.
             const std::int64_t last = layout_.height - 1;
             if (part.rows.begin == 0) fill_halo_of(level, k, {{0, 1}, part.columns});
             if (part.rows.end == last + 1) fill_halo_of(level, k, {{last, last + 1}, part.columns});
@@ -321,14 +321,14 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
     }
 }
 
-/// Are columns of a result's halo those that a kernel fills?
+/// Does a kernel fill these columns of a result's halo?
 template <typename Number>
 bool PassRunner::has_copied_columns(const Level<Number>& level, std::size_t number) const {
     const auto& [rules, copied] = sides_[level.pass];
     return copied && copied_columns(rules[number], layout_.width) == copied;
 }
 
-/// Fills the halo of a result for the moment at which neighbours will read it.
+/// Fills a result's halo for the moment at which neighbours will read it.
 template <typename Number>
 void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number,
                               const Patch& cells) const {
@@ -344,7 +344,7 @@ void PassRunner::fill_halo_of(const Level<Number>& level, std::size_t number,
     const bool is_next = result.read_at == StepProblem::Result::next_step;
     const SideMoment when{is_next ? moment.complete + 1 : moment.complete,
                           is_next ? moment.next_t : moment.t + result.read_at * moment.length};
-    // Sides of species read those that this pass has written beside them into the same register.
+    // Sides read the species that this pass has written beside them into the same register.
     SpeciesPlanes present(problem_.species_needs_halo.size());
     const std::vector<StepProblem::Result>& results = problem_.passes[level.pass].results;
     for (std::size_t k = 0; k < results.size(); ++k) {

@@ -2,7 +2,7 @@
 // passes.
 //
 // A worker binds a pass to planes and to a moment as a *level*, and runs levels on any rows. run()
-// is the plain loop with one level at a time; solvers/tile_runner.h runs several.
+// is the plain loop with one level at a time. solvers/tile_runner.h runs several.
 #pragma once
 
 #include "core/parallel.h"
@@ -25,22 +25,22 @@ namespace cascade {
 /// The moment of a step.
 struct StepMoment {
     std::int64_t complete = 0;                  ///< Steps taken before it.
-    double t = 0;                               ///< The stage's time as it begins.
+    double t = 0;                               ///< The stage's time at its start.
     double length = 0;                          ///< The time step.
     double next_t = 0;                          ///< The stage's time when the next step begins.
-    const std::atomic<bool>* cancel = nullptr;  ///< The step may be left undone when this is true.
+    const std::atomic<bool>* cancel = nullptr;  ///< If this is true, the step may be abandoned.
 
-    /// Abandons the step if it is cancelled. Any thread may call it at any place.
+    /// Abandons the step if it is cancelled. Any thread may call it at any time.
     void leave_if_cancelled() const {
         if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) abandon_work();
     }
 };
 
-/// The planes of every register, one for each species, in the problem's precision.
+/// The planes of every register, one per species, in the problem's precision.
 using Registers = std::span<const std::span<Field>>;
 
 /// Called for rows that a pass has just written, by the thread that wrote them while they are in
-/// the cache, or, if grids are cut along columns, by any thread.
+/// the cache. If grids are cut along columns, any thread calls it.
 using RowsWritten = std::function<void(RowRange)>;
 
 template <typename Number>
@@ -52,7 +52,7 @@ public:
     explicit PassRunner(const StepProblem& problem);
     ~PassRunner();
 
-    /// A pass with everything that is needed to run it on some rows.
+    /// A pass with all data needed to run it on some rows.
     template <typename Number>
     struct Level {
         std::size_t pass = 0;
@@ -69,15 +69,15 @@ public:
     struct Arguments {
         std::vector<Level<Number>> levels;
         std::vector<std::vector<Number>>
-            uniforms;  ///< By pass; aggregates have their latest values.
+            uniforms;  ///< Per pass. Aggregates have their latest values.
         IdVector<AggregateId, Number> aggregates;
     };
     /// The data of one thread.
     struct alignas(64) Worker {
         int number = 0;  ///< The thread's number among the `count` threads in use.
         int count = 1;
-        RowRange rows;  ///< A part of all rows,
-        Patch cells;    ///< and of all cells, which is a fair share even if there are few rows.
+        RowRange rows;  ///< A fraction of all rows,
+        Patch cells;    ///< and of all cells, a fair share even if there are few rows.
         std::vector<DiffusionSymbol> symbols;
         std::variant<Arguments<float>, Arguments<double>> arguments;
         std::vector<double> row_values;
@@ -85,25 +85,25 @@ public:
     /// Prepares a worker for its rows, as thread `number` of `count`.
     void prepare(Worker& worker, int number, int count) const;
 
-    /// One thread's part of a step. All threads of the team in use call it with the same registers
+    /// One thread's share of a step. All threads of the team in use call it with the same registers
     /// and moment. When it returns, this thread's rows of the results are written and their halo
-    /// filled; another barrier of the team makes them visible to every thread.
+    /// filled. After another barrier of the team, every thread sees them.
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
     /// Runs all passes once; the team shares the rows.
     void run_once(Team& team, Registers registers, const StepMoment& moment);
 
     /// Does what must precede the pass's kernel: constraints, convolutions, reductions and filters.
-    /// Called like run(), by all threads of the team.
+    /// All threads of the team call it, as they call run().
     void prepare_pass(Worker& worker, Team& team, std::size_t pass, Registers registers,
                       const StepMoment& moment);
-    /// Binds a pass as level `level` of the worker. Registers are read now, not later. `is_near`:
-    /// the values that it reads will be in a near cache. `when_written` may be null and must
+    /// Binds a pass as level `level` of the worker. Reads registers now, not later. `is_near` says
+    /// that the values it reads will be in a near cache. `when_written` may be null and must
     /// outlive the level.
     void bind(Worker& worker, std::size_t level, std::size_t pass, Registers registers,
               const StepMoment& moment, bool is_near = false,
               const RowsWritten* when_written = nullptr);
-    /// Runs a level that is bound on some cells, and fills the halo that copies them.
+    /// Runs a bound level on some cells, and fills the halo that copies them.
     void run_cells(Worker& worker, std::size_t level, const Patch& cells) const;
 
     const StepProblem& problem() const { return problem_; }
@@ -151,12 +151,12 @@ private:
     };
     std::variant<Helpers<float>, Helpers<double>> helpers_;
     struct PassSides {
-        std::vector<SideRules> rules;       ///< By result, before any of them changes.
+        std::vector<SideRules> rules;       ///< Per result, before any of them changes.
         std::optional<HaloColumns> copied;  ///< What a kernel fills columns of the halo with.
     };
-    std::vector<PassSides> sides_;  ///< By pass.
+    std::vector<PassSides> sides_;  ///< Per pass.
     IdVector<TemporaryId, Field> temporaries_;
-    IdVector<AggregateId, std::vector<double>> row_values_;  ///< By aggregate and row.
+    IdVector<AggregateId, std::vector<double>> row_values_;  ///< Per aggregate and row.
 };
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// The scheme as two sweeps. The point of the second evaluation is kept and not k1, since h k1 is
-// its difference from the old step.
+// The scheme as two sweeps. It stores the point of the second evaluation instead of k1, since h k1
+// is its difference from the old step.
 #include "solvers/rosenbrock.h"
 
 #include <numbers>

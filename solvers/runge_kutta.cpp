@@ -1,6 +1,6 @@
 // Butcher tableaux as sweeps.
 //
-// A step without an error estimate keeps its stages and not its rates. Step · k_j is a sum of
+// A step without an error estimate stores its stages and not its rates. Step · k_j is a sum of
 // differences between stages, so a sweep writes only one plane of each species.
 #include "solvers/runge_kutta.h"
 
@@ -33,7 +33,7 @@ double time_of(const std::vector<double>& row) {
     return std::accumulate(row.begin(), row.end(), 0.0);
 }
 
-/// Each stage is in a register; differences from the old step stand for rates.
+/// Each stage is in a register. Differences from the old step replace rates.
 class StateScheme {
 public:
     explicit StateScheme(const ButcherTableau& tableau) : tableau_(tableau) {}
@@ -59,7 +59,7 @@ private:
     }
 
     /// The weights of the differences stage − old that express Σ weights[j] step k_j without the
-    /// last rate: row j + 1 of the tableau gives k_j by stage j + 1 and the rates before it.
+    /// last rate: row j + 1 of the tableau gives k_j from stage j + 1 and the earlier rates.
     std::vector<double> weights_of_stages(std::vector<double> weights) const {
         std::vector<double> of_stages(weights.size(), 0);
         for (std::size_t stage = weights.size() - 1; stage > 0; --stage) {
@@ -71,7 +71,7 @@ private:
         return of_stages;
     }
 
-    /// The sweep that evaluates the rate of a stage and writes the next stage.
+    /// Adds the sweep that evaluates a stage's rate and writes the next stage.
     void add_stage(std::uint32_t stage) {
         const std::vector<double>& row = row_of(stage + 1);
         SweepForm form;
@@ -107,8 +107,8 @@ private:
     Scheme scheme_;
 };
 
-/// Each rate is in a register, because the error is a small difference of large rates. The rate of
-/// the new step is part of it, and is the first rate of the next step.
+/// Each rate is in a register, because the error is a small difference of large rates. The error
+/// includes the new step's rate, which is also the first rate of the next step.
 class EmbeddedScheme {
 public:
     explicit EmbeddedScheme(const ButcherTableau& tableau)
@@ -128,12 +128,12 @@ private:
         return stage == 0 ? old_register : state_registers_[stage % 2];
     }
 
-    /// The row that gives the state after a stage: the next stage's, or that of the new step.
+    /// The row that gives the state after a stage: the next stage or the new step.
     const std::vector<double>& row_after(std::uint32_t stage) const {
         return stage + 1 < tableau_.b.size() ? tableau_.a[stage + 1] : tableau_.b;
     }
 
-    /// Does anything but the row right after it read the rate of a stage?
+    /// Is the rate of a stage read by any row but the next?
     bool is_read_later(std::uint32_t stage) const {
         for (std::uint32_t later = stage + 1; later < tableau_.b.size(); ++later) {
             if (row_after(later)[stage] != 0) return true;
@@ -141,7 +141,7 @@ private:
         return tableau_.error[stage] != 0;
     }
 
-    /// Step · weights[j] · k_j from the registers of rates, except for the last weight.
+    /// Adds step · weights[j] · k_j from the registers of rates, except for the last weight.
     void add_kept_rates(SweepForm& form, Sweep& sweep, SweepOutput& output,
                         const std::vector<double>& weights) const {
         for (std::size_t j = 0; j + 1 < weights.size(); ++j) {
@@ -167,7 +167,7 @@ private:
         add(scheme_, std::move(form), std::move(sweep));
     }
 
-    /// Evaluates no rate: the length of the step was not known when the first rate was evaluated.
+    /// Evaluates no rate, because the step's length was unknown when the first rate was evaluated.
     void add_second_state() {
         SweepForm form;
         Sweep sweep;
@@ -220,9 +220,9 @@ private:
 
     const ButcherTableau& tableau_;
     Scheme scheme_;
-    /// The states of stages are in the two in turn.
+    /// Stages alternate between the two.
     std::array<RegisterId, 2> state_registers_{scheme_.add_register(), scheme_.add_register()};
-    std::vector<std::optional<RegisterId>> rate_register_;  ///< By stage; none if it is not kept.
+    std::vector<std::optional<RegisterId>> rate_register_;  ///< By stage; nullopt if not stored.
 };
 
 }  // namespace

@@ -15,9 +15,9 @@
 
 namespace cascade {
 
-/// Called on the caller's thread with the number of complete steps, but not for `first_step`. The
-/// species (the same vector that was given to the loop) are as that step left them and have been
-/// found finite. Returns false to end the stage there.
+/// Called on the caller's thread with the number of complete steps, except for `first_step`. The
+/// species (the vector that was given to the loop) hold that step's values, which have been found
+/// finite. Returns false to end the stage there.
 using Observer = std::function<bool(std::int64_t step, double t, std::span<const Field> species)>;
 /// Called likewise, but returns true to end the stage.
 using EndTest = Observer;
@@ -25,29 +25,28 @@ using EndTest = Observer;
 using Onlooker = std::function<void(std::int64_t step, double t, std::span<const Field> species)>;
 
 /// Called on the caller's thread at a complete step. A run that resumes from its arguments gets the
-/// same bits. The species are as for an Observer.
+/// same bits. Species are as for an Observer.
 using Keeper = std::function<void(std::int64_t step, double t, const TimeState& time)>;
 
 /// The length and the passes of the next steps.
 struct StepChoice {
     double step = 0;                       ///< Length of the steps.
     const StepProblem* problem = nullptr;  ///< The passes of a step,
-    const StepProblem* judged =
-        nullptr;  ///< and those of a step whose error is estimated, if there are any.
+    const StepProblem* judged = nullptr;   ///< and with an estimated error, if any.
 };
-/// Chooses the next steps from the present values, which are in the caller's vector meanwhile, and
-/// from the `time` so far. May change everything in `time` that belongs neither to the clock nor to
-/// the controller. `rejected`: the step chosen last was too long.
+/// Chooses the next steps from the present values, in the caller's vector, and from the `time` so
+/// far. May change any part of `time` except the clock and the controller. `rejected` says that the
+/// last choice was too long.
 using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time, bool rejected)>;
 
 /// Which steps to take, and how often to check and observe them.
 struct Schedule {
     std::int64_t first_step = 0;  ///< Complete steps so far (more than 0 after a resume).
     std::int64_t last_step = 0;   ///< Stop when this number is complete.
-    /// Later calls will probably go on up to this step; what is tried for speed may pay until then.
+    /// Later calls will probably continue up to this step, so trials for speed may pay off.
     std::int64_t planned_step = 0;
     TimeState time = {};  ///< At `first_step`.
-    /// Stop when t has reached this; the last step is shortened to end there.
+    /// Stop when t reaches this. The last step is shortened to end there.
     double end_time = std::numeric_limits<double>::infinity();
     /// `observe` is called at multiples of this. If it is 0 and there is an end time, `observe` is
     /// called at the first step that reaches a tenth of it, two tenths, …
@@ -55,48 +54,48 @@ struct Schedule {
     bool tenths = false;     ///< Also observe at tenths if `interval` is not 0.
     std::int64_t check = 0;  ///< `ends` is called at multiples of this; 0: never.
     EndTest ends = {};
-    /// `choose` is called at multiples of this, 0 included; with a tolerance after every step whose
-    /// error is estimated.
+    /// `choose` is called at multiples of this, including 0, or with a tolerance after every step
+    /// with an estimated error.
     std::int64_t choose_every = 0;
     StepChooser choose = {};
-    /// At `first_step` nothing is known of the steps before, as in a run that goes on with other
-    /// equations, so `choose` is called there, too.
+    /// If the steps before `first_step` are unknown, as when a run continues with other equations,
+    /// `choose` is called there, too.
     bool begins_anew = false;
-    /// If above 0, errors are estimated, of all steps or of some of them as `choose` says. A step
-    /// whose error is larger than this part of the values is repeated with a shorter length.
+    /// If above 0, errors are estimated, of all steps or of the steps that `choose` selects. A step
+    /// whose error exceeds this fraction of the values is repeated with a shorter length.
     double tolerance = 0;
-    double largest_step = std::numeric_limits<double>::infinity();  ///< Limit of such steps,
-    std::function<double(double t)> longest_step = {};  ///< and of one that begins at t.
-    /// Where rates jump, the step after one that ends at t begins a rounding error later.
+    double largest_step = std::numeric_limits<double>::infinity();  ///< Limit of their length,
+    std::function<double(double t)> longest_step = {};  ///< and the limit for a step that begins at
+                                                        ///< t.
+    /// If rates jump, the step after one that ends at t begins a rounding error later.
     std::function<double(double t)> time_after = {};
-    int error_order = 1;  ///< The power of the step that the error is proportional to.
-    /// With a tolerance: the passes of a step whose error is estimated, if not all steps are.
+    int error_order = 1;  ///< The error is proportional to this power of the step.
+    /// With a tolerance: the passes of a step with an estimated error, if not all steps have one.
     const StepProblem* judged = nullptr;
     bool judges_all = false;        ///< The error of every step is estimated.
-    std::int64_t check_every = 64;  ///< Steps between two checks for values that are not finite.
+    std::int64_t check_every = 64;  ///< Steps between two checks for non-finite values.
     Onlooker onlooker = {};         ///< Sees the species at each of those checks.
-    /// A copy of all species is kept from one check to the next, to find the step that spoiled a
-    /// value, if it takes at most this number of bytes. A larger copy would take memory that the
-    /// user needs for cells.
+    /// A copy of all species is stored at each check, to find the step that spoils a value, if it
+    /// takes at most this number of bytes. A larger copy would take memory that the user needs for
+    /// cells.
     std::int64_t most_kept_bytes = std::int64_t{256} << 20;
-    /// Called before each batch of steps (about 20 ms): must the state after it be kept? If so,
-    /// that state is also checked for values that are not finite, and `keep` is called. No result
-    /// depends on it.
+    /// Called before each batch of steps (about 20 ms): must the state after it be saved? If so,
+    /// that state is also checked for non-finite values, and `keep` is called. Results do not
+    /// depend on it.
     std::function<bool()> keep_is_due = {};
     Keeper keep = {};
     int threads = 1;
     MakeExecutor executor = make_thread_executor;  ///< What takes the steps.
     /// The tiling; none: chosen by size and by time. No result depends on it.
     std::optional<Tiling> tiling = {};
-    /// Knows which tiling was fastest in earlier runs and receives the result of this one; may be
-    /// null.
+    /// Knows the fastest tiling of earlier runs and receives this run's; may be null.
     TilingMemory* tilings = nullptr;
 };
 
-/// The number of tenths of the time to the end that have passed; 0 without an end time.
+/// The number of tenths of the end time that have passed; 0 without an end time.
 double tenths_reached(double t, double end_time);
 
-/// Is a copy of such species kept, by Schedule::most_kept_bytes?
+/// Is a copy of such species stored, by Schedule::most_kept_bytes?
 bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
                 Precision precision);
 

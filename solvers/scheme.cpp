@@ -1,5 +1,5 @@
 // Schemes of one sweep and stabilised schemes. Butcher tableaux are in runge_kutta.cpp, schemes
-// that filter waves in semi_implicit.cpp, one that solves equations in cells in rosenbrock.cpp.
+// that filter waves in semi_implicit.cpp, and one that solves equations in cells in rosenbrock.cpp.
 //
 // Stabilised Runge-Kutta-Legendre: C. D. Meyer, D. S. Balsara, T. D. Aslam, "A stabilized
 // Runge-Kutta-Legendre method for explicit super-time-stepping of parabolic and mixed equations",
@@ -36,7 +36,7 @@ Scheme euler(bool by_item) {
     return scheme;
 }
 
-/// One sweep for each species, in order of writing: it sees the new values of those before it.
+/// One sweep for each species, in order of writing. It sees the new values of earlier species.
 Scheme symplectic(std::uint32_t species, bool by_item) {
     const Scheme whole = euler(by_item);
     Scheme scheme;
@@ -50,7 +50,7 @@ Scheme symplectic(std::uint32_t species, bool by_item) {
     return scheme;
 }
 
-/// The register of the state after part j of a step: the old one, then two in turn, because part j
+/// The register of the state after part j of a step: the old step, then two in turn, because part j
 /// may overwrite part j − 2 cell by cell. The last part is the new step.
 RegisterId register_of_part(std::uint32_t j, std::uint32_t parts) {
     if (j == 0) return old_register;
@@ -129,7 +129,7 @@ LegendreStage rkl2_stage(std::uint32_t j, std::uint32_t stages) {
     return stage;
 }
 
-/// The moment of stage j, as a part of the step.
+/// The time of stage j, as a fraction of the step.
 double rkl2_time(std::uint32_t j, std::uint32_t stages) {
     const double n = j, s = stages;
     if (j == 0) return 0;
@@ -156,7 +156,7 @@ SweepForm rkl2_form(bool second) {
     return form;
 }
 
-/// The register after those of stages holds L(Y₀).
+/// The register after the stages holds L(Y₀).
 Scheme rkl2(std::uint32_t stages) {
     Scheme scheme;
     scheme.registers = registers_of_parts;

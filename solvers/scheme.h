@@ -1,4 +1,4 @@
-// Time integrators: how a step is put together from sweeps of the rates.
+// Time integrators: how a step is composed of sweeps of the rates.
 //
 // A scheme is data: forms (each becomes a kernel) and the sweeps of one step. The coefficients
 // multiply the time step when a step is taken, so that it may change from step to step.
@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// Of a method whose last rate is the first rate of the next step ("first same as last").
+/// For a method whose last rate is the first rate of the next step ("first same as last").
 struct RateRegisters {
     RegisterId first, last;
 
@@ -24,11 +24,11 @@ struct RateRegisters {
 struct Scheme {
     std::uint32_t registers = 2;
     std::vector<SweepForm> forms;
-    std::vector<Sweep> sweeps;  ///< In order; one of the last writes the new step.
-    /// An estimate of the step's error, of the order order_of() in the length of the step.
+    std::vector<Sweep> sweeps;  ///< In order. One of the last writes the new step.
+    /// An estimate of the step's error, of order order_of() in the length of the step.
     std::optional<RegisterId> error_register;
     /// If set, sweep 0 only writes the first rate, and the last sweep writes the last one. In a
-    /// step that follows another the two registers are swapped and sweep 0 is left out.
+    /// step that follows another, the two registers are swapped and sweep 0 is left out.
     std::optional<RateRegisters> rate_registers;
 
     RegisterId add_register() { return RegisterId(registers++); }
@@ -38,15 +38,15 @@ struct Scheme {
 
 /// Builds the scheme of a solver.
 ///
-/// `species` is the number of species of the system. With `by_item` the step of `euler` and
-/// `symplectic` is the stage's item `speed`, which may vary by cell, rather than the time loop's.
-/// `stages` is for stabilised solvers only: an odd number, least_stages() or more.
+/// `species` is the number of species of the system. With `by_item`, the step of `euler` and
+/// `symplectic` is the stage's item `speed`, which may vary by cell, instead of the time loop's.
+/// `stages` is for stabilised solvers only: an odd number, at least least_stages().
 Scheme make_scheme(Solver solver, std::uint32_t species, bool by_item, std::uint32_t stages = 3);
 
-/// Writes the rates at input 0 and nothing else.
+/// Writes only the rates at input 0.
 SweepForm rate_form();
 
-/// A step of explicit Euler divided into `count` equal parts, at least 2.
+/// An explicit Euler step divided into `count` equal parts, at least 2.
 Scheme make_substeps(std::uint32_t count);
 
 }  // namespace cascade

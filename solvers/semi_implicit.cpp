@@ -1,4 +1,4 @@
-// The schemes as lists of sweeps: rates, then sums of the old step and what a filter made of them.
+// The schemes as lists of sweeps: rates, then sums of the old step and a filter's results.
 #include "solvers/semi_implicit.h"
 
 #include <utility>
@@ -9,7 +9,7 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// c · change + old, the change being the second input.
+/// c · change + old. The change is the second input.
 SweepForm sum_form() {
     SweepForm form;
     form.holds = true;  // A filter spreads the changes of free cells into frozen ones.
@@ -20,7 +20,7 @@ SweepForm sum_form() {
     return form;
 }
 
-/// Rates at `from`, and the old step plus what the filter makes of them.
+/// Adds the rates at `from`, and the old step plus the filtered rates.
 void add_stage(Scheme& scheme, RegisterId change, RegisterId from, double time,
                SweepFilter filter) {
     Sweep rate, sum;

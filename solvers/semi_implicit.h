@@ -1,14 +1,14 @@
 // Schemes that take diffusion implicitly or exactly, by filtering waves (internal to solvers/).
 //
-// All are written for the change of a step and not for the new values. With L the diffusion and N
+// All are written for the change of a step instead of the new values. With L the diffusion and N
 // the rest, implicit Euler for L and explicit Euler for N, new = old + h (L new + N old), is the
 // same as
 //
-//     new = old + (1 − h L)⁻¹ h f(old),    f = L + N being the whole rate.
+//     new = old + (1 − h L)⁻¹ h f(old), f = L + N being the whole rate.
 //
-// So only the rate as it was written is computed. A state whose rates are 0 does not change, and
-// values held at sides drop out. If L is not exactly the diffusion, this costs some accuracy but
-// does not change the limit of short steps.
+// So only the rate is computed, as the user wrote it. A state whose rates are 0 does not change,
+// and values held at sides drop out. If L is not exactly the diffusion, this costs some accuracy
+// but does not change the limit of short steps.
 #pragma once
 
 #include "solvers/scheme.h"

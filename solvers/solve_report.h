@@ -3,12 +3,11 @@
 
 namespace cascade {
 
-/// What is remembered of the solutions of a constraint.
+/// Statistics of a constraint's solutions.
 struct SolveReport {
     int most_iterations = 0;
-    double largest_rest =
-        0;  ///< The norm of the residual, over that of the constraint without the field.
-    /// Where any constant may be added to the field: the mean of the constraint without the field,
+    double largest_rest = 0;  ///< The norm of the residual, relative to that without the field.
+    /// If any constant may be added to the field: the mean of the constraint without the field,
     /// which no field balances, over its root mean square.
     double largest_mean = 0;
 };

@@ -2,11 +2,11 @@
 //
 // The Jacobian J is never formed: J v is the central difference of the rates along v. Species of
 // different size are measured in units of their own root mean square, which changes no eigenvalue.
-// Plain iteration finds the eigenvalue of largest magnitude. Where that one is positive, iterating
-// with J − c, c > 0 its magnitude, moves the spectrum to the left and finds the most negative one.
-// The eigenvalue is read off the last three iterates w, Jw, JJw: λ² + pλ + q = 0 with p and q by
-// least squares holds for a single leading eigenvalue and for a leading pair, real or complex
-// (J. H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 9).
+// Plain iteration finds the eigenvalue of largest magnitude. If it is positive, iterating with J −
+// c, c > 0 its magnitude, moves the spectrum to the left and finds the most negative one. The
+// eigenvalue is computed from the last three iterates w, Jw, JJw: λ² + pλ + q = 0 with p and q by
+// least squares holds for a single leading eigenvalue and for a leading pair, real or complex (J.
+// H. Wilkinson, "The Algebraic Eigenvalue Problem", 1965, chapter 9).
 #include "solvers/stability.h"
 
 #include "core/check.h"
@@ -75,7 +75,7 @@ public:
             scales_.push_back(
                 field.visit([&](const auto& plane) { return root_mean_square(plane); }));
         }
-        // A species that is zero everywhere takes the scale of the others. For a species that has
+        // A species that is zero everywhere gets the scale of the others. For a species that has
         // almost died out, differences would be lost among denormals.
         const double largest = *std::max_element(scales_.begin(), scales_.end());
         for (double& scale : scales_) {
@@ -98,7 +98,7 @@ public:
         return product;
     }
 
-    /// A vector of noise whose entries of frozen cells are zero.
+    /// A vector of noise that is zero in frozen cells.
     Vector start() const {
         Vector v(size());
         for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -115,7 +115,7 @@ private:
         return static_cast<std::size_t>(layout_.width * layout_.row_count());
     }
 
-    /// `visit(n, i, row)`: cell n is in column i of the row, which is numbered through all slices.
+    /// Calls `visit(n, i, row)`: cell n is in column i of the row, counted through all slices.
     template <typename Visit>
     void for_each_cell(Visit visit) const {
         std::size_t n = 0;
@@ -133,7 +133,7 @@ private:
         return std::sqrt(squares / static_cast<double>(cells()));
     }
 
-    /// Adds weight · rates(state + step · v), in units of the scales; frozen cells have rate 0.
+    /// Adds weight · rates(state + step · v), in units of the scales. Frozen cells have rate 0.
     void add_rates(const Vector& v, double step, double weight, Vector& sum) {
         with_number(rates_.precision,
                     [&](auto zero) { add_rates_of<decltype(zero)>(v, step, weight, sum); });
@@ -166,7 +166,7 @@ private:
     void run_kernel() {
         rates_.fill_halos(moved_);
         const std::array<std::span<Field>, 2> registers{moved_, rates_of_};
-        // White noise needs a step of some length; it cancels in differences.
+        // White noise needs a step of nonzero length. It cancels in differences.
         team_.run([&](int) { runner_.run(worker_, team_, registers, {0, 0, 1, 1, cancel_}); });
     }
 
@@ -183,7 +183,7 @@ private:
 };
 
 /// The root of larger magnitude of the polynomial λ² + pλ + q for which w₂ + p w₁ + q w₀ ≈ 0 fits
-/// best, w₀ having length 1; either one of a complex pair.
+/// best, where w₀ has length 1; either root of a complex pair.
 std::complex<double> leading_root(const Vector& w0, const Vector& w1, const Vector& w2) {
     const double along = dot(w0, w1);  // The Rayleigh quotient.
     const double across = dot(w1, w1) - along * along;

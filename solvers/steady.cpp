@@ -1,4 +1,4 @@
-// Has a pattern settled?
+// Decides whether a pattern has settled.
 #include "solvers/steady.h"
 
 #include "core/check.h"
@@ -10,14 +10,14 @@
 namespace cascade {
 namespace {
 
-/// A pattern has formed when its progress is this many times the smallest before. Anything that
-/// grows out of noise or spreads over a plane does far more: from 2 to 10, the table of
+/// A pattern has formed when its progress is this many times its smallest so far. Any pattern that
+/// grows out of noise or spreads over a plane far exceeds this: from 2 to 10, the table of
 /// spec/time.md does not change.
 constexpr double rise_of_a_formation = 3;
 
 /// If the progress never rose, the pattern was there when the stage began, or it fades. It has
-/// settled when as much time again would change it by at most this part of its contrast. Noise that
-/// fades by diffusion, below which a pattern may be growing, stays above 0.35.
+/// settled when doubling the stage's age would change it by at most this fraction of its contrast.
+/// Noise that fades by diffusion, and may hide a growing pattern, stays above 0.35.
 constexpr double little_progress = 0.1;
 
 /// A flat field has no contrast, only the rounding of its values.

@@ -1,8 +1,8 @@
 // Detects that a pattern has settled, for `until: steady(e)` (spec/time.md has the reasons).
 //
-// A pattern forms and then goes on rearranging itself, the longer the larger its plane is. The two
-// phases differ in the speed at which cells change, relative to the stage's age t: speed · t is how
-// far the stage would go in as much time again. This *progress* rises while noise grows or fronts
+// A pattern forms and then rearranges itself, for a longer time if its plane is larger. The two
+// phases differ in the speed at which cells change, relative to the stage's age t: at that speed,
+// another time t would change cells by speed · t. This *progress* rises while noise grows or fronts
 // spread, is greatest when the pattern forms, and then falls.
 #pragma once
 
@@ -24,20 +24,20 @@ struct Formation {
     bool operator==(const Formation&) const = default;
 };
 
-/// Remembers the states of a stage that it has seen, and judges the next one.
+/// Remembers earlier states of a stage and judges the next one.
 class SteadyWatch {
 public:
     /// Sets the first state of a stage, which is not judged.
     void begin(std::span<const Field> species);
 
-    /// Goes on from the last state of an earlier run.
+    /// Continues from the last state of an earlier run.
     void remember(std::vector<Field> species, double t, std::vector<Formation> formations);
 
     /// Judges the species at time t, later than the last call. Returns true if the stage has
     /// settled: the speed of every species, rms(new − old)/Δt, is at most `tolerance` times the
-    /// speed of its pattern (the same without the change of the mean) at its greatest progress; and
+    /// speed of its pattern (the same without the change of the mean) at its greatest progress, and
     /// a species whose progress never rose is also slow relative to its own contrast. The first
-    /// call only sets the first state. With a mask `inside`, cells count where it is not 0.
+    /// call only sets the first state. With a mask `inside`, only cells where it is not 0 count.
     bool settled(std::span<const Field> species, double t, double tolerance,
                  const Mask* inside = nullptr);
 

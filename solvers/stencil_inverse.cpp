@@ -34,7 +34,7 @@ std::int64_t StencilInverse<Number>::cells_along(std::size_t axis) const {
     return axis == 0 ? layout_.width : axis == 1 ? layout_.height : layout_.depth;
 }
 
-/// `act(x, y, z)` for each cell that is probed.
+/// Calls `act(x, y, z)` for each probed cell.
 template <typename Number>
 template <typename Act>
 void StencilInverse<Number>::for_probes(const Act& act) const {
@@ -89,7 +89,7 @@ void StencilInverse<Number>::learn(const Number* response) {
     has_factors_ = has_factors_ && stencil_ == before;
 }
 
-/// The reciprocal of the symbol of the stencil for each wave of a block, by line and wave.
+/// The reciprocal of the stencil's symbol for each wave of a block, by line and wave.
 template <typename Number>
 void StencilInverse<Number>::find_factors(const WaveBlock<Number>& block, Number* factors) const {
     double size = 0;
@@ -108,8 +108,8 @@ void StencilInverse<Number>::find_factors(const WaveBlock<Number>& block, Number
     }
 }
 
-/// The weights of the stencil along the axis of a block, for the waves of a line: by the distance
-/// along it, with those at the same distance together.
+/// The stencil's weights along a block's axis for the waves of a line, by the distance along the
+/// axis. Weights at the same distance are added.
 template <typename Number>
 std::vector<double> StencilInverse<Number>::weights_along(const WaveBlock<Number>& block,
                                                           std::int64_t line) const {
@@ -138,8 +138,8 @@ std::vector<double> StencilInverse<Number>::weights_along(const WaveBlock<Number
     return along;
 }
 
-/// The cosines of the multiples of a wave's phase from cell to cell, up to the reach of the
-/// stencil, from what the second difference multiplies the wave by.
+/// The cosines of multiples of a wave's phase from cell to cell, up to the stencil's reach, from
+/// the factor by which the second difference multiplies the wave.
 template <typename Number>
 auto StencilInverse<Number>::cosines(int reach, Number difference) const -> Cosines {
     Cosines values{1, 1 + static_cast<double>(difference) * spacing_ * spacing_ / 2, 0, 0};

@@ -1,4 +1,4 @@
-// The inverse of an operator on a grid that has the same stencil in all cells, as a preconditioner.
+// The inverse of an operator with the same stencil in all cells of a grid, as a preconditioner.
 #pragma once
 
 #include "core/grid.h"
@@ -19,32 +19,31 @@ namespace cascade {
 template <typename Number>
 class StencilInverse {
 public:
-    /// Waves are left out if the operator multiplies them by less than this fraction of its
-    /// largest possible factor.
+    /// Waves are left out if the operator multiplies them by less than this fraction of its largest
+    /// possible factor.
     static constexpr double least_factor = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-14;
 
-    /// `sides` are those of the field. `areas` is null or a plane of which the cells that are 0 are
-    /// outside of the domain; it must outlive the object. Throws std::bad_alloc.
+    /// `sides` are the field's. `areas` is null or a plane, where 0 marks cells outside the domain.
+    /// It must outlive the object. Throws std::bad_alloc.
     StencilInverse(const Grid& grid, const SideRules& sides, const Number* areas);
 
-    /// Puts 1 into cells that are far enough from each other and from sides; others keep what they
-    /// have.
+    /// Writes 1 only into cells that are far enough from each other and from sides.
     void put_probes(Number* plane) const;
-    /// Takes the mean of the operator's responses to these cells, less those at the border of the
+    /// Averages the operator's responses to these cells, except for cells at the border of the
     /// domain.
     void learn(const Number* response);
 
-    /// Are the factors of all waves those of the stencil?
+    /// Do the factors of all waves match the stencil?
     bool has_factors() const { return has_factors_; }
-    /// To be called by one thread after apply().
+    /// One thread must call this after apply().
     void keep_factors() { has_factors_ = true; }
-    /// Applies the inverse to a plane. Called by the first `threads` threads of the team, each with
-    /// its number and otherwise the same arguments. `knows_factors`: what has_factors() was before,
-    /// or true if these threads have called this before since then.
+    /// Applies the inverse to a plane. The first `threads` threads of the team call this, each with
+    /// its number and otherwise the same arguments. `knows_factors`: the value of has_factors()
+    /// before, or true if these threads have called this since then.
     void apply(Team& team, int thread, int threads, bool knows_factors, Number* plane);
 
 private:
-    using Cosines = std::array<double, 4>;  ///< Of 0 to 3 times an angle.
+    using Cosines = std::array<double, 4>;  ///< Cosines of 0 to 3 times an angle.
 
     std::int64_t cells_along(std::size_t axis) const;
     template <typename Act>
@@ -59,8 +58,8 @@ private:
     WaveTransforms<Number> transforms_;
     std::array<int, 3> reach_{};
     std::vector<double> stencil_;  ///< By offset, from −reach to reach along each axis.
-    Plane<Number> factors_;        ///< By block of waves …
-    bool has_factors_ = false;     ///< … if they are those of the stencil.
+    Plane<Number> factors_;        ///< Per block of waves …
+    bool has_factors_ = false;     ///< … if they match the stencil.
 };
 
 extern template class StencilInverse<float>;

@@ -1,4 +1,4 @@
-// The length of adaptive steps.
+// Controls the length of adaptive steps.
 #include "solvers/step_control.h"
 
 #include <algorithm>

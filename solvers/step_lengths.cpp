@@ -71,7 +71,7 @@ bool StepLengths::take_judged_step(StageOutcome& outcome) {
     return true;
 }
 
-/// Where rates and sides jump, the next step begins with the values after the jump.
+/// If rates and sides jump, the next step begins with the values after the jump.
 void StepLengths::pass_jump() {
     if (!schedule_.time_after) return;
     const double t = clock_.now(), after = schedule_.time_after(t);
@@ -85,13 +85,12 @@ double StepLengths::wanted_step() const {
     return schedule_.longest_step ? std::min(wanted, schedule_.longest_step(clock_.now())) : wanted;
 }
 
-/// With shorter steps nobody would live to see the end.
+/// With shorter steps, nobody would live to see the end.
 double StepLengths::least_step() const {
     return 1e-10 * (clock_.has_end_time() ? schedule_.end_time : std::max(clock_.now(), 1.0));
 }
 
-/// Goes back to the state before the step just tried, which spoiled a value; `last_checked`
-/// receives it.
+/// Restores the state before the last step, which spoiled a value. `last_checked` receives it.
 bool StepLengths::fail_after(CopyRoles before, StageOutcome& outcome) {
     outcome.not_finite = find_not_finite(stepper_.species(), clock_.step + 1, clock_.step);
     stepper_.set_roles(before);

@@ -18,14 +18,14 @@ public:
     StepLengths(const Schedule& schedule, const StepProblem& problem, LoopClock& clock,
                 Stepper& stepper, std::vector<Field>& species);
 
-    /// The passes of steps whose error is not estimated.
+    /// The passes of steps without an estimated error.
     const StepProblem& plain() const { return *plain_; }
-    /// The state from which steps go on.
+    /// The state from which steps continue.
     TimeState time() const;
 
     /// Lets the caller choose the length of the next steps.
     void choose(bool rejected = false);
-    /// Tries steps until the error of one is small enough; rejected ones leave no trace. Returns
+    /// Tries steps until the error of one is small enough. Rejected ones leave no trace. Returns
     /// false, with the reason in `outcome`, if steps have become too short.
     bool take_judged_step(StageOutcome& outcome);
 
@@ -41,8 +41,8 @@ private:
     Stepper& stepper_;
     std::vector<Field>& species_;
     StepControl control_;
-    const StepProblem* plain_;   ///< For steps whose error is not estimated,
-    const StepProblem* judged_;  ///< and for those whose error is.
+    const StepProblem* plain_;   ///< For steps without an estimated error,
+    const StepProblem* judged_;  ///< and for steps with one.
 };
 
 }  // namespace cascade

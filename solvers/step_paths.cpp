@@ -9,8 +9,8 @@ namespace cascade {
 
 namespace {
 
-/// In parts of the longer path: the ends are at least this far apart, or the shorter path has at
-/// most this length.
+/// The ends are at least this fraction of the longer path apart, or the shorter path is at most
+/// this fraction of it.
 constexpr double half_the_way = 0.5;
 /// Shorter paths are rounding, or a state at rest.
 constexpr double least_part_of_values = 0.01;

@@ -35,7 +35,7 @@ struct PathDifference {
     double apart = 0;             ///< Distance of their ends, root mean square over the cells.
 
     /// One path is longer than twice the other, or their ends are farther apart than half of the
-    /// longer path; and that path is at least a hundredth of the values. Steps that are short
+    /// longer path, and that path is at least a hundredth of the values. Steps that are short
     /// enough are far from this limit: even an advected edge of one cell has a path at most √3
     /// times as long as with steps three times as long.
     bool is_apart = false;

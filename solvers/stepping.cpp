@@ -13,7 +13,7 @@ namespace {
 /// Is each step checked before the next one begins?
 bool is_judged(const StepProblem& problem) { return problem.error_register.has_value(); }
 
-/// The reason why steps are taken one by one; empty if there is none.
+/// The reason why steps are taken one by one; empty if none.
 std::string hindrance(const StepProblem& problem) {
     const auto any = [&](const auto& is_so) {
         return std::any_of(problem.passes.begin(), problem.passes.end(), is_so);
@@ -79,7 +79,7 @@ Stepping stepping_with(const StepProblem& problem, const Tiling& tiling, int lev
     stepping.meetings = tiles * (is_tiled ? phases : 1);
     for (const StepProblem::Pass& pass : problem.passes) {
         stepping.meetings += !pass.reductions.empty();
-        // Before and after each of them, and between transforms along the axes.
+        // Barriers before and after each convolution, and between transforms along the axes.
         stepping.meetings += 4.0 * static_cast<double>(pass.convolutions.size());
     }
     if (is_tiled) stepping.bytes_in_use = bytes_in_use(problem, tiling, levels);

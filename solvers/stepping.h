@@ -9,18 +9,17 @@ namespace cascade {
 
 /// How steps pass through memory.
 struct Stepping {
-    std::string words;  ///< For people: "16 steps a pass".
-    std::string why;    ///< The reason, if it is of interest: "all stays in the cache".
-    double sweeps_at_once =
-        1;                ///< Passes of steps for each pass through memory, on average; at least 1.
-    double meetings = 1;  ///< Barriers of all threads in a step.
-    /// Bytes of the layers that a thread has in use, if more than one sweep is computed at once.
+    std::string words;          ///< For people: "16 steps a pass".
+    std::string why;            ///< The reason, if interesting: "all stays in the cache".
+    double sweeps_at_once = 1;  ///< Average number of passes of steps in a pass through memory.
+    double meetings = 1;        ///< Barriers of all threads in a step.
+    /// Bytes of the layers that a thread uses at a time, if it computes several sweeps at once.
     double bytes_in_use = 0;
 
     std::string in_words() const { return why.empty() ? words : words + ": " + why; }
 };
 
-/// Describes the steps of a problem with this number of levels; threads meet after each of a tile's
+/// Describes the steps of a problem with this number of levels. Threads meet after each of a tile's
 /// `phases`.
 Stepping stepping_with(const StepProblem& problem, const Tiling& tiling, int levels, int phases);
 

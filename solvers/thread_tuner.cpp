@@ -1,4 +1,4 @@
-// How many threads a run uses.
+// Tries numbers of threads and measures them.
 #include "solvers/thread_tuner.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ constexpr double trial_seconds = 0.02;
 constexpr double first_trial = 0.1;
 constexpr double longest_between_trials = 4;
 constexpr double rest_per_trial = 20;
-/// A step must take less time by this part to change the number.
+/// The number changes only if a step takes less than this fraction of the time.
 constexpr double worth_changing = 0.95;
 
 }  // namespace
@@ -26,7 +26,7 @@ void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duratio
         if (trial_.seconds >= trial_seconds) end_trial();
         return;
     }
-    // Old measurements count less and less, so that recent ones are compared.
+    // The weight of old measurements decays, so that recent ones are compared.
     const double old = std::max(0.0, 1 - duration.count() / first_trial);
     recent_.seconds = recent_.seconds * old + duration.count();
     recent_.steps = recent_.steps * old + steps;
@@ -34,7 +34,8 @@ void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duratio
     if (until_trial_ <= 0) begin_trial();
 }
 
-/// Near numbers and the extremes, because half as many threads may be no better when one alone is.
+/// Near numbers and the extremes, because one thread may be faster even where half as many threads
+/// are not.
 int ThreadTuner::candidate(int turn) const {
     switch (turn % 4) {
         case 0: return std::max(best_ / 2, 1);
@@ -45,14 +46,14 @@ int ThreadTuner::candidate(int turn) const {
 }
 
 void ThreadTuner::begin_trial() {
-    while (candidate(turn_) == best_) ++turn_;  // Ends: 1 or most_ is another number.
+    while (candidate(turn_) == best_) ++turn_;  // Ends, because 1 or most_ is another number.
     current_ = candidate(turn_);
     trial_ = {};
 }
 
 void ThreadTuner::end_trial() {
     if (trial_.seconds_per_step() < worth_changing * recent_.seconds_per_step()) {
-        best_ = current_;  // The turn stays: the same change may help again.
+        best_ = current_;  // The turn stays, because the same change may help again.
         recent_ = trial_;
         between_trials_ = first_trial;
     } else {

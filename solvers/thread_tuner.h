@@ -1,6 +1,6 @@
-// Chooses the number of threads. All of them are not always the fastest: if other programs keep
+// Chooses the number of threads. All threads are not always the fastest: if other programs keep
 // cores busy, every step waits for the thread that has lost its core. So from time to time some
-// steps use fewer or more threads, and the fastest number is kept. No result depends on it.
+// steps use fewer or more threads, and the fastest number stays in use. No result depends on it.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ public:
     /// Is a number of threads being tried?
     bool is_trying() const { return current_ != best_; }
 
-    /// Records that a batch of `count` steps by threads() threads took this time.
+    /// Records the time of a batch of `count` steps by threads() threads.
     void took(std::int64_t count, std::chrono::duration<double> duration);
 
 private:
@@ -36,10 +36,10 @@ private:
     int most_;
     int best_;
     int current_;               ///< Differs from best_ during a trial.
-    int turn_ = 0;              ///< Of the candidates: which is tried next.
+    int turn_ = 0;              ///< Which candidate is tried next.
     double until_trial_ = 0.1;  ///< Seconds to the next trial.
     double between_trials_ = 0.1;
-    Measured recent_;  ///< With best_, over the last tenth of a second or so.
+    Measured recent_;  ///< With best_, over about the last tenth of a second.
     Measured trial_;
 };
 

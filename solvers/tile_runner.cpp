@@ -1,4 +1,4 @@
-// Runs the phases of a tile one after the other; within a part, a wavefront over layers and levels.
+// Runs the phases of a tile one by one. Within a part, a wavefront runs over layers and levels.
 #include "solvers/tile_runner.h"
 
 #include "core/check.h"
@@ -48,7 +48,7 @@ TileRunner::TileRunner(const PassRunner& runner, const Tiling& tiling, int threa
 
 void TileRunner::run(PassRunner::Worker& worker, Team& team, int levels) const {
     if (levels == 1 && is_along_columns()) {
-        // A thread's columns need not be cut into layers.
+        // A thread's columns are not always cut into layers.
         if (worker.number < outer_.bands())
             run_columns(worker, 0, outer_.upright(worker.number, 0));
         return;

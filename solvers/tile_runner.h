@@ -2,15 +2,15 @@
 // of the shapes of solvers/tile_shape.h. A team of threads shares the tiles.
 //
 // A grid is cut along its rows. A grid with slices is cut along its slices and, within each, along
-// its rows; or, if there are few slices, along its rows alone, each layer being the same rows of
-// all slices; or, if there are few rows in all, along its columns. With two axes a tile is a part
-// of one times a part of the other, and there are four phases. A cell's phase along each axis never
+// its rows. With few slices it is cut along its rows alone, and a layer is the same rows of all
+// slices. With few rows in all it is cut along its columns. With two axes, a tile is a part of one
+// times a part of the other, and there are four phases. A cell's phase along each axis never
 // decreases from level to level, so the values that it reads are complete. Tiles of the two phases
 // that are upright along one axis and inverted along the other do not depend on each other.
 //
-// Kernels write beyond the last column of a row. If columns wrap, what is there copies the first
-// column, so both must belong to one layer: layer 0 also has the columns that are left over when
-// all layers have the same width. If columns do not wrap, the last layer has them.
+// Kernels write beyond the last column of a row. If columns wrap, the cells there copy the first
+// column, so both must belong to one layer: layer 0 also has the columns left over when all layers
+// have the same width. If columns do not wrap, the last layer has them.
 #pragma once
 
 #include "core/parallel.h"
@@ -27,17 +27,17 @@ class TileRunner {
 public:
     static constexpr int most_levels = 64;
 
-    /// `threads` is the number of threads that share the tiles. If bands are too narrow, fewer
-    /// levels than the tiling has are used. `runner` must outlive this.
+    /// `threads` threads share the tiles. If bands are too narrow, uses fewer levels than the
+    /// tiling has. `runner` must outlive this.
     TileRunner(const PassRunner& runner, const Tiling& tiling, int threads);
 
-    /// Levels of a tile; 1 if tiles are of no use.
+    /// The levels of a tile; 1 if tiles are useless.
     int levels() const { return levels_; }
     bool is_along_columns() const { return tiling_.along == Tiling::Along::columns; }
-    /// Phases of a tile, which run one after the other; threads meet between them.
+    /// The phases of a tile, which run one after the other. Threads meet between them.
     int phases() const { return (outer_.borders() > 0 ? 2 : 1) * (inner_.borders() > 0 ? 2 : 1); }
 
-    /// Runs levels 0 … `levels` − 1 of all workers, which all workers have bound alike. All threads
+    /// Runs levels 0 … `levels` − 1 of all workers, which must have bound them alike. All threads
     /// of the team in use call it. After the next barrier of the team, its results are visible to
     /// every thread.
     void run(PassRunner::Worker& worker, Team& team, int levels) const;

@@ -1,4 +1,4 @@
-// The arithmetic of bands: a level takes one layer from each end of an upright part.
+// The arithmetic of bands: each level removes one layer from each end of an upright part.
 #include "solvers/tile_shape.h"
 
 #include "core/parallel.h"

@@ -2,25 +2,24 @@
 // (successive passes of steps) run while the layers are in the cache.
 //
 // A level reads layers at most one layer away and writes its own layer. An axis is cut into bands.
-// Upright part: from level to level a band computes one layer less at each end that is a border.
-// Inverted part: the rest around a border, which becomes wider from level to level.
+// In the *upright* part, each level computes one layer fewer at each end of a band that is a
+// border. The *inverted* part around a border is the rest, which widens from level to level.
 //
-//     level 3      / inverted \      upright      / inverted \      |
-//           2     /            \                 /            \     | time
-//           1    /              \               /              \    |
-//           0   '                '-------------'                '   |
-//               border 0          band 1         border 1
+//     level 3 / inverted \ upright / inverted \ |
+//           2 / \ / \ | time
+//           1 / \ / \ |
+//           0 ' '-------------' ' |
+//               border 0 band 1 border 1
 //
-// All upright parts are computed first, by several threads at once, then all inverted ones. Within
-// a part, level l computes layer p − l at moment p, so a layer is in use for L moments. Another
-// level's layers at most one layer away are then computed in an earlier phase or earlier in the
-// same part. Planes may therefore be overwritten in the same way as when each level computes the
-// whole axis.
+// Several threads compute first all upright parts, then all inverted ones. Within a part, level l
+// computes layer p − l at moment p, so a layer is in use for L moments. Another level's layers at
+// most one layer away are then computed in an earlier phase or earlier in the same part. Planes may
+// therefore be overwritten in the same way as when each level computes the whole axis.
 //
-// Such shapes are known as split tiling; wavefronts through them as time skewing (R. Strzodka, M.
-// Shaheen, D. Pajak, H.-P. Seidel, "Cache accurate time skewing in iterative stencil computations",
-// ICPP 2011; T. Grosser et al., "Split tiling for GPUs: automatic parallelization using trapezoidal
-// tiles", GPGPU-6, 2013).
+// Such shapes are known as split tiling, and wavefronts through them as time skewing (R. Strzodka,
+// M. Shaheen, D. Pajak, H.-P. Seidel, "Cache accurate time skewing in iterative stencil
+// computations", ICPP 2011; T. Grosser et al., "Split tiling for GPUs: automatic parallelization
+// using trapezoidal tiles", GPGPU-6, 2013).
 #pragma once
 
 #include <cstdint>
@@ -28,7 +27,7 @@
 namespace cascade {
 
 /// A half-open range of layers. If the axis wraps, it may begin before layer 0 or end after the
-/// last layer: layer n of n is layer 0.
+/// last layer: of n layers, layer n is layer 0.
 struct LayerRange {
     std::int64_t begin = 0, end = 0;
     bool empty() const { return begin >= end; }
@@ -36,15 +35,15 @@ struct LayerRange {
 
 class TileAxis {
 public:
-    /// Cuts `layers` layers into one band or more, at most one for each layer. `wraps`: the last
-    /// layer and the first are neighbours.
+    /// Cuts `layers` layers into at least one band and at most one per layer. `wraps` says that the
+    /// last layer and the first are neighbours.
     TileAxis(std::int64_t layers, int bands, bool wraps);
 
     std::int64_t layers() const { return layers_; }
     int bands() const { return bands_; }
     bool wraps() const { return wraps_; }
     int borders() const { return wraps_ ? bands_ : bands_ - 1; }
-    /// With more levels the parts around two borders would touch. At least 1.
+    /// With more levels, the parts around two borders would touch. At least 1.
     int most_levels() const;
 
     /// The layers that a level, 0 … most_levels() − 1, computes in a band,

@@ -17,14 +17,14 @@ constexpr int rounds = 3;
 constexpr double turn_seconds = 0.002;
 // Long enough for a clock, and shorter than the time slice of another program.
 constexpr double trial_batch_seconds = 0.00025;
-// The first steps meet cold caches, and threads that wake up.
+// The first steps meet cold caches and threads that wake up.
 constexpr double warm_up_seconds = 0.01;
-// The part of a run that the first round of trials may cost.
+// The fraction of a run that the first round of trials may cost.
 constexpr double share_of_run = 0.02;
-// The part of the time since the last trials that new ones may cost; less if nothing changes.
+// The fraction of the time since the last trials that new ones may cost; less if nothing changes.
 constexpr double share_of_rest = 0.005;
 constexpr double most_patience = 64;
-// A sweep must take less time by this part to be clearly faster.
+// A clearly faster sweep takes less than this fraction of the time.
 constexpr double clearly_faster = 0.95;
 
 }  // namespace
@@ -36,7 +36,7 @@ TileTuner::TileTuner(std::vector<Tiling> candidates, TilingMemory* memory, int t
     if (memory_ != nullptr && candidates_.size() > 1) recall();
 }
 
-/// A tiling that is not among the candidates was kept for other steps.
+/// A stored tiling that is not among the candidates was for other steps.
 void TileTuner::recall() {
     const std::optional<Tiling> known = memory_->find(threads_);
     const auto found =
@@ -52,7 +52,7 @@ std::string TileTuner::how_found() const {
                                       : "";
 }
 
-/// The sweeps of whole tiles that take this time, or a little longer.
+/// The number of sweeps, in whole tiles, that take at least this time.
 std::int64_t TileTuner::sweeps_in(double seconds) const {
     const double tiles = std::ceil(seconds / (seconds_per_sweep_ * most_levels_));
     return most_levels_ * static_cast<std::int64_t>(std::clamp(tiles, 1.0, 1e9));

@@ -1,13 +1,13 @@
 // Chooses a tiling by time. The fastest one depends on more than the sizes of caches, so a run that
 // is long enough takes some of its steps with each of a few tilings, by turns in several rounds,
-// and goes on with the fastest. No result depends on it.
+// and continues with the fastest. Results do not depend on it.
 //
-// The first tiling in use is the one chosen by the sizes of caches, or the result of an earlier
-// run. Another one replaces the choice by size only if it was clearly faster in every round; one
-// that was not is not tried again. A turn counts by its fastest batch. No disturbance therefore
-// decides the result, and after the first round only tilings that seem faster cost time. But other
-// programs may be busy during all rounds. So all tilings are tried again from time to time, and the
-// result of an earlier run as soon as trials may begin.
+// The first tiling in use is the choice by the sizes of caches, or the result of an earlier run.
+// Another one replaces the choice by size only if it was clearly faster in every round. If it was
+// not, it is not tried again. A turn counts by its fastest batch. So no disturbance decides the
+// result, and after the first round only tilings that seem faster cost time. But other programs may
+// be busy during all rounds. So all tilings are tried again from time to time, and an earlier run's
+// result as soon as trials may begin.
 #pragma once
 
 #include "solvers/tiling_memory.h"
@@ -21,13 +21,13 @@
 
 namespace cascade {
 
-/// Times are passed in, so that a test can choose them.
+/// Callers pass times in, so that a test can choose them.
 class TileTuner {
 public:
     using Seconds = std::chrono::duration<double>;
 
-    /// Takes at least one candidate; a single one is not tried. If `memory` knows a tiling for this
-    /// number of threads, it is used at first. `memory` receives the result; it may be null.
+    /// Takes at least one candidate. A single one is not tried. If `memory` knows a tiling for this
+    /// number of threads, that is used at first. `memory` receives the result and may be null.
     explicit TileTuner(std::vector<Tiling> candidates, TilingMemory* memory = nullptr,
                        int threads = 1);
 
@@ -39,12 +39,12 @@ public:
     /// Why this tiling is in use, in words; empty before trials end.
     std::string how_found() const;
 
-    /// Sweeps (passes of steps) in a batch while tilings are tried: a part of a turn, in whole
+    /// Sweeps (passes of steps) in a batch while tilings are tried: a fraction of a turn, in whole
     /// tiles of each candidate.
     std::int64_t sweeps_of_trial() const;
 
-    /// Records that a batch of `sweeps` took this time with tiling(). At that speed the run is
-    /// expected to go on for `left`; trials begin when they cost little in comparison.
+    /// Records the time of a batch of `sweeps` with tiling(). At that speed the run is expected to
+    /// continue for `left`. Trials begin when they cost little in comparison.
     void took(std::int64_t sweeps, Seconds duration, Seconds left);
 
 private:
@@ -74,7 +74,7 @@ private:
     std::size_t used_before_ = 0;  ///< The tiling in use when trials began.
     bool is_trying_ = false;
     double rested_seconds_ = 0;         ///< Seconds of steps since trials, or since the start.
-    double seconds_per_sweep_ = never;  ///< Seconds of a sweep in the fastest batch of them.
+    double seconds_per_sweep_ = never;  ///< Seconds of a sweep in their fastest batch.
     double patience_ = 1;               ///< The factor by which trials are rarer than at first.
     int round_ = 0;
     std::int64_t sweeps_of_turn_ = 0;

@@ -1,5 +1,5 @@
 // Counts the bytes that a step touches and fits layers into part of the second- or third-level
-// cache; the constants are measured (docs/time_tiling.md).
+// cache. The constants are measured (docs/time_tiling.md).
 #include "solvers/tiling.h"
 
 #include <algorithm>
@@ -10,15 +10,15 @@
 namespace cascade {
 namespace {
 
-// A call of a kernel for fewer cells than this, halo included, costs more than it saves by keeping
-// them in a near cache. This gives three rows of 512 cells. For 1024 cells it gives one row: two
-// are 7 % slower, because the levels fill more of the cache.
+// A kernel call for fewer cells than this, including halo, costs more than it saves by holding them
+// in a near cache. This gives three rows of 512 cells. For 1024 cells it gives one row: two are 7 %
+// slower, because the levels fill more of the cache.
 constexpr std::int64_t cells_of_a_layer = 1632;
-// That is measured with kernels of few results. With more, fewer cells are as much work.
+// That was measured with kernels of few results. With more, fewer cells are as much work.
 constexpr std::size_t few_results = 8;
-// The part of a cache that levels share; the rest is for data that they do not use again.
+// The fraction of a cache that levels share. The rest is for data that they do not use again.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
-// Layers in use besides one for each level: those that are read around it.
+// Layers in use besides one for each level: the layers read around it.
 constexpr std::int64_t layers_besides = 3;
 // More levels hardly save anything.
 constexpr int enough_levels = 16;
@@ -28,7 +28,8 @@ constexpr int levels_in_bands = 8;
 // With fewer rows than this, threads and tiles share columns: the levels of a tile of rows, which
 // shrink by a layer at both ends, would soon be empty.
 constexpr std::int64_t few_rows = 2 * enough_levels;
-// Layers of columns are at least as wide as this. With narrower ones a row is not worth its loop.
+// Layers of columns are at least as wide as this. In narrower ones a row does not repay the cost of
+// its loop.
 constexpr std::int64_t least_columns = 64;
 
 /// The bytes that the layers of a tile may take.
@@ -43,7 +44,7 @@ int levels_in(double bytes, std::int64_t layer_bytes) {
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
 }
 
-/// Does a level find its data in the second-level cache? It reads what the level before has just
+/// Does a level find its data in the second-level cache? It reads what the previous level has just
 /// written, and overwrites older values.
 bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
     return (1 + layers_besides) * layer_bytes <= caches.second;
@@ -58,7 +59,7 @@ std::int64_t height_of_layer(const StepProblem& problem, std::int64_t cells_of_e
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(cells) / cells_of_each, 1, count);
 }
 
-/// Layers of this height, for `count` rows or slices of `bytes` in all.
+/// The tiling with layers of this height, for `count` rows or slices of `bytes` in all.
 Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t bytes,
                         const CacheSizes& caches) {
     Tiling tiling;
@@ -77,8 +78,8 @@ std::int64_t columns_of_a_layer(const Grid& grid) {
     return columns / PlaneLayout::row_pad * PlaneLayout::row_pad;
 }
 
-/// Whole slices; the same rows of all slices, if there are few; or bands of the rows of slices, if
-/// neither fits.
+/// Whole slices. With few slices, the same rows of all slices. If neither fits, bands of the rows
+/// of slices.
 Tiling tiling_of_slices(const StepProblem& problem, std::int64_t bytes, const CacheSizes& caches) {
     const Grid& grid = problem.grid;
     const std::int64_t stride = PlaneLayout(grid).stride;

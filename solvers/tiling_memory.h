@@ -11,10 +11,10 @@ namespace cascade {
 class TilingMemory {
 public:
     virtual ~TilingMemory() = default;
-    /// The tiling that was found to be the fastest with this number of threads, twice in a row so
-    /// that a disturbance does not count. May be a tiling for other steps.
+    /// The fastest tiling with this number of threads, if found twice in a row, so that a
+    /// disturbance does not count. May be a tiling for other steps.
     virtual std::optional<Tiling> find(int threads) = 0;
-    /// Records that this tiling was found to be the fastest, perhaps again.
+    /// Records that this tiling was the fastest, perhaps again.
     virtual void keep(int threads, const Tiling& tiling) = 0;
 };
 

@@ -1,7 +1,7 @@
 // Filters planes wave by wave, for solvers that take diffusion implicitly.
 //
-// Each plane is transformed into waves (solvers/wave_transforms.h), each wave is multiplied by a
-// factor or taken through a stage (solvers/etd_stages.h), and the result is transformed back.
+// Each plane is transformed into waves (solvers/wave_transforms.h). Each wave is multiplied by a
+// factor or goes through a stage (solvers/etd_stages.h). The result is transformed back.
 #pragma once
 
 #include "core/parallel.h"
@@ -23,15 +23,15 @@ public:
     /// `sides` are by species. Throws std::bad_alloc.
     WaveFilter(const Grid& grid, const std::vector<SideRules>& sides) : transforms_(grid, sides) {}
 
-    /// The addresses of cells (0, 0, 0), one for each species.
+    /// The addresses of cells (0, 0, 0), one per species.
     using Planes = std::vector<Number*>;
     struct FilteredPlanes {
         Planes filtered;
-        std::vector<Planes> kept;  ///< Of the stages of etdrk4: etd_registers.
-        Planes error;              ///< Of its last stage, or empty.
+        std::vector<Planes> kept;  ///< For the stages of etdrk4: etd_registers.
+        Planes error;              ///< For its last stage, or empty.
     };
-    /// Replaces every wave of the filtered planes by its response in a step of that length. Called
-    /// by the first `threads` threads of the team, as WaveTransforms::apply().
+    /// Replaces every wave of the filtered planes by its response in a step of that length. The
+    /// first `threads` threads of the team call this, as they call WaveTransforms::apply().
     void apply(Team& team, int thread, int threads, const FilteredPlanes& planes,
                std::span<const DiffusionSymbol> symbols, WaveResponse response,
                double length) const;

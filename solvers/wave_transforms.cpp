@@ -1,10 +1,10 @@
-// Each call of FFTW transforms one row or sixteen neighbouring columns, whatever the number of
-// threads, so bits do not depend on it. Plans are estimated and not measured: measuring would
-// choose differently from run to run. The last axis is transformed from the plane to a buffer in
-// which its lines are contiguous, where even estimated plans are fast.
+// Each call of FFTW transforms one row or sixteen neighbouring columns, for any number of threads,
+// so bits do not depend on it. Plans are estimated, because measuring would choose differently from
+// run to run. The last axis is transformed from the plane to a buffer in which its lines are
+// contiguous, where even estimated plans are fast.
 //
-// Along periodic rows the transform is that of real numbers to complex ones. From then on columns
-// are complex and take FFTW's complex transforms, which use vectors, while its transforms of real
+// Along periodic rows, real numbers are transformed to complex ones. From then on, columns are
+// complex and take FFTW's complex transforms. These use vectors, while FFTW's transforms of real
 // numbers to real ones do not.
 #include "solvers/wave_transforms.h"
 
@@ -68,7 +68,7 @@ std::vector<Number> second_differences(const AxisWaves& waves, std::int64_t cell
 }
 
 /// sin(the phase from cell to cell)/h: the factor, over i, by which the central difference
-/// multiplies each wave of a periodic axis. 0 for others, whose waves it changes into others.
+/// multiplies each wave of a periodic axis. 0 for other axes, where it turns waves into others.
 template <typename Number>
 std::vector<Number> first_differences(const AxisWaves& waves, std::int64_t cells, double spacing) {
     std::vector<Number> values(static_cast<std::size_t>(cells), Number{0});
@@ -98,10 +98,10 @@ struct WaveTransforms<Number>::Implementation {
     struct Shape {
         WavesOfAxes waves;
         std::int64_t columns = 0;    ///< Elements of a row of waves.
-        bool lines_complex = false;  ///< Of the buffer.
+        bool lines_complex = false;  ///< The buffer's lines are complex.
         double gain = 1;
         std::array<FftwTransform<Number>, 3> forward, backward;
-        std::array<std::vector<Number>, 3> differences;  ///< Along x by line of the buffer.
+        std::array<std::vector<Number>, 3> differences;  ///< Along x per line of the buffer.
         std::array<std::vector<Number>, 2> slopes;       ///< Likewise.
     };
     struct Free {
@@ -129,7 +129,7 @@ struct WaveTransforms<Number>::Implementation {
     std::int64_t stride(Axis axis) const {
         return axis == x ? 1 : axis == y ? layout.stride : layout.slice_stride;
     }
-    /// Of one block.
+    /// The size for one block.
     std::int64_t buffer_size() const {
         return axes.back() == x ? layout.width + 2 : Block::columns * cells(axes.back());
     }
@@ -145,7 +145,7 @@ struct WaveTransforms<Number>::Implementation {
         const Axis last = axes.back();
         made.columns = rows_complex ? (layout.width / 2 + 1) * 2 : layout.width;
         made.lines_complex = rows_complex && waves[last].is_periodic;
-        // Estimating reads no values; these are aligned like the planes to come.
+        // Estimating reads no values. This plane is aligned like the later ones.
         Plane<Number> plane(layout);
         const Buffer block = buffer(1);
         for (const Axis axis : axes) {
@@ -178,7 +178,7 @@ struct WaveTransforms<Number>::Implementation {
             made.slopes[axis] = first_differences<Number>(waves[axis], cells(axis), grid.spacing);
         }
         if (rows_complex && !made.lines_complex) {
-            // The real and the imaginary part of a wave are columns of their own.
+            // The real and the imaginary part of a wave are separate columns.
             for (std::vector<Number>* along_x : {&made.differences[x], &made.slopes[x]}) {
                 const std::vector<Number> of_waves = std::exchange(*along_x, {});
                 for (std::int64_t n = 0; n < made.columns; ++n) {
@@ -192,8 +192,8 @@ struct WaveTransforms<Number>::Implementation {
     std::int64_t blocks(const Shape& one) const {
         return (one.columns + Block::columns - 1) / Block::columns;
     }
-    /// Independent parts of a transform along an axis. Rows are numbered as everywhere, so that
-    /// threads share them as they do for kernels.
+    /// Independent parts of a transform along an axis. Rows are numbered as everywhere, so threads
+    /// share them as they do for kernels.
     std::int64_t pieces(const Shape& one, Axis axis) const {
         if (axis == x) return layout.row_count();
         return blocks(one) * (axis == y ? layout.depth : layout.height);
@@ -285,7 +285,7 @@ void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
             visit(block);
         }
     }
-    // Rows are shared as for kernels, columns are not.
+    // Threads share rows as for kernels, but not columns.
     const bool begins_with_rows = self.axes.front() == Axis::x;
     if (!begins_with_rows) team.barrier();
     for (std::size_t n = 0; n + 1 < self.axes.size(); ++n) {
