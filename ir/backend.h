@@ -21,18 +21,18 @@
 
 namespace cascade {
 
-/// The columns of cells whose values columns −1 and `width` of the halo have.
+/// The columns of cells that halo columns −1 and `width` copy.
 struct HaloColumns {
     std::int64_t left = 0, right = 0;
     friend bool operator==(const HaloColumns&, const HaloColumns&) = default;
 };
 
-/// The inputs and outputs of a kernel. Pointers are to cell (0, 0, 0) of planes of one layout; a
-/// field read by `laplacian` or `neighbour` has its halo filled. An output may be a field that no
-/// other output is computed from (sole_results()); otherwise it overlaps nothing. A kernel that
-/// computes the last cell of a row may write any values into the output row after it, up to the
-/// next multiple of PlaneLayout::row_pad (so halo column `width` is undefined afterwards), but
-/// never other cells that it is not told to compute.
+/// The inputs and outputs of a kernel. Pointers are to cell (0, 0, 0) of planes of one layout. A
+/// field read by `laplacian` or `neighbour` has its halo filled. An output may be a field from
+/// which no other output is computed (sole_results()). Otherwise it must not overlap other planes.
+/// A kernel that computes the last cell of a row may write any values into the output row after it,
+/// up to the next multiple of PlaneLayout::row_pad (so halo column `width` is undefined
+/// afterwards), but never to other cells that it is not told to compute.
 template <typename Number>
 struct KernelArgumentsOf {
     std::span<const Number* const> fields;       ///< One per field slot.
@@ -43,8 +43,8 @@ struct KernelArgumentsOf {
     LinkTable<Number> links = {};  ///< For grids of linked cells.
     /// All fields are in a cache near the core, so prefetching the next rows would only evict them.
     bool is_near = false;
-    /// What kernels that fill columns of the halo copy to columns −1 and `width` of rows that they
-    /// compute as a whole; nothing: they fill none.
+    /// The columns that kernels copy to columns −1 and `width` of rows that they compute as a
+    /// whole. If nullopt, they fill none.
     std::optional<HaloColumns> columns = {};
 };
 using KernelArguments = KernelArgumentsOf<float>;
@@ -54,17 +54,16 @@ using KernelArguments = KernelArgumentsOf<float>;
 class Kernel {
 public:
     virtual ~Kernel() = default;
-    /// Computes the cells of a patch in the kernel's precision. Its columns begin, and end if not
-    /// at the end of the rows, at multiples of PlaneLayout::row_pad. Linked cells are computed in
+    /// Computes the cells of a patch in the kernel's precision. Its columns begin at multiples of
+    /// PlaneLayout::row_pad, and end there or at the end of the rows. Linked cells are computed in
     /// whole rows.
     virtual void run(const KernelArgumentsOf<float>&, const Patch&) const { wrong_precision(); }
     virtual void run(const KernelArgumentsOf<double>&, const Patch&) const { wrong_precision(); }
 
-    /// Whether the kernel fills columns of the halo, where it is told which. Once true, always
-    /// true.
+    /// Whether the kernel fills columns of the halo if told which. Once true, always true.
     virtual bool fills_columns() const { return false; }
     /// Whether the kernel may become many times faster later, because its code is still being
-    /// compiled. Its present speed then says nothing about later runs.
+    /// compiled. Its present speed then does not predict later runs.
     virtual bool is_provisional() const { return false; }
     /// Why the kernel stays slow; null if it does not.
     virtual const Failure* refusal() const { return nullptr; }
@@ -79,23 +78,22 @@ using KernelPointer = std::shared_ptr<const Kernel>;
 
 /// The number of kernels by origin of their code.
 struct KernelCounts {
-    std::int64_t compiled = 0;  ///< By this backend.
-    std::int64_t found = 0;     ///< Compiled by an earlier process and kept on disk.
+    std::int64_t compiled = 0;  ///< Compiled by this backend.
+    std::int64_t found = 0;     ///< Compiled by an earlier process and found on disk.
 };
 
-/// Makes kernels executable. Keeps compiled kernels: compiling an equal one again costs a look-up.
+/// Makes kernels executable. Stores compiled kernels, so that an equal one costs only a lookup.
 class Backend {
 public:
     virtual ~Backend() = default;
     virtual std::string_view name() const = 0;  ///< "interp" or "jit".
-    /// `stencil` is that of every grid that the kernel will run on.
+    /// `stencil` must be the stencil of every grid that the kernel will run on.
     virtual Result<KernelPointer> compile(const CellKernel& kernel, Stencil stencil) = 0;
     /// The result of compile(), if obtaining it takes less time than running it once; else null.
     virtual KernelPointer find(const CellKernel& kernel, Stencil stencil) = 0;
-    /// The counts up to now.
+    /// The counts so far.
     virtual KernelCounts counts() const { return {}; }
-    /// Everything else that determines the code of a kernel, such as the processor; empty if
-    /// unknown.
+    /// Other facts that determine the code of a kernel, such as the processor; empty if unknown.
     virtual std::string code_identity() const { return {}; }
 };
 

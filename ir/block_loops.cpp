@@ -1,7 +1,7 @@
 // The interpreter's inner loops, one for each operation and each choice of scalar operands, and the
 // same operations on single words.
 //
-// A loop per choice, instead of a stride of 0 or 1 at run time, lets the compiler vectorise each.
+// Separate loops, instead of strides of 0 or 1 at run time, let the compiler vectorise each.
 #include "ir/block_loops.h"
 
 #include "core/check.h"

@@ -9,14 +9,14 @@
 
 namespace cascade {
 
-/// Computes `count` words. Operands are words as float or double; a scalar operand is one word that
+/// Computes `count` words. Operands are words as float or double. A scalar operand is one word that
 /// all cells share. `out` overlaps no operand.
 template <typename Number>
 using BlockLoop = void (*)(Number* out, const Number* a, const Number* b, const Number* c,
                            std::int64_t count);
 
-/// The loop of an operation that only depends on its operands. Bit k of `scalar_operands` tells
-/// that operand k is a scalar; at least one operand is not.
+/// The loop of an operation that only depends on its operands. Bit k of `scalar_operands` says that
+/// operand k is a scalar. At least one operand is not.
 template <typename Number>
 BlockLoop<Number> block_loop(Op op, unsigned scalar_operands);
 

@@ -41,7 +41,7 @@ bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op:
 
 }  // namespace
 
-// One NaN for all, so that kernels do not depend on the one that the host's processor makes.
+// One NaN for all, so that kernels do not depend on the NaN that the host's processor makes.
 ValueId KernelBuilder::number(double value) {
     if (std::isnan(value)) return word(format().nan());
     const std::uint64_t bits = word_of(value, precision());
@@ -149,7 +149,7 @@ ValueId KernelBuilder::emit(Instruction instruction) {
     return id;
 }
 
-/// The value of an instruction if it is known without computing it at run time.
+/// The value of an instruction, if it is known at compile time.
 std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     const int arity = info(instruction.op).arity;
@@ -176,7 +176,7 @@ ValueId KernelBuilder::fold(const Instruction& instruction) {
     return word(format().is_nan(bits) && yields_number(instruction.op) ? format().nan() : bits);
 }
 
-/// Whether a word is true as a number; denormal numbers count as zero.
+/// Whether a word is true as a number. Denormal numbers count as zero.
 bool KernelBuilder::is_true_word(std::uint64_t word) const {
     return (word & format().exponent()) != 0;
 }

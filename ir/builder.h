@@ -1,14 +1,13 @@
 // Builds cell kernels. Every method returns the value of a new or an existing instruction: the
-// builder folds constants (in the spec's environment, with the interpreter's evaluation of an
-// operation) and numbers values, so an unsimplified kernel never exists.
+// builder folds constants (in the spec's environment, as the interpreter evaluates operations) and
+// numbers values, so an unsimplified kernel never exists.
 //
 // It only uses identities that hold for every word (select with equal branches or a constant
 // condition, `and` and `or` with a constant). x * 1 and x + 0 are NOT among them: they flush
 // denormals and lose −0.
 //
 // Elementary functions are expanded here into operations of the table, so that every executor
-// computes the same bits (ir/elementary.cpp; their accuracy is stated there and in
-// spec/numerics.md).
+// computes the same bits (ir/elementary.cpp and spec/numerics.md state their accuracy).
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -21,8 +20,8 @@
 
 namespace cascade {
 
-/// Whether equal products and quotients are one value. In a kernel that is to be contracted they
-/// are not, so that keep() excludes one of them and not all; contracted() makes them one.
+/// Whether equal products and quotients are one value. In a kernel to be contracted they are
+/// several, so that keep() excludes only one of them. contracted() makes them one.
 enum class EqualProducts : std::uint8_t { are_one, are_several };
 
 class KernelBuilder {
@@ -35,7 +34,7 @@ public:
     Precision precision() const { return kernel_.precision; }
     WordFormat format() const { return format_of(kernel_.precision); }
 
-    // Sources. A slot is created at its first use; the same name gives the same slot.
+    // Sources. Slots are created at first use. The same name gives the same slot.
     ValueId number(double value);  ///< Rounded to the kernel's precision; denormals become zero.
     ValueId word(std::uint64_t bits);  ///< Modulo 2^32 or 2^64.
     FieldSlot field_slot(const std::string& name);
@@ -43,15 +42,15 @@ public:
     UniformSlot uniform_slot(const std::string& name);
     ValueId field(FieldSlot slot);
     ValueId laplacian(FieldSlot slot);
-    /// The value of a field in a neighbouring cell; each offset is −1, 0 or 1, and all may be 0.
+    /// The value of a field in a neighbouring cell. Each offset is −1, 0 or 1, and all may be 0.
     ValueId neighbour(FieldSlot slot, int dx, int dy, int dz = 0);
-    /// A sum over a cell's links of differences of one field; only in a kernel for a surface.
+    /// A sum over a cell's links of differences of one field. Only in a kernel for a surface.
     ValueId over_links(Op op, FieldSlot slot);
     ValueId link_flow(Flow flow);
-    /// The value of a field in the cell to which a link leads; only below a reduction.
+    /// The value of a field in the cell to which a link leads. Must be inside a reduction.
     ValueId theirs(FieldSlot slot);
-    /// Over the links of a cell; only in a kernel for linked cells. `a` may be of links or of
-    /// cells.
+    /// Reductions over a cell's links, only in a kernel for linked cells. `a` may be a value of
+    /// links or of cells.
     ValueId link_sum(ValueId a) { return apply(Op::link_sum, a); }
     ValueId link_least(ValueId a) { return apply(Op::link_least, a); }
     ValueId link_greatest(ValueId a) { return apply(Op::link_greatest, a); }
@@ -61,9 +60,9 @@ public:
     ValueId cell_row();
     ValueId cell_slice();
 
-    /// Any instruction of the table.
+    /// Emits any instruction of the table.
     ValueId emit(Instruction instruction);
-    /// Any operation of the table without payload.
+    /// Emits any operation of the table without payload.
     ValueId apply(Op op, ValueId a);
     ValueId apply(Op op, ValueId a, ValueId b);
     ValueId apply(Op op, ValueId a, ValueId b, ValueId c);
@@ -76,9 +75,10 @@ public:
     ValueId multiply(ValueId a, ValueId b) { return apply(Op::multiply, a, b); }
     ValueId divide(ValueId a, ValueId b) { return apply(Op::divide, a, b); }
 
-    // Composed operations. `minimum` and `maximum` propagate NaN: a if a is NaN, else b if b is
-    // NaN, else the smaller (larger), b if they are equal. `clamp_below(x, bound)` is bound if x <
-    // bound, else x (so NaN stays NaN): the bound x >= bound. `clamp_above` likewise.
+    // Composed operations. `minimum` and `maximum` propagate NaN: the result is a if a is NaN, else
+    // b if b is NaN, else the smaller (larger), b if they are equal. `clamp_below(x, bound)`
+    // enforces x >= bound: it is bound if x < bound, else x (so NaN stays NaN). `clamp_above`
+    // likewise.
     ValueId minimum(ValueId a, ValueId b);
     ValueId maximum(ValueId a, ValueId b);
     ValueId clamp_below(ValueId x, ValueId bound);
@@ -109,23 +109,23 @@ public:
     /// 0 up to `low`, 1 from `high` on, 3 t² − 2 t³ between them.
     ValueId smooth_step(ValueId low, ValueId high, ValueId x);
     /// x^y. A constant integer y of magnitude at most 64 becomes multiplications by repeated
-    /// squaring (their order is in the spec), 1/x^n for negative ones; other y use log and exp.
+    /// squaring (in the order of the spec), and 1/x^n if negative. Other y use log and exp.
     ValueId power(ValueId x, ValueId y);
 
     // Random numbers (ir/random_numbers.cpp).
-    /// Draws then use this cell number, a word, instead of the cell's column and row.
+    /// Makes draws use this cell number, a word, instead of the cell's column and row.
     void set_cell(ValueId number) { cell_ = number; }
     /// The two words that identify the cell in draws.
     std::pair<ValueId, ValueId> cell_of_draws() {
         return cell_ ? std::pair(*cell_, word(0)) : std::pair(cell_column(), cell_row());
     }
-    /// Uniform in (−1, 1), symmetric, with 2^23 different values; in binary64 with 2^52, whose
+    /// Uniform in (−1, 1), symmetric, with 2^23 different values. In binary64 it has 2^52, whose
     /// first digits are the same. A pure function of the cell, the `draw` word (the step, or 0) and
     /// the 64-bit `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
     /// The 32-bit word in a uniform made by draw_uniform() (ir/draw_of_step.h).
     ValueId draw_word(ValueId uniform);
-    /// Gaussian with mean 0 and variance 1, of magnitude at most 6.7: a function of the same.
+    /// Gaussian with mean 0 and variance 1, of magnitude at most 6.7, with the same arguments.
     ValueId random_normal(ValueId draw, std::uint64_t key);
 
     /// Excludes this product or quotient from contraction.
@@ -138,7 +138,7 @@ public:
     /// Appends an output.
     void result(const std::string& name, ValueId value);
 
-    /// The finished kernel, without instructions that no result needs; unused slots stay.
+    /// The finished kernel, without instructions that no result needs. Unused slots stay.
     CellKernel finish() &&;
 
     /// The next new value.

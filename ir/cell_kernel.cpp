@@ -19,7 +19,7 @@ constexpr OpInfo table[] = {
 #undef CASCADE_OPERATION
 };
 
-/// One step of a multiplicative hash. The shift moves high bits to the low end, where tables look.
+/// One step of a multiplicative hash. The shift moves high bits to the low end, which tables use.
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     hash = (hash ^ value) * 0x9e3779b97f4a7c15ULL;
     return hash ^ (hash >> 32);
@@ -143,7 +143,7 @@ IdVector<ValueId, bool> varying(const CellKernel& kernel) {
     varies.reserve(kernel.code.size());
     for (const Instruction& instruction : kernel.code) {
         const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
-        // Cells differ in the number of their links, too.
+        // Cells also differ in the number of their links.
         bool differs =
             is_link_reduction(instruction.op) ||
             (arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform);

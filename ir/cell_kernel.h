@@ -1,9 +1,9 @@
 // Cell kernels: what a stage computes per cell, as one flat program.
 //
 // A kernel is a list of instructions in static single assignment: an instruction's position names
-// its value, and it only reads values before it. There is no control flow but `select`. A kernel
-// does not know which cells are neighbours (the executor's stencil does) nor where fields are in
-// memory (KernelArguments does). It cannot fail: users' errors are found in lang/.
+// its value, and it only reads earlier values. The only control flow is `select`. A kernel does not
+// know which cells are neighbours (the executor's stencil does) or where fields are in memory
+// (KernelArguments does). It cannot fail: lang/ finds users' errors.
 #pragma once
 
 #include "core/id.h"
@@ -75,14 +75,15 @@ struct Instruction {
 };
 
 /// The operands of `neighbour`: the field in `slot`, `dx` columns, `dy` rows and `dz` slices away.
-/// Each is −1, 0 or 1, and not all are 0. Executors treat an offset along an axis of one cell as 0.
+/// Each offset is −1, 0 or 1, and not all are 0. Executors treat an offset along an axis of one
+/// cell as 0.
 struct Neighbour {
     FieldSlot slot;  ///< Below 2^27.
     int dx = 0, dy = 0, dz = 0;
 
     static constexpr std::uint32_t offset_count = 32, last_offset = 26, own_offset = 13;
 
-    /// As a payload: 32 · slot + (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
+    /// The payload: 32 · slot + (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
     constexpr std::uint32_t payload() const {
         return offset_count * slot.index() +
                static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
@@ -113,7 +114,7 @@ constexpr bool is_link_sum(Op op) {
            op == Op::gradient_x || op == Op::gradient_y || op == Op::gradient_z;
 }
 
-/// Whether an operation computes a value of a cell from one of each of its links.
+/// Whether an operation computes a value of a cell from values of its links.
 constexpr bool is_link_reduction(Op op) {
     return op == Op::link_sum || op == Op::link_least || op == Op::link_greatest;
 }
@@ -127,7 +128,7 @@ struct CellKernel {
     IdVector<MaskSlot, std::string> mask_names;
     IdVector<UniformSlot, std::string> uniform_names;
     std::vector<std::string> result_names;
-    Precision precision = Precision::single;  ///< Of all words.
+    Precision precision = Precision::single;  ///< The precision of all words.
     std::vector<ValueId> kept = {};  ///< Values excluded from contraction (ir/contraction.h).
 
     /// Whether some instruction reads this field slot in other cells, which needs the halo on
@@ -135,23 +136,22 @@ struct CellKernel {
     bool reads_neighbours(FieldSlot slot) const;
 };
 
-/// For each value, whether it can differ between cells, that is, is not computed from uniforms
-/// only.
+/// For each value, whether it can differ between cells: whether it depends on more than uniforms.
 IdVector<ValueId, bool> varying(const CellKernel& kernel);
 
-/// For each field, the only result that is computed from it, and none if several are or if it is
-/// read in other cells. That result may overwrite the field.
+/// For each field, the only result that is computed from it. That result may overwrite the field.
+/// nullopt if several results are or if the field is read in other cells.
 IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& kernel);
 
-/// A hash of everything that determines the generated code, which excludes names.
+/// A hash of all properties that determine the generated code, which excludes names.
 std::uint64_t hash(const CellKernel& kernel);
 
 /// The kernel as text, one value per line: `%7 = multiply %3, %5`. The format is stable.
 std::string print(const CellKernel& kernel);
 
 /// Checks that operands precede their users, that slots and results exist, and that no result is of
-/// link level (operations.def). Returns an empty text
-/// or the error. Tests and debug builds call it after every pass that makes a kernel.
+/// link level (operations.def). Returns the error or an empty text. Tests and debug builds call it
+/// after every pass that makes a kernel.
 std::string verify(const CellKernel& kernel);
 
 }  // namespace cascade

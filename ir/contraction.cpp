@@ -1,4 +1,4 @@
-// One pass over the code builds the kernel anew. A sum of two products fuses the first, unless only
+// Rebuilds the kernel in one pass over the code. A sum of two products fuses the first, unless only
 // the second has a uniform factor.
 #include "ir/contraction.h"
 
@@ -32,7 +32,7 @@ public:
         for (const ValueId id : kernel.kept) is_kept_[id] = true;
     }
 
-    /// finish() drops products that are no longer used.
+    /// finish() drops unused products.
     CellKernel contracted() && {
         for (const ValueId id : kernel_.code.ids()) renamed_[id] = rewritten(id);
         for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
@@ -95,7 +95,7 @@ private:
     KernelBuilder builder_;
     IdVector<ValueId, bool> varies_, is_kept_;
     IdVector<ValueId, std::optional<Product>> products_;  ///< By old value.
-    IdVector<ValueId, ValueId> renamed_;                  ///< By old value, the new value.
+    IdVector<ValueId, ValueId> renamed_;                  ///< By old value: the new value.
 };
 
 }  // namespace

@@ -9,15 +9,15 @@
 
 namespace cascade {
 
-/// Below step 2^24 the bits of the step's number in binary32. From there on, where binary32 numbers
-/// are 2 and more apart, 2^31 + step, which no non-negative number has as its bits. So no two steps
-/// below 2^31 have the same word.
+/// Below step 2^24, the bits of the step's number in binary32. From there on, where binary32
+/// numbers are at least 2 apart, 2^31 + step, which no non-negative number has as its bits. So no
+/// two steps below 2^31 have the same word.
 constexpr std::uint32_t draw_of_step(std::int64_t step) {
     if (step < std::int64_t{1} << 24) return std::bit_cast<std::uint32_t>(static_cast<float>(step));
     return (std::uint32_t{1} << 31) + static_cast<std::uint32_t>(step);
 }
 
-/// A uniform that holds the word as its bits, or in binary64 as the lower half of them.
+/// A uniform that holds the word as its bits, or in binary64 as the lower half of its bits.
 template <typename Number>
 Number draw_uniform(std::int64_t step) {
     const std::uint32_t word = draw_of_step(step);

@@ -1,12 +1,12 @@
 // exp, log, sinh, cosh and tanh, expanded into operations of the table.
 //
-// The methods are the classical ones (W. J. Cody and W. Waite, "Software Manual for the Elementary
+// The methods are classical (W. J. Cody and W. Waite, "Software Manual for the Elementary
 // Functions", 1980; J.-M. Muller, "Elementary Functions", 3rd ed., 2016): reduce the argument with
 // a constant split into an exact head and a tail, evaluate a polynomial, reconstruct the result.
 // The coefficients are our own weighted minimax fits, rounded to the format one by one with the
 // others refitted each time. No operation fuses, so every executor computes the same bits. An
-// algorithm is the same in binary32 and binary64; the constants that differ are in tables by
-// precision, and comments give values for binary64 in brackets.
+// algorithm is the same in binary32 and binary64. Constants that differ are in tables by precision,
+// and comments give values for binary64 in brackets.
 //
 // Largest errors, in units in the last place of the exact value:
 //     exp 1.0    log 0.9               all binary32 arguments
@@ -15,6 +15,7 @@
 //     asin 1.1   acos 1.1   atan2 2.1  all; see ir/inverse_trigonometric.cpp
 //     cbrt 0.6   hypot 1.2             all; see ir/roots.cpp
 //     x^y 1.2                          see ir/power.cpp
+//
 // Denormal arguments count as zeros and denormal results are flushed.
 #include "ir/expression.h"
 

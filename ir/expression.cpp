@@ -6,7 +6,7 @@
 namespace cascade {
 namespace {
 
-/// The word of √½. Subtracting it from a word moves the boundary between two exponents there.
+/// The word of √½. Subtracting it from a word moves the boundary between two exponents to √½.
 constexpr ByPrecision<std::uint64_t> root_half_bits = {0x3f3504f3, 0x3fe6a09e667f3bcd};
 
 }  // namespace

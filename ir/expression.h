@@ -1,6 +1,6 @@
 // Formulas over values of a builder, in infix notation.
 //
-// Internal to ir/. An Expression is a value and its builder; operators emit instructions. Each
+// Internal to ir/. An Expression is a value and its builder, and operators emit instructions. Each
 // operator is one operation of the table, rounded once, in the order that C++ gives the formula.
 #pragma once
 
@@ -16,7 +16,7 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Constants of an algorithm that depend on the number format: a row for binary32 and one for
-/// binary64. The first row has binary32 numbers, so that reading them rounds nothing.
+/// binary64. The first row has binary32 numbers, so that reading them rounds none.
 template <typename Constants>
 using ByPrecision = std::array<Constants, 2>;
 
@@ -81,8 +81,8 @@ public:
         return binary(Op::bits_or, other.sign_word());
     }
 
-    /// The number without the lower half of its significand, which leaves 12 (26) bits: products of
-    /// two such numbers are exact.
+    /// The number without the lower half of its significand. This leaves 12 (26) bits, so that
+    /// products of two such numbers are exact.
     Expression head() const { return and_word(format().all() << (format().fraction_bits / 2 + 1)); }
 
     /// A word modulo 2^32, so that formulas of 32-bit words are the same in both formats.

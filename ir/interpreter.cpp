@@ -109,7 +109,7 @@ private:
         for (const Reduction& each : section.reductions) {
             if (each.op != Op::link_sum) continue;
             Number* const out = register_of(each.target);
-            for (std::int64_t i = 0; i < count_; ++i) out[i] += Number{0};  // Not -0.
+            for (std::int64_t i = 0; i < count_; ++i) out[i] += Number{0};  // Turns −0 into 0.
         }
     }
 
@@ -123,7 +123,7 @@ private:
         }
     }
 
-    /// One more value of a link. NaN stays.
+    /// Includes one more value of a link. NaN stays NaN.
     static Number reduced(Op op, Number before, Number a) {
         const Number value = keeps_denormals() ? a : flushed(a);
         if (op == Op::link_sum) return before + value;
@@ -131,7 +131,7 @@ private:
         return std::isnan(before) || is_farther ? before : value;
     }
 
-    /// Finds the entries of this number in the slices of the block. False: there are none.
+    /// Finds the entries of this number in the slices of the block. False if there are none.
     bool find_links(std::int64_t number) {
         constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
         const LinkTable<Number>& links = arguments_.links;
@@ -194,7 +194,7 @@ private:
     }
 
     /// sum − times · c with one rounding, for times = 2 or 4, whose multiples are exact unless they
-    /// overflow. If the multiple would overflow, c is subtracted from sum / times instead; what a
+    /// overflow. If the multiple would overflow, c is subtracted from sum / times instead. What a
     /// denormal sum / times loses is far below the last place of such numbers.
     template <int times>
     static Number minus_multiple(Number sum, Number c) {
@@ -204,7 +204,7 @@ private:
         return std::abs(c) > largest ? far : near;
     }
 
-    // The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
+    // The specification gives the order of the sums: ((((N + S) + E) + W) + U) + D.
     void laplacian(Number* __restrict out, const Number* c) const {
         const std::int64_t count = count_;
         if (stencil_ == Stencil::plane) {
@@ -302,7 +302,7 @@ private:
         if (keeps_denormals()) flush(out);
     }
 
-    /// As kernels of WebAssembly do. Zeros keep their sign, and so does what becomes one.
+    /// As kernels of WebAssembly do. Zeros keep their sign, and so do numbers that become zero.
     void flush(Number* out) const {
         for (std::int64_t i = 0; i < count_; ++i) out[i] = flushed(out[i]);
     }
@@ -317,15 +317,15 @@ private:
     const KernelArgumentsOf<Number>& arguments_;
     std::vector<Number> scalars_;
     std::vector<Number> registers_;
-    std::int64_t row_ = 0;  ///< In its slice.
+    std::int64_t row_ = 0;  ///< The block's row in its slice.
     std::int64_t slice_ = 0;
-    std::int64_t column_ = 0;  ///< Of the block's first cell.
-    std::int64_t count_ = 0;   ///< Cells of the block.
-    std::int64_t offset_ = 0;  ///< From cell (0, 0, 0) to the block's first cell, in elements.
-    // Of the links that are being reduced, by cell of the block.
+    std::int64_t column_ = 0;  ///< The block's first cell.
+    std::int64_t count_ = 0;   ///< The cells in the block.
+    std::int64_t offset_ = 0;  ///< The block's first element, from cell (0, 0, 0).
+    // By cell of the block, for the links being reduced.
     std::array<bool, block_cells> has_link_{};
     std::array<std::int64_t, block_cells>
-        targets_{};  ///< Elements; of cells without link their own.
+        targets_{};  ///< Elements; a cell's own if it has no link.
 };
 
 template <typename Number>
@@ -353,7 +353,7 @@ private:
     std::size_t field_count_, mask_count_, uniform_count_;
 };
 
-/// Planning costs about as much as the hash that a cache would need, so nothing is cached.
+/// Planning costs about as much as the hash that a cache would need, so plans are not cached.
 class Interpreter : public Backend {
 public:
     std::string_view name() const override { return "interp"; }

@@ -1,8 +1,8 @@
 // asin, acos and the angle of a point, expanded into operations of the table.
 //
 // Arguments are reduced to a short interval around 0 by the identities of the functions (W. J. Cody
-// and W. Waite, "Software Manual for the Elementary Functions", 1980); the difference, a multiple
-// of π/4, is added as a head and a tail. Coefficients as in ir/elementary.cpp.
+// and W. Waite, "Software Manual for the Elementary Functions", 1980). The difference, a multiple
+// of π/4, is added as a head and a tail. Coefficients are as in ir/elementary.cpp.
 #include "ir/expression.h"
 
 namespace cascade {
@@ -55,7 +55,7 @@ Expression upper_angle(Expression y, Expression x) {
     const Expression steep = width < y;
     const Expression longer = steep.choose(y, width);
     const Expression shorter = steep.choose(width, y);
-    // Keeps the sum of the two from overflowing and their difference from vanishing.
+    // Prevents overflow of the sum of the two and underflow of their difference.
     const double reach = x.pick(far_away);
     const Expression factor =
         (reach < longer).choose(1 / reach, (longer < 1 / reach).choose(reach, x.number(1)));

@@ -1,4 +1,4 @@
-// How a backend divides the rows of a patch into calls of a kernel's function.
+// Divides the rows of a patch into calls of a kernel's function.
 #pragma once
 
 #include "core/grid.h"
@@ -10,13 +10,13 @@
 
 namespace cascade {
 
-/// Do kernels fill columns of the halo? In space rows of other slices take most of the time.
+/// Do kernels fill columns of the halo? In space, rows of other slices take most of the time.
 constexpr bool kernels_fill_columns(Stencil stencil) {
     return stencil.x && !stencil.z && !stencil.links;
 }
 
-/// What a call copies to the columns −1 and `width` of its rows: {-1, -1}, nothing, unless it
-/// computes whole rows and is told what.
+/// The columns that a call copies to columns −1 and `width` of its rows: {-1, -1}, no copy, unless
+/// it computes whole rows and is told which.
 template <typename Number>
 HaloColumns columns_to_fill(const KernelArgumentsOf<Number>& arguments, ColumnRange columns) {
     const bool is_whole = columns.begin == 0 && columns.end == arguments.layout.width;
@@ -24,8 +24,8 @@ HaloColumns columns_to_fill(const KernelArgumentsOf<Number>& arguments, ColumnRa
     return is_whole ? arguments.columns.value_or(none) : none;
 }
 
-/// Calls `call(rows, slice)` for each slice that has some of the rows. Its rows are numbered as
-/// they lie in memory, those of the halo included.
+/// Calls `call(rows, slice)` for each slice that has some of the rows. The rows are numbered as
+/// they lie in memory, including halo rows.
 template <typename Call>
 void for_each_slice(const PlaneLayout& layout, RowRange rows, const Call& call) {
     while (!rows.empty()) {

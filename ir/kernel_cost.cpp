@@ -1,4 +1,4 @@
-// Counts instruction by instruction; repeated loads of a neighbour, mask or link table count once.
+// Counts instruction by instruction. Repeated loads of a neighbour, mask or link table count once.
 #include "ir/kernel_cost.h"
 
 #include "ir/loop_levels.h"
@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// For each value, whether it is a negation that only multiply-adds use, which include it.
+/// For each value, whether it is a negation that is used only by multiply-adds, which include it.
 IdVector<ValueId, bool> signs_of_multiply_adds(const CellKernel& kernel) {
     IdVector<ValueId, bool> is_sign;
     for (const Instruction& instruction : kernel.code) {
@@ -29,7 +29,7 @@ IdVector<ValueId, bool> signs_of_multiply_adds(const CellKernel& kernel) {
     return is_sign;
 }
 
-/// The cost of one kernel.
+/// Counts the cost of one kernel.
 class Counter {
 public:
     Counter(const CellKernel& kernel, Stencil stencil, double links)
@@ -58,7 +58,7 @@ public:
 private:
     using Read = std::tuple<FieldSlot, int, int, int>;
 
-    /// Adds what is computed `times` times in a cell.
+    /// Adds a value that is computed `times` times in a cell.
     void add(ValueId id, double times) {
         if (!varies_[id] || is_folded_[id]) return;
         const Instruction& instruction = kernel_.code[id];
@@ -94,7 +94,7 @@ private:
         }
     }
 
-    /// Along an axis of one cell the neighbour is the cell itself.
+    /// Along an axis of one cell, the neighbour is the cell itself.
     Read within_stencil(const Neighbour& at) const {
         return {at.slot, stencil_.x ? at.dx : 0, stencil_.y ? at.dy : 0, stencil_.z ? at.dz : 0};
     }
@@ -123,7 +123,7 @@ private:
         cost_.operations += 2 * stencil_.axes() + 1;
     }
 
-    /// `weights` names the table of weights: of Laplacians or of a component of gradients.
+    /// `weights` names the table of weights: for Laplacians or for a component of gradients.
     void add_link_sum(std::initializer_list<FieldSlot> slots, Op weights, double operations) {
         cost_.operations += operations * links_;
         for (const FieldSlot slot : slots) {
@@ -136,7 +136,7 @@ private:
         add_link_bytes(word_);
     }
 
-    /// Loads what a field holds in the cells to which links lead.
+    /// Adds the loads of a field in the cells to which links lead.
     void gather(FieldSlot slot) {
         if (!gathered_.insert(slot).second) return;
         cost_.loads += links_;

@@ -1,4 +1,4 @@
-// Results are ordered so that those with common operations are neighbours, and cut into parts of
+// Orders results so that results with common operations are neighbours, and cuts them into parts of
 // equal numbers.
 #include "ir/kernel_parts.h"
 
@@ -11,16 +11,16 @@
 namespace cascade {
 namespace {
 
-// A kernel stays whole if its parts would take longer by this factor, in tenths.
+// A kernel stays whole if its parts would take more than this many tenths of its time.
 constexpr std::size_t most_growth = 12;
 
-/// Calls `visit` with what results are computed from, each value once.
+/// Calls `visit` with the values that results are computed from, each once.
 class Walk {
 public:
     explicit Walk(const CellKernel& kernel) : kernel_(kernel), is_met_(kernel.code.size(), false) {}
 
-    /// Visits what `root` is computed from and no earlier root was, in no particular order, and
-    /// calls `meet` with the values of earlier roots at which the walk ends.
+    /// Visits the values that `root` and no earlier root is computed from, in no particular order,
+    /// and calls `meet` with the values of earlier roots at which the walk ends.
     template <typename Visit, typename Meet>
     void from(ValueId root, Visit visit, Meet meet) {
         open_.push_back(root);
@@ -46,8 +46,8 @@ private:
     std::vector<ValueId> open_;
 };
 
-/// The results, with each after the earlier one that it has the last operation in common with, such
-/// as a rate that is stored besides the new value.
+/// The results, each moved after the earlier one with which it shares the last operation, such as a
+/// rate that is stored besides the new value.
 std::vector<std::size_t> in_families(const CellKernel& kernel) {
     const std::size_t count = kernel.results.size();
     Walk walk(kernel);
@@ -75,7 +75,7 @@ std::vector<std::size_t> in_families(const CellKernel& kernel) {
     return order;
 }
 
-/// The part with these results of a kernel.
+/// The part of a kernel that computes these results.
 KernelPart part_of(const CellKernel& kernel, std::vector<std::size_t> results) {
     KernelPart part{{}, std::move(results), true};
     part.kernel.precision = kernel.precision;
@@ -105,8 +105,8 @@ KernelPart part_of(const CellKernel& kernel, std::vector<std::size_t> results) {
     return part;
 }
 
-/// The size of a kernel by the time that it takes to run: what is computed for links counts as
-/// often as cells that crowd have neighbours.
+/// The size of a kernel by its run time: values computed for links count as often as crowded cells
+/// have neighbours.
 std::size_t time_of(const CellKernel& kernel) {
     constexpr std::size_t links = 12;
     constexpr std::size_t operations_of_gather = 8;
@@ -123,7 +123,7 @@ std::size_t time_of(const CellKernel& kernel) {
 }  // namespace
 
 std::size_t size_of(const CellKernel& kernel) {
-    constexpr std::size_t loads_of_laplacian = 10;  // By the time that they take.
+    constexpr std::size_t loads_of_laplacian = 10;  // By their time.
     constexpr std::size_t loads_of_neighbour = 2;
     std::size_t size = kernel.code.size();
     for (const Instruction& instruction : kernel.code) {

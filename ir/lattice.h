@@ -10,20 +10,20 @@ namespace cascade {
 
 /// The lattice along one axis.
 struct LatticeAxis {
-    Expression side;      ///< Of a lattice cell, as a coordinate.
+    Expression side;      ///< A lattice cell's side, as a coordinate.
     Expression count;     ///< Lattice cells along a periodic axis: an integer.
-    Expression position;  ///< Of the cell in the lattice: coordinate / side.
+    Expression position;  ///< The cell's position in the lattice: coordinate / side.
     bool is_periodic;
 };
 
-/// Lattice cells of width `side`, at most 2^20 along the axis. Along a periodic axis the width is
-/// adjusted so that their number is an integer, at least 1.
+/// A lattice with cells of width `side`, at most 2^20 along the axis. Along a periodic axis the
+/// width is adjusted so that their number is an integer, at least 1.
 LatticeAxis lattice_axis(KernelBuilder& builder, const SpaceAxis& axis, Expression side);
 
-/// The largest integer not above the position; at an integral position it may be the one before.
+/// The largest integer not above the position. At an integral position, possibly the previous one.
 Expression lattice_floor(Expression position);
 
-/// An index along an axis, −1 … count, as a word; beyond a periodic side, that of the other side.
+/// An index along an axis, −1 … count, as a word. Beyond a periodic side, it wraps around.
 Expression lattice_word(const LatticeAxis& axis, Expression index);
 
 /// The hash of lattice points: sums of products, mixed by lowbias32 (C. Wellons, "Hash function
@@ -43,7 +43,7 @@ private:
     std::uint32_t second_key_;
 };
 
-/// A random word as a number in [−1, 1); `which` selects one of three numbers from the same word.
+/// A random word as a number in [−1, 1). `which` selects one of three numbers from the same word.
 Expression signed_fraction(Expression word, std::size_t which);
 
 }  // namespace cascade

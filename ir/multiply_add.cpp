@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-/// All choices but the one in which every operand is a scalar.
+/// All choices except that every operand is a scalar.
 constexpr unsigned varying_choices = 7;
 
 template <unsigned scalars, typename Number>

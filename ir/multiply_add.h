@@ -1,7 +1,7 @@
 // a · b + c with one rounding: whether the processor has it, and loops that use it.
 //
-// A build for any x86-64 computes it by a call of the C library per number. These loops are
-// compiled for processors with the instruction, and used if it is present.
+// A build for any x86-64 would call the C library for each number. These loops are compiled for
+// processors with the instruction, and used if it is present.
 #pragma once
 
 #include "ir/block_loops.h"
@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// Whether this processor computes a · b + c with one rounding in one instruction. Others are given
-/// no kernels with a multiply_add.
+/// Whether this processor computes a · b + c with one rounding in one instruction. Other processors
+/// get no kernels with a multiply_add.
 bool has_multiply_add();
 
 /// Whether the kernel has a multiply_add.

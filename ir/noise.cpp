@@ -1,5 +1,5 @@
 // Gradient noise. Every lattice point has a random gradient with independent components, uniform in
-// (−1, 1); the linear functions that they define are blended between the points.
+// (−1, 1), which defines a linear function. The functions are blended between the points.
 #include "ir/lattice.h"
 
 #include "core/check.h"
@@ -12,7 +12,7 @@ namespace {
 /// The two lattice points around a cell along one axis.
 struct Pair {
     std::size_t axis;                 ///< 0, 1 or 2.
-    std::array<Expression, 2> parts;  ///< Of the points' hashes.
+    std::array<Expression, 2> parts;  ///< Parts of the points' hashes.
     std::array<Expression, 2> away;   ///< From each point to the cell: 0 … 1 and −1 … 0.
     Expression blend;                 ///< 0 at the first, 1 at the second.
 };
@@ -30,8 +30,7 @@ Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& la
             fade(t)};
 }
 
-/// The linear function of one lattice point at the cell. Bit k of `corner` selects in the k-th
-/// pair.
+/// A lattice point's linear function at the cell. Bit k of `corner` selects in the k-th pair.
 Expression plane_of(const LatticeHash& hash, const std::vector<Pair>& pairs, std::size_t corner) {
     const auto side = [corner](std::size_t k) { return (corner >> k) & 1; };
     Expression parts = pairs[0].parts[side(0)];

@@ -1,12 +1,12 @@
 // x^y, expanded into operations of the table.
 //
-// Constant integer exponents up to 64 are expanded into products. Other powers are 2^(y · log2|x|),
-// with the logarithm as a head and a tail of together some 36 bits (in binary64 66): the product
-// may be as large as 128 (1024), and its error is the relative error of the result. Products of
-// heads of 12 bits (26) are exact (G. W. Veltkamp and T. J. Dekker, Numerische Mathematik 18,
-// 1971), so no fused operation is needed.
+// Constant integer exponents up to 64 are expanded into products. Other powers are 2^(y · log2|x|).
+// The head and tail of the logarithm have some 36 bits together (in binary64 66), because the
+// product may be as large as 128 (1024), and its error is the relative error of the result.
+// Products of heads of 12 bits (26) are exact (G. W. Veltkamp and T. J. Dekker, Numerische
+// Mathematik 18, 1971), so no fused operation is needed.
 //
-// Special cases are those of C's pow(): 1 for y = 0 or x = 1, even if the other is NaN; NaN for a
+// Special cases are as in C's pow(): 1 for y = 0 or x = 1, even if the other is NaN; NaN for a
 // finite x < 0 and a y that is not an integer; the sign of x for odd y.
 #include "ir/expression.h"
 
@@ -68,7 +68,7 @@ Quotient quotient_of(Expression m) {
     const Expression inverse = 1 / d;
     const Expression s = f * inverse;
     const Expression d_head = d.head();
-    const Expression d_tail = m - (d_head - 1);  // Of the exact m + 1.
+    const Expression d_tail = m - (d_head - 1);  // The rest of the exact m + 1.
     const Expression s_head = s.head();
     const Expression rest = (f - s_head * d_head) - s_head * d_tail;
     return {s, {s_head, rest * inverse}};
@@ -112,8 +112,8 @@ Expression power_of_magnitude(Expression a, Expression exponent) {
     const Expression y_tail = y - y_head;
     const Expression large = y_head * logarithm.head;  // Exact.
     const Expression little = y_tail * logarithm.head + y * logarithm.tail;
-    // Zero, infinity and NaN have no significand to take the logarithm of, and the head of a NaN
-    // may be the word of an infinity.
+    // Zero, infinity and NaN have no significand with a logarithm, and the head of a NaN may be the
+    // word of an infinity.
     const Expression is_ordinary = both(both(0 < a, a < infinity), equals(y, y));
     const Expression extreme = y * equals(a, 0).choose(-infinity, a);
     const Expression p = is_ordinary.choose(large, extreme);
@@ -129,9 +129,9 @@ struct Parity {
 };
 
 Parity parity_of(Expression y) {
-    // 2^23 + a has no fractional digits for a < 2^23, and its last bit is that of a. From 2^23 to
-    // 2^24 the last bit of a itself is worth 1; all larger numbers are even. In binary64 these are
-    // 2^52 and 2^53.
+    // 2^23 + a has no fractional digits for a < 2^23, and its last bit is a's. From 2^23 to 2^24
+    // the last bit of a itself is worth 1, and all larger numbers are even. In binary64 the bounds
+    // are 2^52 and 2^53.
     const double all_whole = std::ldexp(1.0, y.format().fraction_bits);
     const double all_even = 2 * all_whole;
     const Expression a = y.absolute();

@@ -56,7 +56,7 @@ Hash hash_of_cell(KernelBuilder& builder, ValueId draw, std::uint64_t key) {
 
 ValueId KernelBuilder::random_symmetric(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
-    // With k the upper 23 (52) bits: (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, exactly.
+    // If k is the upper 23 (52) bits, (k + ½) · 2^−22 − 1 is (2k + 1 − 2^23) · 2^−23, exactly.
     const int digits = format().fraction_bits;
     const Expression k = digits < 32 ? first.shifted_right(32 - digits)
                                      : first.shifted_left(digits - 32)

@@ -1,8 +1,8 @@
 // Aggregates over all cells of a plane: sums, means, smallest and largest values.
 //
-// Each row is reduced to one number in a fixed order, then rows are combined in pairs, pairs in
+// Each row is reduced to one number in a fixed order. Then rows are combined in pairs, pairs in
 // pairs, and so on. This tree only depends on the grid, so the bits of the result are the same for
-// any number of threads and any vector width. Sums are in binary64; the caller rounds the result.
+// any number of threads and any vector width. Sums are in binary64. The caller rounds the result.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Cube root and hypotenuse, expanded into operations of the table.
 //
-// The cube root of m · 2^(3k) is that of m times 2^k. It starts from a polynomial, improved by one
-// step of Halley's method (W. Kahan, "Computing a real cube root", 1991) in which the residual m −
-// t³ is exact, because t has 12 bits (in binary64 26).
+// The cube root of m · 2^(3k) is ∛m · 2^k. It starts from a polynomial, improved by one step of
+// Halley's method (W. Kahan, "Computing a real cube root", 1991) in which the residual m − t³ is
+// exact, because t has 12 bits (in binary64 26).
 #include "ir/expression.h"
 
 namespace cascade {
@@ -21,7 +21,7 @@ constexpr ByPrecision<double> cube_root_of_2 = {0x1.428a30p+0, 0x1.428a2f98d728b
 constexpr ByPrecision<double> cube_root_of_half = {0x1.965feap-1, 0x1.965fea53d6e3dp-1};
 constexpr ByPrecision<double> third_of_one = {0x1.555556p-2, 0x1.5555555555555p-2};
 
-/// The numbers beyond which squares would overflow or vanish, and powers of two to scale by there.
+/// The numbers beyond which squares would overflow or vanish, and powers of two to scale them.
 struct Reach {
     double large, reduce;
     double small, enlarge;
@@ -56,7 +56,7 @@ ValueId KernelBuilder::cube_root(ValueId argument) {
                              by_sign(left, x.pick(cube_root_of_half), 1, x.pick(cube_root_of_2));
     const Expression magnitude = halley_step(guess.head(), y).scaled(third);
     const Expression root = magnitude.with_sign_of(x);
-    // Zero, infinity and NaN are their own roots; the sum flushes a denormal number.
+    // Zero, infinity and NaN are their own roots. The sum flushes a denormal number.
     return both(0 < a, a < infinity).choose(root, x + x).id();
 }
 

@@ -5,7 +5,7 @@
 namespace cascade {
 namespace {
 
-// For quotients from here on the remainder cannot be found. Below it, both halves of an integral
+// For larger quotients the remainder cannot be found. Below this, both halves of an integral
 // quotient have few enough bits for their products to be exact.
 constexpr ByPrecision<double> largest_quotient = {0x1p24, 0x1p52};
 

@@ -9,7 +9,7 @@ namespace {
 
 /// One of two neighbouring seeds along an axis.
 struct Candidate {
-    Expression part;  ///< Of its hash.
+    Expression part;  ///< The seed's part of the hash.
     Expression away;  ///< From the cell to the seed without jitter, as a coordinate.
 };
 

@@ -12,16 +12,16 @@ namespace {
 struct Row {
     std::string_view name;
     int order;
-    double interval;  ///< Of stability, on the negative real axis. 0 where the number of stages
-                      ///< is chosen, which decides it.
+    double interval;  ///< Stable on the negative real axis up to this. 0 if the chosen number of
+                      ///< stages decides it.
 };
 
 /// In the order of Solver. Semi-implicit solvers have the interval of their explicit part: two of
-/// them are Euler's method without diffusion, etdrk4 is the classical one of fourth order. ros2 is
-/// Heun's method without a reaction, and no reaction that decays makes its interval shorter. The
+/// them are Euler's method without diffusion, etdrk4 is the classical method of fourth order. ros2
+/// is Heun's method without a reaction, and a decaying reaction never shortens its interval. The
 /// intervals are the zeros of |R(z)| = 1 on the negative axis, where R is the stability polynomial
-/// (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996, section IV.2); for
-/// Dormand-Prince, that of its formula of fifth order.
+/// (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996, section IV.2). For
+/// Dormand-Prince, R belongs to the formula of fifth order.
 constexpr std::array<Row, 12> rows{{{"euler", 1, 2.0},
                                     {"symplectic", 1, 2.0},
                                     {"rk2", 2, 2.0},

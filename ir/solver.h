@@ -26,7 +26,7 @@ enum class Solver : std::uint8_t {
 };
 
 std::string_view name_of(Solver solver);
-/// `imex2`, which `etdrk4` replaced, is another name of it.
+/// The solver of that name. `imex2`, which `etdrk4` replaced, is another name for it.
 std::optional<Solver> solver_of(std::string_view name);
 std::vector<std::string> solver_names();
 
@@ -38,12 +38,12 @@ bool is_stabilised(Solver solver);
 bool is_semi_implicit(Solver solver);
 /// Whether it takes the reaction in each cell implicitly, and diffusion by its rate.
 bool is_locally_implicit(Solver solver);
-/// Whether a part of the rates limits no step by its stability.
+/// Whether some part of the rates never limits steps by its stability.
 inline bool is_partly_implicit(Solver solver) {
     return is_semi_implicit(solver) || is_locally_implicit(solver);
 }
-/// Whether its steps may be many times as long as those of explicit Euler: as long as the reaction
-/// allows, however fast diffusion is, or the other way round.
+/// Whether its steps may be many times as long as explicit Euler's: as long as the reaction allows,
+/// however fast diffusion is, or the other way round.
 inline bool takes_long_steps(Solver solver) {
     return is_stabilised(solver) || is_partly_implicit(solver);
 }
@@ -51,15 +51,15 @@ inline bool takes_long_steps(Solver solver) {
 bool takes_speed_by_cell(Solver solver);
 /// The order p: the error of a whole run is proportional to step^p.
 int order_of(Solver solver);
-/// The p for which the estimated error of a step is proportional to step^p: the embedded pair of an
-/// adaptive solver or of `ros2`, for others as in solvers/error_estimate.h.
+/// The p for which the estimated error of a step is proportional to step^p: by the embedded pair of
+/// an adaptive solver or of `ros2`, for others as in solvers/error_estimate.h.
 int order_of_estimate(Solver solver);
 /// The solver is stable if −λ · step is below this for every negative eigenvalue λ of the rates'
-/// Jacobian, or of the part that is taken explicitly. `stages` is that of a stabilised solver.
+/// Jacobian, or of its explicit part. `stages` is for stabilised solvers.
 double stability_interval(Solver solver, std::uint32_t stages = 1);
 
 /// The smallest odd number of stages with which a stabilised solver is stable for steps `ratio`
-/// times as long as the longest of explicit Euler; `most_stages` if there is none.
+/// times as long as explicit Euler's longest; `most_stages` if there is none.
 std::uint32_t stages_for(Solver solver, double ratio);
 /// The smallest number of stages of a stabilised solver: `rkl1` with one stage is explicit Euler.
 std::uint32_t least_stages(Solver solver);

@@ -1,4 +1,4 @@
-// Shapes, smooth noise and seed lattices as functions of the position of a cell.
+// Shapes, smooth noise and seed lattices as functions of a cell's position.
 //
 // A position has a coordinate along each axis, in a unit in which the longest side of the domain
 // has length 1. Along a periodic axis these functions are periodic. An axis of one cell has no
@@ -16,7 +16,7 @@ namespace cascade {
 /// One axis of the domain, and the coordinate of the cell along it.
 struct SpaceAxis {
     ValueId coordinate;  ///< 0 … length.
-    double length = 1;   ///< Of the whole axis.
+    double length = 1;   ///< The whole axis.
     bool is_periodic = false;
     bool has_extent = false;  ///< More than one cell.
 };
@@ -24,7 +24,7 @@ struct SpaceAxis {
 /// x, y, z.
 using Space = std::array<SpaceAxis, 3>;
 
-// Shapes (ir/shapes.cpp). Positions and sizes may have fewer values than there are axes: the shape
+// Shapes (ir/shapes.cpp). Positions and sizes may have fewer values than there are axes. The shape
 // then extends through the whole domain along the others. Distances wrap around periodic sides.
 
 /// 1 if the distance to `centre` is less than |radius|, else 0.
@@ -56,8 +56,8 @@ inline constexpr int most_octaves = 12;
 
 /// Gradient noise (ir/noise.cpp; K. Perlin, "An image synthesizer", SIGGRAPH 1985, with the fade of
 /// his "Improving noise", SIGGRAPH 2002) on a square lattice of side `scale`, in −1 … 1, with mean
-/// 0. Each of `octaves` (1 … most_octaves) has half the scale and half the amplitude of the one
-/// before; their sum is scaled to −1 … 1. Along periodic axes the side of the lattice is the
+/// 0. Each of `octaves` (1 … most_octaves) has half the scale and half the amplitude of the
+/// previous one. Their sum is scaled to −1 … 1. Along periodic axes the side of the lattice is the
 /// nearest one that divides the axis.
 ValueId smooth_noise(KernelBuilder& builder, const Space& space, ValueId scale, int octaves,
                      const Draw& draw);
@@ -69,8 +69,8 @@ enum class LatticeKind {
 };
 
 /// Seed lattices (ir/seeds.cpp): 1 within `radius` of a seed, else 0. Each seed is displaced along
-/// every axis by a random distance of at most `jitter`. Correct as long as radius + jitter is at
-/// most the spacing; along periodic axes the spacing is the nearest one that divides the axis.
+/// every axis by a random distance of at most `jitter`. Correct if radius + jitter is at most the
+/// spacing. Along periodic axes the spacing is the nearest one that divides the axis.
 ValueId seed_lattice(KernelBuilder& builder, const Space& space, LatticeKind kind, ValueId spacing,
                      ValueId radius, ValueId jitter, const Draw& draw);
 

@@ -22,7 +22,7 @@
 namespace cascade {
 namespace {
 
-/// A row costs about as much as this number of cells, in addition to its cells.
+/// A row costs about as much as this number of cells, besides its cells.
 constexpr std::int64_t cells_per_row = 64;
 
 /// The number of cells without links that take as long to interpret as one of this kernel. Its
@@ -44,7 +44,7 @@ public:
 
     explicit Worker(Backend& native) : native_(native) {}
 
-    /// Starts the thread unless it runs. False if it cannot be started.
+    /// Starts the thread unless it runs. Returns false if it cannot be started.
     bool start();
     /// Compiles the wanted kernels and ends the thread.
     void stop();
@@ -54,7 +54,7 @@ public:
     void expect(const CellKernel& kernel, Stencil stencil);
     /// Signals new wanted kernels. Allocates nothing, because computing threads call it.
     void wake();
-    /// Returns when the kernel is settled or never will be. Called by computing threads.
+    /// Waits until the kernel is settled or can no longer be. Called by computing threads.
     void wait_for(const TieredKernel& kernel);
 
 private:
@@ -66,17 +66,17 @@ private:
     void work();
     bool has_wanted() const;
     std::shared_ptr<TieredKernel> next_wanted();
-    /// Whether it is being compiled or is waiting for it.
+    /// Whether it is being compiled or waits for that.
     bool is_coming(const TieredKernel& kernel) const;
 
-    Backend& native_;  ///< Used by the thread only, which ends before the backend does.
+    Backend& native_;  ///< Used only by the thread, which ends before the backend does.
     std::thread thread_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool is_stopping_ = false;
     std::condition_variable settled_;                   ///< Notified when a kernel settles.
-    std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Those not compiled yet, in order.
-    const TieredKernel* in_work_ = nullptr;  ///< The one being compiled, if it is wanted.
+    std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Waiting kernels, in order.
+    const TieredKernel* in_work_ = nullptr;  ///< The kernel being compiled, if it is wanted.
     std::deque<Source> expected_;
 };
 
@@ -135,7 +135,7 @@ private:
         present_.load(std::memory_order_acquire)->run(arguments, cells);
     }
 
-    /// Called before interpreting this number of cells: requests compilation, or waits for it.
+    /// Called before interpreting this number of cells. Requests compilation, or waits for it.
     void count(std::int64_t cells) const {
         const std::int64_t before = interpreted_cells_.fetch_add(cells, std::memory_order_relaxed);
         if (before + cells < cells_worth_compiling) return;
@@ -202,7 +202,7 @@ void TieredBackend::Worker::abandon() {
 void TieredBackend::Worker::add(const std::shared_ptr<TieredKernel>& kernel) {
     {
         const std::lock_guard lock(mutex_);
-        // Nothing else refers to them any more, and they have hardly been used.
+        // No other object refers to them, and they have hardly been used.
         std::erase_if(begun_, [](const auto& known) {
             return known.use_count() == 1 && !known->is_wanted();
         });
@@ -220,7 +220,8 @@ void TieredBackend::Worker::expect(const CellKernel& kernel, Stencil stencil) {
 }
 
 void TieredBackend::Worker::wake() {
-    // With the lock taken once, the thread is either about to check or waiting: no signal is lost.
+    // With the lock taken once, the thread is either about to check or waiting, so no signal is
+    // lost.
     { const std::lock_guard lock(mutex_); }
     changed_.notify_all();
 }
@@ -246,7 +247,7 @@ std::shared_ptr<TieredBackend::Worker::TieredKernel> TieredBackend::Worker::next
 }
 
 void TieredBackend::Worker::work() {
-    // A thread inherits its creator's floating-point environment; compilers expect the default one.
+    // Threads inherit their creator's floating-point environment. Compilers expect the default one.
     std::fesetenv(FE_DFL_ENV);
     std::unique_lock lock(mutex_);
     while (true) {

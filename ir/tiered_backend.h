@@ -1,10 +1,10 @@
 // Kernels that run at once and switch to native code when it is ready.
 //
-// Loading a code generator takes longer than a small run. So begin() returns a kernel that is
-// interpreted; a thread of the backend compiles it, and later calls run native code. Both give the
-// same bits, so results do not depend on the moment of the switch. A kernel that has been
-// interpreted for about as long as compilation takes waits for its code, because further
-// interpretation would only slow the compiler down.
+// Loading a code generator takes longer than a small run. So begin() returns an interpreted kernel.
+// A thread of the backend compiles it, and later calls run native code. Both give the same bits, so
+// results do not depend on the moment of the switch. A kernel that has been interpreted for about
+// as long as compilation takes waits for its code, because further interpretation would only slow
+// the compiler down.
 #pragma once
 
 #include "ir/backend.h"
@@ -17,11 +17,12 @@
 namespace cascade {
 
 /// Interpreting this number of cells takes about as long as compiling their kernel: both grow with
-/// the number of operations, 4 ns a cell for twenty of them against some ten milliseconds.
+/// the number of operations. For twenty operations, 4 ns per cell compare to about ten
+/// milliseconds.
 inline constexpr std::int64_t cells_worth_compiling = 262144;
 
 /// Wraps another backend, whose kernels compile() returns. Thread-safe. Kernels outlive the backend
-/// in the state in which it leaves them.
+/// in their last state.
 class TieredBackend final : public Backend {
 public:
     explicit TieredBackend(std::unique_ptr<Backend> native);
@@ -40,20 +41,20 @@ public:
 
     /// When a kernel that is interpreted meanwhile is compiled.
     enum class When : std::uint8_t {
-        now,        ///< It is known to run for long.
+        now,        ///< It will run for long.
         when_used,  ///< Once it has run over `cells_worth_compiling` cells, fewer with links.
     };
-    /// A kernel that can run now: that of find(), or one that is interpreted until it is compiled
-    /// (Kernel::is_provisional), or for good if compilation fails (Kernel::refusal). After
+    /// A kernel that can run now: the result of find(), or a kernel that is interpreted until it is
+    /// compiled (Kernel::is_provisional), or for good if compilation fails (Kernel::refusal). After
     /// interpreting `cells_worth_compiling` cells, calls wait for code that is wanted. Kernels are
     /// compiled in the order of their begin().
     KernelPointer begin(const CellKernel& kernel, Stencil stencil, When when);
-    /// Announces a kernel that will be begun or compiled later; it is compiled after all others.
+    /// Announces a kernel that will be begun or compiled later. It is compiled after all others.
     void expect(const CellKernel& kernel, Stencil stencil);
     /// Waits until all kernels that have been used enough by now are compiled or refused.
     void settle();
-    /// Drops the waiting kernels, which then stay interpreted. The one being compiled is finished,
-    /// because nothing can interrupt it.
+    /// Drops the waiting kernels, which then stay interpreted. Finishes the present one, because
+    /// compilation cannot be interrupted.
     void abandon();
 
 private:

@@ -6,8 +6,8 @@
 // next to multiples of π/2.
 //
 // Angles from 8192 to 2^24 (2^27 to 2^53) are first reduced below 3217 (2^26) by subtracting
-// multiples of 4096 (2^26) quarter turns in the same way; r then has an absolute error of at most
-// 2^−33 (2^−77). Beyond 2^24 (2^53), where adjacent numbers are 2 and more apart, an angle has no
+// multiples of 4096 (2^26) quarter turns in the same way. Then r has an absolute error of at most
+// 2^−33 (2^−77). Beyond 2^24 (2^53), where adjacent numbers are at least 2 apart, an angle has no
 // meaning and the result is NaN, as for infinities. The sine of −0 is −0.
 #include "ir/expression.h"
 
@@ -49,7 +49,7 @@ constexpr double cos_double[] = {0x1.5555555555555p-5,  -0x1.6c16c16c16b31p-10,
                                  0x1.9dfa0de9af30ap-45};
 constexpr ByPrecision<std::span<const double>> cos_coefficients = {cos_single, cos_double};
 
-/// A number as a sum; the tail is about 2^−24 (2^−53) of the head.
+/// A number as a sum. The tail is about 2^−24 (2^−53) of the head.
 struct Sum {
     Expression head;
     Expression tail;

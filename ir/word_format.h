@@ -10,11 +10,11 @@
 
 namespace cascade {
 
-/// IEEE 754 binary32 or binary64. A word is the lower `bits` of a 64-bit integer; the others are 0.
+/// IEEE 754 binary32 or binary64. A word is the lower `bits` of a 64-bit integer. The others are 0.
 struct WordFormat {
     int bits;           ///< 32 or 64.
-    int fraction_bits;  ///< Of the significand, without the leading one: 23 or 52.
-    int bias;           ///< Of the exponent: 127 or 1023.
+    int fraction_bits;  ///< The significand's, without the leading one: 23 or 52.
+    int bias;           ///< The exponent's: 127 or 1023.
 
     constexpr std::uint64_t all() const { return ~std::uint64_t{0} >> (64 - bits); }
     constexpr std::uint64_t sign() const { return std::uint64_t{1} << (bits - 1); }
@@ -23,7 +23,7 @@ struct WordFormat {
     constexpr std::uint64_t one() const {
         return static_cast<std::uint64_t>(bias) << fraction_bits;
     }
-    /// The one NaN.
+    /// The only NaN.
     constexpr std::uint64_t nan() const { return exponent() | (fraction() ^ (fraction() >> 1)); }
 
     constexpr bool is_denormal(std::uint64_t word) const {
@@ -43,7 +43,7 @@ using WordOf = std::conditional_t<std::is_same_v<Number, double>, std::uint64_t,
 inline std::uint32_t to_bits(float number) { return std::bit_cast<std::uint32_t>(number); }
 inline float to_number(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
-/// A number, rounded to a precision, as a word; and back, exactly.
+/// A number, rounded to a precision, as a word, and exactly back.
 inline std::uint64_t word_of(double number, Precision precision) {
     if (precision == Precision::binary64) return std::bit_cast<std::uint64_t>(number);
     return to_bits(static_cast<float>(number));

@@ -1,5 +1,5 @@
-// The effect of every operation of the table on words: the definition that constant folding and the
-// interpreter share. `Number` is float or double, whichever the words hold.
+// The effect of every operation of the table on words: the definition shared by constant folding
+// and the interpreter. `Number` is float or double, the type of the words.
 //
 // Internal to ir/. The processor flushes denormals, so this is only correct inside a
 // FlushDenormals. The functions are written so that compilers vectorise loops over them.
@@ -32,8 +32,8 @@ template <typename Number>
 inline constexpr auto sign_bit =
     static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
 
-/// Whether a word is a number other than zero. This tests the word, because compilers that see a
-/// number made from a word and compared with 0 may test its bits, and take a denormal for true.
+/// Whether a word is a number other than zero. Tests the word, because compilers that see a number
+/// made from a word and compared with 0 may test its bits, and take a denormal for true.
 template <typename Number>
 bool is_true(WordOf<Number> word) {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -60,7 +60,7 @@ Number round_to_even(Number a) {
 
 /// a · 2^b. One factor 2^b may be out of range although the product is not, so there are two of
 /// about the same size. Their biased exponents are the two halves of b + 2 · bias, which is in the
-/// last bits of a sum; shifts remove its other bits.
+/// last bits of a sum. Shifts remove its other bits.
 template <typename Number>
 Number scale_by_power(Number a, Number b) {
     using Word = WordOf<Number>;
@@ -105,7 +105,7 @@ Word integer(Word a, Word b) {
     }
 }
 
-/// The result of `op`; operands beyond its arity are ignored.
+/// The result of `op`. Ignores operands beyond its arity.
 template <Op op, typename Number, typename Word = WordOf<Number>>
 inline Word word_operation(Word a, Word b, Word c) {
     const auto x = std::bit_cast<Number>(a);

@@ -19,8 +19,8 @@ using EtdMemory = std::array<Number*, etd_registers>;
 /// 2005, 72-88), written for changes. With L the diffusion, z = h L, and D_i = f(U_i) − f(old) − L
 /// (U_i − old) the change of the rest of the rates,
 ///
-///     U₂ = old + h/2 φ₁(z/2) f(old), U₃ = U₂ + h φ₂(z/2) D₂,
-///     U₄ = old + h (φ₁(z) f(old) + 2 φ₂(z) D₃),
+///     U₂  = old + h/2 φ₁(z/2) f(old),                  U₃ = U₂ + h φ₂(z/2) D₂,
+///     U₄  = old + h (φ₁(z) f(old) + 2 φ₂(z) D₃),
 ///     new = old + h (φ₁(z) f(old) + (2 φ₂(z) − 4 φ₃(z)) (D₂ + D₃) + (4 φ₃(z) − φ₂(z)) D₄).
 ///
 /// The stage reads the waves of f at the last point in waves[0] of the block and replaces them by

@@ -4,7 +4,7 @@
 // the rest, implicit Euler for L and explicit Euler for N, new = old + h (L new + N old), is the
 // same as
 //
-//     new = old + (1 − h L)⁻¹ h f(old), f = L + N being the whole rate.
+//     new = old + (1 − h L)⁻¹ h f(old),    f = L + N being the whole rate.
 //
 // So only the rate is computed, as the user wrote it. A state whose rates are 0 does not change,
 // and values held at sides drop out. If L is not exactly the diffusion, this costs some accuracy

@@ -5,11 +5,11 @@
 // In the *upright* part, each level computes one layer fewer at each end of a band that is a
 // border. The *inverted* part around a border is the rest, which widens from level to level.
 //
-//     level 3 / inverted \ upright / inverted \ |
-//           2 / \ / \ | time
-//           1 / \ / \ |
-//           0 ' '-------------' ' |
-//               border 0 band 1 border 1
+//     level 3      / inverted \      upright      / inverted \      |
+//           2     /            \                 /            \     | time
+//           1    /              \               /              \    |
+//           0   '                '-------------'                '   |
+//               border 0          band 1         border 1
 //
 // Several threads compute first all upright parts, then all inverted ones. Within a part, level l
 // computes layer p − l at moment p, so a layer is in use for L moments. Another level's layers at
