@@ -1,7 +1,7 @@
 // Metadata that tells LLVM which accesses cannot overlap.
 //
 // Internal to jit/. Results overlap neither each other nor inputs that are read at neighbours. An
-// input that is read in the cell itself only may be a result, too, so its accesses are not marked.
+// input that is only read in the cell itself may be a result, too, so its accesses are not marked.
 // Pointers to planes come from tables, so no attribute of an argument can tell LLVM this.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How values get from one form to another, and from outer scopes to inner ones.
+// Converts values from one form to another, and passes them from outer scopes to inner ones.
 #include "jit/body_scope.h"
 
 #include "core/check.h"
@@ -88,8 +88,7 @@ llvm::Value* BodyScope::truth(ValueId id) {
     return value.truth;
 }
 
-// The number, or zero of its sign if it is denormal, by integer operations: LLVM takes no liberties
-// with those.
+// The number, or zero of its sign if it is denormal. Uses integers, which LLVM does not alter.
 llvm::Value* BodyScope::flushed(ValueId id) {
     llvm::Value* word = bits(id);
     llvm::Value* exponent = builder_.CreateAnd(word, body_.bits(body_.format.exponent()));
@@ -128,8 +127,7 @@ llvm::Value* BodyScope::operand(ValueId id) {
     return forms(id).may_be_denormal && constant_word(id) ? flushed(id) : number(id);
 }
 
-// LLVM drops operations that are the identity but for their flushing, also in one branch of a
-// choice.
+// LLVM drops operations that would only flush, also in one branch of a choice.
 llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     if (!forms(id).may_be_denormal) return number(id);
     const bool may_be_neutral =
@@ -137,8 +135,8 @@ llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     return may_be_neutral ? flushed(id) : operand(id);
 }
 
-// Constants are hidden if the other branch is one, too. A constant beside something else stays, so
-// that a clamp becomes the processor's max.
+// Constants are hidden if the other branch is one, too. A constant beside a variable stays, so that
+// a clamp becomes the processor's max.
 llvm::Value* BodyScope::branch(ValueId id, ValueId other) {
     const auto word = constant_word(id);
     return word && forms(other).is_choice ? hidden(*word) : number(id);

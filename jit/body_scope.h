@@ -1,8 +1,7 @@
 // The values of a kernel's body while LLVM's instructions for them are written.
 //
-// Internal to jit/. There is a scope for each level of the loops, one inside the other, so that
-// what is the same in all cells, or in a row, is computed outside the loop without any pass that
-// moves code.
+// Internal to jit/. Scopes are nested like the levels of loops, so that values that are equal in
+// all cells, or in a row, are computed outside the loop without any pass that moves code.
 #pragma once
 
 #include "jit/kernel_shape.h"
@@ -21,10 +20,10 @@ inline llvm::Type* number_type(llvm::IRBuilderBase& builder, Precision precision
 inline llvm::Type* word_type(llvm::IRBuilderBase& builder, Precision precision) {
     return builder.getIntNTy(static_cast<unsigned>(format_of(precision).bits));
 }
-/// A word as a constant of LLVM.
+/// A word as an LLVM constant.
 llvm::APFloat number_constant(std::uint64_t word, Precision precision);
 
-/// What all scopes of a kernel have in common.
+/// The data shared by all scopes of a kernel.
 struct Body {
     const CellKernel& kernel;
     const KernelShape& shape;
@@ -41,19 +40,19 @@ struct Body {
 /// Refers to `kernel` and `shape`.
 Body body_of(const CellKernel& kernel, const KernelShape& shape, Builder& builder);
 
-/// One value in up to three forms; forms that are not requested are not made.
+/// One value in up to three forms, which are made on request.
 struct Forms {
     llvm::Value* number = nullptr;  ///< <N x float>
     llvm::Value* bits = nullptr;    ///< <N x i32>
     llvm::Value* truth = nullptr;   ///< <N x i1>
     bool is_boolean = false;        ///< It is 1 or 0, and `truth` says which.
     bool may_be_denormal = false;
-    bool is_choice = false;       ///< A constant, or a choice between constants alone.
+    bool is_choice = false;       ///< A constant, or a choice between constants only.
     bool may_be_neutral = false;  ///< LLVM may find a constant in it, as in a branch of a choice.
 };
 
-/// The values of one loop level. Those of outer levels are looked up in the scopes around it, which
-/// must outlive it.
+/// The values of one loop level. Values of outer levels are looked up in the enclosing scopes,
+/// which must outlive it.
 class BodyScope {
 public:
     /// `builder` writes at the end of this level's block, which has no terminator yet.
@@ -81,17 +80,17 @@ public:
 
     /// A value as an operand of arithmetic, flushed where LLVM would not flush it.
     llvm::Value* operand(ValueId id);
-    /// The same if the operation is the identity where `partner`, the other operand, is the
-    /// constant `neutral` or minus that.
+    /// The same if the operation is the identity when `partner`, the other operand, is the constant
+    /// `neutral` or minus that.
     llvm::Value* operand(ValueId id, ValueId partner, double neutral);
-    /// A value as a number that is flushed already, whatever LLVM makes of what follows.
+    /// A value as a flushed number, however LLVM transforms its uses.
     llvm::Value* flushed_number(ValueId id) {
         return forms(id).may_be_denormal ? flushed(id) : number(id);
     }
-    /// A value as one branch of a choice, `other` being the other one.
+    /// A value as one branch of a choice. `other` is the other branch.
     llvm::Value* branch(ValueId id, ValueId other);
 
-    /// The word of a value that is the same constant in all cells, also where only LLVM knows that.
+    /// The word of a value that is the same constant in all cells, also if only LLVM knows that.
     std::optional<std::uint64_t> constant_word(ValueId id);
     /// A constant that all of LLVM takes for a variable.
     llvm::Value* hidden(std::uint64_t word);
@@ -105,8 +104,8 @@ private:
     Builder& builder_;
     Sources& sources_;
     BodyScope* outer_;
-    std::map<std::uint64_t, llvm::Value*> hidden_;  ///< By word; of the outermost scope alone.
-    IdVector<ValueId, Forms> values_;               ///< By value; only those of this level.
+    std::map<std::uint64_t, llvm::Value*> hidden_;  ///< By word; only in the outermost scope.
+    IdVector<ValueId, Forms> values_;               ///< By value; only this level's.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Building modules and generating machine code.
+// Builds modules and generates machine code.
 #include "jit/code.h"
 
 #include "ir/multiply_add.h"
@@ -18,7 +18,7 @@
 namespace cascade {
 namespace {
 
-/// Collects LLVM's errors; without a handler it prints them and may exit.
+/// Collects LLVM's errors. Without a handler, LLVM prints them and may exit.
 class ErrorCollector : public llvm::DiagnosticHandler {
 public:
     explicit ErrorCollector(std::string& text) : text_(text) {}
@@ -36,7 +36,7 @@ private:
     std::string& text_;
 };
 
-/// A function that calls others, which have its own arguments, one after the other.
+/// A function that calls others in order with its own arguments.
 llvm::Function* build_calls(llvm::Module& module, const std::vector<llvm::Function*>& functions,
                             const std::string& name) {
     auto* function = llvm::Function::Create(functions[0]->getFunctionType(),
@@ -50,7 +50,7 @@ llvm::Function* build_calls(llvm::Module& module, const std::vector<llvm::Functi
     return function;
 }
 
-/// Sets a machine's optimisation level, and restores it at its end.
+/// Sets a machine's optimisation level and restores it in its destructor.
 class ScopedOptLevel {
 public:
     ScopedOptLevel(llvm::TargetMachine& machine, llvm::CodeGenOptLevel level)

@@ -1,8 +1,8 @@
 // From a cell kernel to LLVM IR, and from that to an object file or assembly.
 //
-// Internal to jit/. Objects, dumps and the code that runs in this process are all made here. None
-// of LLVM's passes over the IR is run: the builder of kernels has folded and numbered all values
-// and the skeleton has moved them out of loops, and with such passes the code would be the same.
+// Internal to jit/. Objects, dumps and the code that runs in this process are all made here. No
+// LLVM pass over the IR is run: the builder of kernels has folded and numbered all values and the
+// skeleton has moved them out of loops, and with such passes the code would be the same.
 #pragma once
 
 #include "core/result.h"
@@ -30,15 +30,14 @@ struct CodeModule {
 // one. Larger kernels get unoptimised code, whose time grows linearly.
 inline constexpr std::size_t largest_optimised_kernel = 3000;
 
-/// Above this size kernels are refused; it takes up to 1 s to compile.
+/// Larger kernels are refused. At this size, compiling takes up to 1 s.
 inline constexpr std::size_t largest_native_kernel = 20000;
 
-/// A module for code of a machine, with nothing in it yet.
+/// An empty module for a machine's code.
 CodeModule make_module(const llvm::TargetMachine& machine);
 
 /// Adds the kernel as a function `name`. Fails if the kernel is larger than `largest_native_kernel`
-/// or if LLVM's verifier rejects the code (a mistake of ours, but one after which the caller can
-/// still interpret the kernel).
+/// or if LLVM's verifier rejects the code (a bug of ours, but the caller can interpret the kernel).
 Result<void> add_kernel(CodeModule& code, const CellKernel& kernel, const KernelShape& shape,
                         const std::string& name, const llvm::TargetMachine& machine);
 

@@ -1,4 +1,4 @@
-// A kept kernel is its entry, a word, and its bytes.
+// A stored kernel consists of its entry, a word, and its bytes.
 #include "jit/code_cache.h"
 
 #include <cstring>

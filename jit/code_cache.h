@@ -1,6 +1,6 @@
-// Compiled kernels kept on disk, for the next process that asks for them.
+// Compiled kernels stored on disk for later processes.
 //
-// Internal to jit/. Whatever is wrong with a file means that the kernel is not known
+// Internal to jit/. If anything is wrong with a file, the kernel counts as unknown
 // (core/kept_files.h).
 #pragma once
 
@@ -16,17 +16,17 @@ namespace cascade {
 
 class CodeCache {
 public:
-    /// Bytes of files above which the oldest are removed.
+    /// Above this number of bytes, the oldest files are removed.
     static constexpr std::uint64_t usual_limit = std::uint64_t{64} << 20;
 
-    /// An empty folder: nothing is kept or found.
+    /// With an empty folder, stores and finds no kernels.
     explicit CodeCache(std::filesystem::path folder, std::uint64_t limit = usual_limit)
         : files_(std::move(folder), {".kernel", "CascKrn2", limit}) {}
 
-    /// The image kept under this key. Safe to call from several threads, as is `keep`.
+    /// The image stored under this key. Thread-safe, as is `keep`.
     std::optional<CodeImage> find(std::string_view key) const;
 
-    /// Keeps an image, if it can. The folder, and those above it, are made where they are missing.
+    /// Stores an image if possible. Creates missing folders.
     void keep(std::string_view key, const CodeImage& image);
 
 private:

@@ -1,8 +1,8 @@
-// Machine code as bytes that run wherever they lie.
+// Machine code as bytes that run at any address.
 //
-// Internal to jit/. Kernels call nothing and read only constants of their own, so what LLVM writes
+// Internal to jit/. Kernels call no functions and read only constants of their own, so LLVM's code
 // for them can be linked once (jit/link_image.h), into an image whose parts address each other
-// relative to themselves. An image can be kept in a file and run by another process, without a
+// relative to themselves. An image can be stored in a file and run by another process, without a
 // linker and without LLVM.
 #pragma once
 
@@ -22,7 +22,7 @@ using GridFunction = void(const Number* const* fields, const std::uint8_t* const
                           std::int64_t row_end, std::int64_t is_near, std::int64_t left_column,
                           std::int64_t right_column);
 
-/// That of grids of several slices, which fill none.
+/// The function for grids of several slices, which fills no columns.
 template <typename Number>
 using VolumeFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results,
@@ -30,7 +30,7 @@ using VolumeFunction = void(const Number* const* fields, const std::uint8_t* con
                             std::int64_t row_begin, std::int64_t row_end, std::int64_t is_near,
                             std::int64_t slice_rows, std::int64_t slice);
 
-/// That of linked cells; see jit/skeleton_linked.h.
+/// The function for linked cells; see jit/skeleton_linked.h.
 template <typename Number>
 using LinkedFunction = void(const Number* const* fields, const std::uint8_t* const* masks,
                             const Number* uniforms, Number* const* results,
@@ -44,14 +44,14 @@ using LinkedFunction = void(const Number* const* fields, const std::uint8_t* con
 
 /// Code and constants of one function.
 struct CodeImage {
-    std::string bytes;        ///< To lie at a multiple of `alignment`.
-    std::uint64_t entry = 0;  ///< Where in the bytes the function begins.
+    std::string bytes;        ///< Must lie at a multiple of `alignment`.
+    std::uint64_t entry = 0;  ///< The offset of the function in the bytes.
 
-    /// A page: instructions of AArch64 take an address as its page and its place in the page.
+    /// A page: AArch64 instructions split an address into its page and its offset in the page.
     static constexpr std::uint64_t alignment = 4096;
 };
 
-/// A function in memory that may be executed and not written, and is freed with it.
+/// A function in memory that may be executed but not written. Freed with this object.
 class LoadedFunction {
 public:
     static Result<std::unique_ptr<LoadedFunction>> load(const CodeImage& image);
@@ -60,7 +60,7 @@ public:
     LoadedFunction(const LoadedFunction&) = delete;
     LoadedFunction& operator=(const LoadedFunction&) = delete;
 
-    /// As a function of the type that the caller knows it to be.
+    /// The function, cast to the type that the caller knows.
     template <typename Function>
     Function* as() const {
         return reinterpret_cast<Function*>(pages_ + entry_);

@@ -1,4 +1,4 @@
-// In the program and in the module, so that they can be compared.
+// Part of both the program and the module, so that they can be compared.
 #include "jit/code_version.h"
 
 #include "jit/generator.h"

@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-// Operations that some processors have as an instruction and others do not.
+// Operations that only some processors have as an instruction.
 //
 // Internal to jit/.
 
@@ -35,8 +35,8 @@ llvm::Value* scaled_by_instruction(BodyScope& scope, llvm::Value* a, llvm::Value
                                    {a, b, a, all, builder.getInt32(current_rounding)});
 }
 
-/// The operations `round_to_even` and `scale_by_power`: an instruction where the processor has one,
-/// the sequence of ir/word_operations.h elsewhere, with the same bits.
+/// The operations `round_to_even` and `scale_by_power`: an instruction if the processor has one,
+/// otherwise the sequence of ir/word_operations.h, with the same bits.
 llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
     const Body& body = scope.body();
     Builder& builder = scope.builder();
@@ -53,8 +53,8 @@ llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
     return builder.CreateSelect(builder.CreateFCmpOLT(size, all_whole), with_sign, number);
 }
 
-// The number that is added is hidden: LLVM would drop a factor of 1, which flushes, and compute a
-// product of known factors without flushing it.
+// The added number is hidden: LLVM would drop a factor of 1, which flushes, and compute a product
+// of known factors without flushing it.
 llvm::Value* scaled_by_power(BodyScope& scope, ValueId a, ValueId b) {
     const Body& body = scope.body();
     const WordFormat format = body.format;
@@ -100,7 +100,7 @@ private:
     Builder& builder_;
 };
 
-// An operation on constants is evaluated as the interpreter does it.
+// Evaluates an operation on constants as the interpreter does.
 std::optional<Forms> BodyEmitter::evaluated(const Instruction& instruction) {
     std::array<std::uint64_t, 3> words{};
     const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
@@ -252,7 +252,7 @@ Forms BodyEmitter::emit_arithmetic(const Instruction& instruction) {
     return value;
 }
 
-// LLVM drops a factor of ±1, and then what is added, if that is 0.
+// LLVM drops a factor of ±1, and then an added 0.
 Forms BodyEmitter::emit_multiply_add(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     Forms value;
@@ -294,8 +294,8 @@ Forms BodyEmitter::emit_logic(const Instruction& instruction) {
     return value;
 }
 
-// A choice between numbers by their comparison becomes the processor's min or max, which flush
-// denormals: such words are chosen as integers.
+// A choice between numbers by their comparison would become the processor's min or max, which flush
+// denormals. Such words are chosen as integers.
 Forms BodyEmitter::emit_select(const Instruction& instruction) {
     const auto [condition, then, otherwise] = instruction.operands;
     llvm::Value* choice = scope_.truth(condition);
@@ -327,13 +327,13 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
     Forms value;
     if (instruction.op == Op::bits_to_number) {
         value.number = builder_.CreateSIToFP(a, body_.number_type);
-        // A bit that is tested needs no conversion.
+        // A tested bit needs no conversion.
         value.truth = builder_.CreateICmpNE(a, body_.bits(0));
         return value;
     }
     llvm::Value* b = scope_.bits(instruction.operands[1]);
-    // Amounts above 31 (63) do not occur; the mask keeps LLVM from drawing conclusions from that,
-    // and vanishes where the amount is a constant.
+    // Amounts above 31 (63) do not occur. The mask keeps LLVM from drawing conclusions from that,
+    // and vanishes if the amount is a constant.
     const auto amount = [&] {
         return builder_.CreateAnd(b, body_.bits(static_cast<std::uint64_t>(body_.format.bits - 1)));
     };

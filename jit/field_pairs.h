@@ -1,8 +1,8 @@
-// The fields that a kernel reads over links, two by two.
+// Pairs of the fields that a kernel reads over links.
 //
-// Internal to jit/. Before native code computes rows of linked cells, it copies the rows that their
-// links lead to and puts each pair's numbers side by side, so that one access of 64 bits reads the
-// numbers of both fields at a neighbour. Such accesses bound the loop over links.
+// Internal to jit/. Before native code computes rows of linked cells, it copies the rows to which
+// their links lead and puts each pair's numbers side by side, so that one access of 64 bits reads
+// the numbers of both fields at a neighbour. Such accesses bound the loop over links.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -15,7 +15,7 @@ namespace cascade {
 
 using FieldPair = std::array<FieldSlot, 2>;
 
-/// In ascending order of slots; if their number is odd, the last one is in no pair. Only kernels of
+/// In ascending order of slots. If their number is odd, the last one has no pair. Only kernels of
 /// binary32 have pairs.
 inline std::vector<FieldPair> field_pairs(const CellKernel& kernel) {
     if (kernel.precision != Precision::single) return {};

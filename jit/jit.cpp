@@ -1,4 +1,4 @@
-// The backend: compiles, keeps what it compiled, and hands out kernels.
+// The backend: compiles kernels, stores and returns them.
 #include "jit/jit.h"
 
 #include "core/check.h"
@@ -93,7 +93,7 @@ private:
                 copied.begin * layout.stride, copied.end * layout.stride);
         };
         if (pairs_ == 0) return run(rows, nullptr, {0, 0});
-        // Pairs of this many cells and those around them stay in a second-level cache.
+        // Pairs for this many cells and their surroundings stay in a second-level cache.
         constexpr std::int64_t cells_of_part = 16384;
         const std::int64_t height = std::max(cells_of_part / layout.width, links.reach);
         static thread_local AlignedArray<Number> pairs;
@@ -137,8 +137,8 @@ private:
 /// A kernel that was compiled or is being compiled.
 using Compiling = std::shared_future<Result<KernelPointer>>;
 
-/// Beyond this number of kernels all are forgotten, so that a day at the prompt does not fill
-/// memory; those in use live on.
+/// Above this number of kernels all are forgotten, so that a day at the prompt does not fill
+/// memory. Kernels in use live on.
 constexpr std::size_t most_known = 1024;
 
 class JitBackend final : public Backend {
@@ -159,7 +159,7 @@ public:
         Result<KernelPointer> made = failure("not compiled");
         try {
             made = make(kernel, shape, key);
-        } catch (...) {  // Out of memory; threads that wait learn of it, too.
+        } catch (...) {  // Out of memory. Waiting threads learn of it, too.
             forget(key);
             promise.set_exception(std::current_exception());
             throw;
@@ -197,7 +197,7 @@ private:
         return shape;
     }
 
-    /// What is known of a kernel without waiting; null while it is being made.
+    /// A known result for a kernel, without waiting; null while it is being made.
     std::optional<Result<KernelPointer>> find_known(const std::string& key) {
         const std::lock_guard lock(mutex_);
         const auto found = known_.find(key);
@@ -243,7 +243,7 @@ private:
         });
     }
 
-    /// Code that an earlier process made; null if there is none.
+    /// Code from an earlier process; null if there is none.
     std::unique_ptr<LoadedFunction> load_kept(const std::string& file_key) {
         const auto image = cache_.find(file_key);
         if (!image) return nullptr;

@@ -1,4 +1,4 @@
-// What decides the code of a kernel, as bytes: equal bytes, equal code.
+// The facts that determine the code of a kernel, as bytes: equal bytes, equal code.
 //
 // Internal to jit/.
 #pragma once
@@ -9,11 +9,11 @@
 
 namespace cascade {
 
-/// The part of a key that a kernel, without its names, and its shape decide.
+/// The part of a key that depends on a kernel, without its names, and on its shape.
 std::string kernel_key(const CellKernel& kernel, const KernelShape& shape);
 
-/// The part that all else decides: this build, LLVM, the processor, the optimisation level. Empty
-/// if one of them is not known, so that nothing may be kept for later processes.
+/// The part that depends on all else: this build, LLVM, the processor, the optimisation level.
+/// Empty if one of them is unknown, so that no code may be stored for later processes.
 std::string environment_key(int optimise);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// What decides the code of a kernel besides the kernel.
+// The facts besides a kernel that determine its code.
 //
 // Internal to jit/.
 #pragma once
@@ -10,14 +10,14 @@ namespace cascade {
 
 struct KernelShape {
     Stencil stencil = Stencil::plane;
-    int lanes = 16;  ///< Cells per vector: 4, 8 or 16; half as many of kernels of binary64.
+    int lanes = 16;              ///< Cells per vector: 4, 8 or 16; half as many in binary64.
     bool fills_columns = false;  ///< See HaloColumns.
     // What the processor has and is fast at: see tuned() in jit/target_machine.h.
-    bool has_multiply_add = false;  ///< Of one rounding, in one instruction.
+    bool has_multiply_add = false;  ///< With one rounding, in one instruction.
     bool is_short_of_loads = false;
     bool has_fast_gathers = false;
     bool has_rounding = false;  ///< To whole numbers, in one instruction.
-    bool has_scaling = false;   ///< Of vectors of 64 bytes by powers of two, in one instruction.
+    bool has_scaling = false;   ///< Scales vectors of 64 bytes by powers of two in one instruction.
 };
 
 /// The shape with vectors as wide as `lanes` cells of binary32.

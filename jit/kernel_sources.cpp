@@ -1,4 +1,4 @@
-// What sources answer if they are asked at the wrong loop level.
+// Answers of sources that are asked at the wrong loop level.
 #include "jit/kernel_sources.h"
 
 #include "core/check.h"

@@ -1,4 +1,4 @@
-// Loads and gathers of what an entry's links lead to.
+// Loads and gathers values at the targets of an entry's links.
 #include "jit/link_entry.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using llvm::Value;
 
 namespace {
 
-/// What a sum multiplies the differences by.
+/// The factors of the differences in a sum.
 LinkArgument::Number weights_of(Op op) {
     switch (op) {
         case Op::gradient_x: return LinkArgument::gradient_x;
@@ -94,7 +94,7 @@ Value* LinkEntry::address_of_entry(unsigned array, llvm::Type* element) {
     return builder_.CreateInBoundsGEP(element, frame_.extra_argument(array), entry);
 }
 
-/// The number of the element from which the offsets of the entry count.
+/// The number of the element from which the entry's offsets count.
 Value* LinkEntry::base() {
     if (base_) return base_;
     llvm::Type* index = builder_.getInt32Ty();
@@ -125,8 +125,8 @@ Value* LinkEntry::is_link() {
     return is_link_;
 }
 
-// One load of 64 bits holds four offsets, which shifts take apart, since it is loads that bound the
-// loop. On an Intel Xeon this takes as long as a load for each.
+// One load of 64 bits holds four offsets, which shifts separate, since loads bound the loop. On an
+// Intel Xeon this takes as long as a load for each.
 void LinkEntry::load_offsets() {
     llvm::Type* half = builder_.getInt16Ty();
     llvm::Type* word = builder_.getInt64Ty();
@@ -167,8 +167,8 @@ Value* LinkEntry::at_targets(FieldSlot slot) {
     return fields_[slot];
 }
 
-// In each 16 bytes of `low` are two cells and in those of `high` the next two, because shuffles
-// within 16 bytes are fast. Gathers leave cells in order, since AVX-512 shuffles anything at once.
+// Each 16 bytes of `low` hold two cells and those of `high` the next two, because shuffles within
+// 16 bytes are fast. Gathers leave cells in order, since AVX-512 shuffles any lanes at once.
 void LinkEntry::fetch_pair(std::size_t pair) {
     llvm::Type* both = PairedFields::both(builder_);
     Value* from = paired_.address(builder_, pair, base());
@@ -212,7 +212,7 @@ Value* LinkEntry::gathered(llvm::Type* element, Value* from) {
         alignment(static_cast<int>(element->getScalarSizeInBits() / 8))));
 }
 
-/// What lies at the targets of some lanes, as one vector.
+/// The values at the targets of some lanes, as one vector.
 Value* LinkEntry::loaded(llvm::Type* element, Value* from, llvm::ArrayRef<int> lanes) {
     Value* value = llvm::PoisonValue::get(
         llvm::FixedVectorType::get(element, static_cast<unsigned>(lanes.size())));
@@ -226,8 +226,8 @@ Value* LinkEntry::loaded(llvm::Type* element, Value* from, llvm::ArrayRef<int> l
     return value;
 }
 
-// Most of what a step reads are links: with prefetches a million cells take 0.91 to 0.96 of the
-// time, cells that fit into the cache the same. The addresses may lie beyond the arrays.
+// Most of a step's reads are links. With prefetches a million cells take 0.91 to 0.96 of the time,
+// cells that fit into the cache the same. The addresses may lie beyond the arrays.
 void LinkEntry::prefetch_ahead() {
     constexpr int entries = 32;
     const auto prefetch = [&](unsigned array, llvm::Type* element) {

@@ -1,8 +1,7 @@
-// What one entry of a slice of links holds for a vector of cells, and the copies of fields that it
-// reads.
+// One entry of a slice of links for a vector of cells, and the copies of fields that it reads.
 //
-// Internal to jit/. Offsets and weights are loaded once, and what a field holds at the targets is
-// read once, however many values ask for it.
+// Internal to jit/. Offsets and weights are loaded once, and a field's values at the targets are
+// read once, for any number of uses.
 #pragma once
 
 #include "core/links.h"
@@ -17,13 +16,13 @@
 
 namespace cascade {
 
-/// A sum of a kernel, by what tells it from others.
+/// Identifies a sum of a kernel.
 using SumKey = std::pair<Op, std::uint64_t>;
 inline SumKey key_of(const Instruction& instruction) {
     return {instruction.op, instruction.payload};
 }
 
-/// Where the arrays of a LinkTable stand among the extra arguments, and what pairs need.
+/// The positions of a LinkTable's arrays among the extra arguments, and what pairs need.
 struct LinkArgument {
     enum Number : unsigned {
         starts,
@@ -46,10 +45,10 @@ inline constexpr auto links_of_entry = static_cast<std::uint64_t>(LinkTable<floa
 /// Copies of fields whose numbers are side by side.
 class PairedFields {
 public:
-    /// Writes the loop that makes the copies, and goes on after it.
+    /// Writes the loop that makes the copies, and continues after it.
     PairedFields(KernelFrame& frame, Builder& builder);
 
-    /// The pair that has this field.
+    /// The pair with this field, if any.
     std::optional<std::size_t> with(FieldSlot slot) const;
     const FieldPair& slots(std::size_t pair) const { return pairs_[pair]; }
     bool empty() const { return pairs_.empty(); }
@@ -67,7 +66,7 @@ private:
     std::vector<llvm::Value*> copies_;  ///< By pair.
 };
 
-/// What one entry of a slice holds for a vector of cells.
+/// The content of one entry of a slice for a vector of cells.
 class LinkEntry final : public Sources {
 public:
     /// `link` is the number of the vector's first link. Own values of `cells` are loaded where
@@ -84,12 +83,12 @@ public:
         std::iota(lanes_.begin(), lanes_.end(), 0);
     }
 
-    /// What it adds to a sum.
+    /// The entry's term in a sum.
     llvm::Value* term(SumKey sum);
     llvm::Value* theirs(FieldSlot slot) override { return at_targets(slot); }
-    /// <N x i1>: in which lanes there is a link, and no padding.
+    /// <N x i1>: whether a lane has a link instead of padding.
     llvm::Value* is_link();
-    /// Asks for offsets and weights of later entries.
+    /// Prefetches offsets and weights of later entries.
     void prefetch_ahead();
 
 private:
@@ -101,7 +100,7 @@ private:
     llvm::Value* loaded(llvm::Type* element, llvm::Value* base, llvm::ArrayRef<int> lanes);
     void load_offsets();
     llvm::Value* base();
-    /// The address of what an array has for each entry.
+    /// The address of an array's element for each entry.
     llvm::Value* address_of_entry(unsigned array, llvm::Type* element);
     llvm::Value* numbers(unsigned array);
     template <typename Load>
@@ -119,12 +118,11 @@ private:
     CellSources& cells_;
     const PairedFields& paired_;
     std::vector<int> lanes_;                    ///< In order.
-    bool gathers_;                              ///< Vectors, by one instruction or two.
+    bool gathers_;                              ///< Uses vectors, by one instruction or two.
     std::map<unsigned, llvm::Value*> numbers_;  ///< By array.
     std::map<FieldSlot, llvm::Value*> fields_, differences_;  ///< By slot.
     llvm::Value *base_ = nullptr, *is_link_ = nullptr;
-    std::vector<llvm::Value*>
-        offsets_;  ///< By lane, or one vector of all lanes if they are gathered.
+    std::vector<llvm::Value*> offsets_;  ///< By lane, or one vector of all lanes if gathered.
 };
 
 }  // namespace cascade

@@ -1,5 +1,4 @@
-// A client of JITLink, which asks it for memory, for symbols of other objects, and for what to
-// keep.
+// A client of JITLink, which asks it for memory, symbols of other objects, and symbols to link.
 #include "jit/link_image.h"
 
 #include <fmt/format.h>
@@ -22,17 +21,17 @@ Failure as_failure(llvm::Error error) {
     return {"native code could not be linked: " + llvm::toString(std::move(error)), ""};
 }
 
-/// Links one object, as if its image lay at the address `base`.
+/// Links one object for an image at the address `base`.
 class ImageLink final : public jitlink::JITLinkContext, public jitlink::JITLinkMemoryManager {
 public:
-    /// `result` is set at the end of the link, which deletes this object.
+    /// The end of the link sets `result` and deletes this object.
     ImageLink(llvm::StringRef name, std::uint64_t base, Result<CodeImage>& result)
         : JITLinkContext(nullptr), name_(name), base_(base), result_(result) {}
 
     jitlink::JITLinkMemoryManager& getMemoryManager() override { return *this; }
 
     /// A target's own passes make tables: of absolute addresses, which no image may have, and for
-    /// unwinding the stack, which does not happen, since kernels throw nothing.
+    /// unwinding the stack, which is needless, since kernels never throw.
     bool shouldAddDefaultTargetPasses(const llvm::Triple&) const override { return false; }
 
     llvm::Error modifyPassConfig(jitlink::LinkGraph&, jitlink::PassConfiguration& passes) override {
@@ -41,7 +40,7 @@ public:
         return llvm::Error::success();
     }
 
-    /// Puts all segments into the image, one after the other, and no two into one cache line.
+    /// Puts all segments into the image, one after the other, and never two into one cache line.
     void allocate(const jitlink::JITLinkDylib*, jitlink::LinkGraph& graph,
                   OnAllocatedFunction done) override {
         jitlink::BasicLayout layout(graph);
@@ -86,7 +85,7 @@ private:
         void finalize(OnFinalizedFunction done) override { done(FinalizedAlloc()); }
     };
 
-    /// What the function does not refer to, directly or indirectly, will not be linked.
+    /// Marks the function. Code that it does not use, directly or indirectly, will not be linked.
     llvm::Error find_function(jitlink::LinkGraph& graph) {
         for (jitlink::Symbol* symbol : graph.defined_symbols()) {
             if (symbol->hasName() && symbol->getName() == name_) function_ = symbol;
@@ -114,7 +113,7 @@ Result<CodeImage> link_at(std::uint64_t base, std::string_view object, std::stri
 }  // namespace
 
 Result<CodeImage> link_image(std::string_view object, std::string_view name) {
-    // Two addresses that differ in each of the 16 bits that an instruction may take of one.
+    // Two addresses that differ in each of the 16 bits that an instruction may take from one.
     constexpr std::uint64_t base = 0, other_base = 0x7a5b'3c5d'8e6f'9000;
     auto image = link_at(base, object, name);
     if (!image) return image;

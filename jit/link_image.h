@@ -1,4 +1,4 @@
-// From an object file to an image, by JITLink, the linker of LLVM's ORC.
+// Turns an object file into an image, by JITLink, the linker of LLVM's ORC.
 //
 // Internal to jit/.
 #pragma once
@@ -10,10 +10,10 @@
 
 namespace cascade {
 
-/// Links an object file, of x86-64 or AArch64, to an image of its function `name` and of what that
-/// refers to. Fails where the object has no such function, refers to what is not in it, or would
-/// need other bytes at another address. The object must be one that LLVM wrote in this process:
-/// JITLink trusts it.
+/// Links an object file, for x86-64 or AArch64, to an image of its function `name` and the code it
+/// uses. Fails if the object lacks the function, refers to symbols outside, or would need other
+/// bytes at another address. LLVM must have written the object in this process, because JITLink
+/// trusts it.
 Result<CodeImage> link_image(std::string_view object, std::string_view name);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The module's one symbol, and the target machines that make code.
+// The module's only symbol, and the target machines that make code.
 #include "jit/llvm_module.h"
 
 #include "jit/code.h"
@@ -16,11 +16,11 @@ namespace cascade {
 namespace llvm_module {
 namespace {
 
-/// Target machines that are not in use. One serves one thread at a time, and making one takes a
-/// good part of the time that a kernel takes.
+/// Idle target machines. One serves one thread at a time, and making one takes a good part of the
+/// time for compiling a kernel.
 class IdleMachines {
 public:
-    /// Null if there is none of this optimisation level.
+    /// Null if none has this optimisation level.
     std::unique_ptr<llvm::TargetMachine> take(int optimise) {
         const std::lock_guard lock(mutex_);
         const auto found = std::find_if(machines_.begin(), machines_.end(),

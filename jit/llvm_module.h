@@ -1,6 +1,6 @@
-// What the code generator's module does, by LLVM.
+// The functions of the code generator's module, implemented with LLVM.
 //
-// Internal to jit/: the functions behind the table of jit/generator.h, which says what they do.
+// Internal to jit/. jit/generator.h documents them.
 #pragma once
 
 #include "jit/generator.h"

@@ -1,4 +1,4 @@
-// This room in a build without LLVM.
+// The public functions of jit/ in a build without LLVM.
 #include "jit/jit.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// Asks the processor what it is and can do.
+// Asks the processor for its identity and features.
 #include "jit/processor.h"
 
 #include <fmt/format.h>
@@ -15,14 +15,14 @@ namespace cascade {
 #if defined(__x86_64__)
 
 int host_lanes() {
-    // As LLVM does, these look whether the system keeps the registers, too.
+    // As LLVM does, these also check whether the system saves the registers.
     if (__builtin_cpu_supports("avx512f")) return 16;
     return __builtin_cpu_supports("avx") ? 8 : 4;
 }
 
 namespace {
 
-/// What the system keeps of vector registers when it changes between threads; 0 if it says nothing.
+/// The vector registers that the system saves when it switches threads; 0 if unknown.
 std::uint64_t kept_registers() {
     unsigned a = 0, b = 0, c = 0, d = 0;
     constexpr unsigned os_keeps_registers = 1u << 27;
@@ -47,8 +47,8 @@ std::string host_identity() {
     for (const auto& [leaf, part] : leaves) {
         unsigned a = 0, b = 0, c = 0, d = 0;
         __get_cpuid_count(leaf, part, &a, &b, &c, &d);
-        if (leaf == 1) b = 0;                   // Says which core asks.
-        if (leaf == 13) b = 0;                  // Says what is switched on just now.
+        if (leaf == 1) b = 0;                   // Tells which core asks.
+        if (leaf == 13) b = 0;                  // Tells the current state.
         if (leaf == 0x80000008) a = c = d = 0;  // Widths of addresses, number of cores.
         for (const unsigned word : {a, b, c, d}) add(word);
     }
@@ -71,7 +71,7 @@ std::string host_identity() {
 #endif
 
 std::string kinds_of_cores(const std::string& cpuinfo) {
-    std::set<std::string> kinds;  // There are few, of however many cores.
+    std::set<std::string> kinds;  // There are few, for any number of cores.
     std::istringstream lines(cpuinfo);
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("CPU ") || line.starts_with("Features")) kinds.insert(line);

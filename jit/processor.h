@@ -1,6 +1,6 @@
-// The processor of this machine, as far as it decides what code is made for it.
+// The facts about this machine's processor that affect code made for it.
 //
-// Internal to jit/. All that can be told without LLVM, which takes longer to load than a small run.
+// Internal to jit/. They are found without LLVM, which takes longer to load than a small run.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace cascade {
 int host_lanes();
 
 /// Bytes that differ between processors for which LLVM may write different code: maker, family,
-/// model and features. Empty where they are not known.
+/// model and features. Empty if unknown.
 std::string host_identity();
 
-/// The same of an ARM processor, from the text of Linux's /proc/cpuinfo, by which LLVM knows it:
+/// The same for an ARM processor, from the text of Linux's /proc/cpuinfo, by which LLVM knows it:
 /// maker, part, variant, revision and features of each kind of core.
 std::string kinds_of_cores(const std::string& cpuinfo);
 

@@ -1,6 +1,6 @@
-// What the functions of all kernels have in common: their arguments, the loops over rows and over
-// the vectors of a row, loads from the cells themselves, and stores. What a cell reads of other
-// cells is in skeleton_grid.cpp and skeleton_linked.cpp.
+// The common parts of all kernels' functions: their arguments, the loops over rows and over the
+// vectors of a row, loads from the cells themselves, and stores. Reads of other cells are in
+// skeleton_grid.cpp and skeleton_linked.cpp.
 //
 // Internal to jit/*.cpp. The first arguments of all functions (double for float in kernels of
 // binary64):
@@ -11,7 +11,7 @@
 //
 // Pointers are to cell (0, 0, 0) of planes in the layout of PlaneLayout. Rows are rows of memory.
 // Columns [column_begin, column_end) of rows [row_begin, row_end) are computed in vectors of
-// `lanes` cells. `column_begin` is a multiple of PlaneLayout::row_pad; the last vector of a row may
+// `lanes` cells. `column_begin` is a multiple of PlaneLayout::row_pad. The last vector of a row may
 // run beyond `column_end`, at most to the next multiple.
 #pragma once
 
@@ -35,7 +35,7 @@ inline llvm::Align alignment(int bytes) { return llvm::Align(static_cast<std::ui
 
 constexpr int cache_line = 64;  ///< Bytes.
 
-/// What all rows and vectors share: the arguments and the addresses of planes.
+/// The data shared by all rows and vectors: the arguments and the addresses of planes.
 class KernelFrame {
 public:
     /// `builder` writes to the block before the loops.
@@ -65,11 +65,11 @@ public:
     llvm::Value* stride() { return function_.getArg(6); }
     llvm::Value* row_begin() { return function_.getArg(7); }
     llvm::Value* row_end() { return function_.getArg(8); }
-    /// An argument after those that all functions have, counted from 0.
+    /// An argument after the common ones, counted from 0.
     llvm::Value* extra_argument(unsigned number) {
         return function_.getArg(shared_arguments + number);
     }
-    // Of grids (skeleton_grid.h).
+    // Arguments for grids (skeleton_grid.h).
     llvm::Value* is_near() { return extra_argument(0); }
     bool has_slices() const { return stencil().z; }
     llvm::Value* slice_rows() { return extra_argument(1); }
@@ -89,7 +89,7 @@ public:
         return builder.CreateVectorSplat(static_cast<unsigned>(lanes()), element);
     }
 
-    /// Tells LLVM that no result is written to the field that is read, where that is so.
+    /// Tells LLVM that no result overlaps the field, if it is read at neighbours.
     template <typename Load>
     Load* mark(Load* load, FieldSlot slot) const {
         return kernel().reads_neighbours(slot) ? aliases_.mark(load, 0) : load;
@@ -99,7 +99,7 @@ public:
     /// A constant that is loaded from a variable of the module, so that LLVM cannot fold it.
     llvm::Value* hidden(std::uint64_t word);
 
-    /// Asks for a cache line that will be read. Any address will do: a prefetch never faults.
+    /// Prefetches a cache line. Any address will do, because a prefetch never faults.
     void prefetch(Builder& builder, llvm::Value* address) const;
 
     llvm::BasicBlock* new_block(const char* name) {
@@ -123,18 +123,18 @@ private:
 };
 
 /// The vector of cells that one execution of the innermost loop computes. All planes share one
-/// layout, so an element number serves them all: an access is a plane's address plus this number,
-/// which is an addressing mode of the processor.
+/// layout, so an element number serves all of them: an access is a plane's address plus this
+/// number, an addressing mode of the processor.
 struct CellVector {
     llvm::Value* row = nullptr;         ///< Its number.
     llvm::Value* row_start = nullptr;   ///< Element number of the row's first cell,
-    llvm::Value* first = nullptr;       ///< and of the first one that is computed.
+    llvm::Value* first = nullptr;       ///< and of the first computed cell.
     llvm::Value* element = nullptr;     ///< Element number of the vector's first cell.
-    CarriedVectors* carried = nullptr;  ///< From this vector to the next.
-    BodyScope* row_scope = nullptr;     ///< What the cells of the row have in common.
+    CarriedVectors* carried = nullptr;  ///< Values from this vector to the next.
+    BodyScope* row_scope = nullptr;     ///< Values common to the row's cells.
 };
 
-/// What the cells of a vector read of themselves, and their results.
+/// The values that the cells of a vector read of themselves, and their results.
 class CellSources : public Sources {
 public:
     CellSources(KernelFrame& frame, Builder& builder, const CellVector& vector)
@@ -156,7 +156,7 @@ protected:
     KernelFrame& frame_;
     Builder& builder_;
     CellVector vector_;
-    llvm::Value* element_;  ///< The vector's, made opaque.
+    llvm::Value* element_;  ///< The vector's first element, made opaque.
 
 private:
     std::map<FieldSlot, llvm::Value*> loads_;
@@ -165,25 +165,25 @@ private:
 /// Builds the loops around the body of a kernel.
 class KernelLoops {
 public:
-    /// Writes what is computed for a vector of each of the rows that are computed together.
-    /// `builder` is left in a block without a terminator.
+    /// Writes the computations for a vector of each of the rows that are computed together. Leaves
+    /// `builder` in a block without a terminator.
     using WriteVectors =
         llvm::function_ref<void(llvm::ArrayRef<CellVector> vectors, Builder& builder)>;
-    /// Writes what is done after the last vector of a row. `builder` as above.
+    /// Writes the code after the last vector of a row. `builder` as above.
     using WriteRowEnd = llvm::function_ref<void(llvm::Value* row_start, Builder& builder)>;
 
     explicit KernelLoops(KernelFrame& frame);
 
-    /// A loop over the rows from `first` on, `together` of them at a time while there are as many
-    /// left. It begins where `builder` writes, which goes on after it. Returns the row after the
-    /// last one computed.
+    /// A loop over the rows from `first` on, `together` of them at a time while enough are left. It
+    /// begins where `builder` writes, which continues after it. Returns the row after the last
+    /// computed one.
     llvm::Value* rows(Builder& builder, llvm::Value* first, int together,
                       WriteVectors write_vectors, WriteRowEnd write_row_end = nullptr);
-    /// All values of a vector of cells, and the stores of its results.
+    /// Writes all values of a vector of cells, and the stores of its results.
     void body(CellSources& cells, Builder& builder, const CellVector& vector);
 
 private:
-    /// What all cells of a call, or of a row, have in common.
+    /// The values common to all cells of a call, or of a row.
     class OuterSources final : public Sources {
     public:
         OuterSources(KernelFrame& frame, Builder& builder, llvm::Value* row)
@@ -213,9 +213,9 @@ private:
     BodyScope scope_;
 };
 
-/// Adds a function to `module`, whose data layout is already that of the target. It has the
-/// arguments that all functions have, those of the types `extra`, and what `write_loops` writes,
-/// which ends with a return.
+/// Adds a function to `module`, whose data layout is already the target's. It has the common
+/// arguments, arguments of the types `extra`, and the code that `write_loops` writes, which ends
+/// with a return.
 llvm::Function* build_function(
     llvm::Module& module, const KernelPart& part, const KernelShape& shape, const std::string& name,
     llvm::ArrayRef<llvm::Type*> extra,

@@ -19,15 +19,16 @@ namespace {
 using llvm::Value;
 
 // While a row of at least this width is computed, the next one is prefetched. On narrower rows the
-// processor looks far enough ahead by itself, and prefetching costs 5 to 10 %. Vectors of half a
-// cache line prefetch each line twice, which pays only for planes that do not fit into the caches.
+// processor prefetches far enough ahead by itself, and explicit prefetches cost 5 to 10 %. Vectors
+// of half a cache line prefetch each line twice, which pays only for planes that do not fit into
+// the caches.
 std::int64_t least_width_to_prefetch(int vector_bytes) {
     return vector_bytes == cache_line ? 128 : 1024;
 }
 
 // Kernels up to this size get a second loop without prefetching, for narrow planes and for fields
-// in a near cache. In larger kernels prefetches cost nothing that could be measured, while
-// compiling the loop twice would take time.
+// in a near cache. In larger kernels prefetches had no measurable cost, while compiling the loop
+// twice would take time.
 constexpr std::size_t largest_twofold_kernel = 64;
 
 /// Numbers of elements from a row to other rows, computed once.
@@ -35,7 +36,7 @@ class RowOffsets {
 public:
     explicit RowOffsets(KernelFrame& frame) : frame_(frame) {}
 
-    /// To the row that is `rows` rows and `slices` slices away.
+    /// The distance to the row that is `rows` rows and `slices` slices away.
     Value* to(int rows, int slices) {
         Value*& offset = offsets_[{rows, slices}];
         if (!offset) {
@@ -50,8 +51,8 @@ public:
         return offset;
     }
 
-    /// To the row that is `rows` rows below, if the fields are not in a near cache; else 0, since
-    /// what is fetched would drive out what is read sooner.
+    /// The distance to the row `rows` rows below, if the fields are not in a near cache. Otherwise
+    /// 0, because prefetches would evict values that are read sooner.
     Value* ahead(int rows) {
         Value*& offset = ahead_[rows];
         if (!offset) {
@@ -68,10 +69,10 @@ private:
     std::map<int, Value*> ahead_;
 };
 
-/// What a vector of cells reads: a field, and the numbers of rows, columns and slices to it.
+/// A read of a vector of cells: a field, and the numbers of rows, columns and slices to it.
 using Reading = std::tuple<FieldSlot, int, int, int>;
 
-/// All that a kernel reads, each once.
+/// All reads of a kernel, each once.
 std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
     std::set<Reading> readings;
     for (const Instruction& instruction : kernel.code) {
@@ -94,16 +95,16 @@ std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
     return readings;
 }
 
-// Kernels with more operations than this for each vector that they read have time for their loads:
-// with 4.4 (chemotaxis) shifting cost 3 %, with 3 and fewer it saves 2 to 8 %.
+// Kernels with more operations per vector read than this have time for their loads: with 4.4
+// (chemotaxis) shifting cost 3 %, with at most 3 it saves 2 to 8 %.
 constexpr std::size_t most_operations_a_load = 4;
 
 // Each takes one register of the loop.
 constexpr std::size_t most_shifted_fields = 8;
 
 /// The fields whose eastern neighbours are shifted together from this vector and the next one,
-/// which stays in a register until the loop comes there. The western neighbours are loaded:
-/// shifting them, too, would take two more operations of the units that compute.
+/// which stays in a register until the loop comes there. The western neighbours are loaded, because
+/// shifting them, too, would take two more operations of the arithmetic units.
 std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
     std::set<FieldSlot> fields;
     if (!frame.shape().is_short_of_loads || frame.vector_bytes() != cache_line) return fields;
@@ -123,10 +124,10 @@ std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
     return fields;
 }
 
-/// What a loop over rows fetches for the next one.
+/// What a loop over rows prefetches for the next one.
 enum class Fetching { nothing, ahead, unless_near };
 
-/// What the vectors of rows that are computed together have read, by row from the first of them:
+/// Reads shared by the vectors of rows that are computed together, by row from the first of them:
 /// the row below one is the next one itself.
 struct CommonReadings {
     std::map<std::pair<int, int>, Value*> elements;  ///< By row and slice.
@@ -134,10 +135,10 @@ struct CommonReadings {
     std::map<int, Value*> fetched;  ///< By row, unless near.
 };
 
-/// What cells of a grid read.
+/// The values that cells of a grid read.
 class GridSources final : public CellSources {
 public:
-    /// `row`: the number of the vector's among the rows that are computed together, in order.
+    /// `row` is the index of the vector's row among the rows that are computed together, in order.
     GridSources(KernelFrame& frame, Builder& builder, const CellVector& vector, RowOffsets& offsets,
                 const std::set<FieldSlot>& shifted, CommonReadings& common, int row)
         : CellSources(frame, builder, vector),
@@ -172,7 +173,7 @@ private:
 
     RowOffsets& offsets_;
     const std::set<FieldSlot>& shifted_;
-    std::map<FieldSlot, Value*> carried_;  ///< Of shifted fields: what the cells hold.
+    std::map<FieldSlot, Value*> carried_;  ///< Of shifted fields: the cells' values.
     CommonReadings& common_;
     int row_;
 };
@@ -219,7 +220,7 @@ Value* GridSources::east(FieldSlot slot) {
     return builder_.CreateShuffleVector(own, vector_.carried->given(slot), lanes);
 }
 
-// The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
+// The specification gives the order of the sums: ((((N + S) + E) + W) + U) + D.
 Value* GridSources::laplacian(FieldSlot slot) {
     const Stencil stencil = frame_.stencil();
     Value* sum = nullptr;
@@ -239,8 +240,8 @@ Value* GridSources::laplacian(FieldSlot slot) {
     return without_own(sum, field(slot));
 }
 
-// The sum minus 2, 4 or 6 times the cell's own value. 2 and 4 times a number are exact but for
-// overflow, so one rounding gives the same as two; the specification asks for one, also where the
+// The sum minus 2, 4 or 6 times the cell's own value. 2 and 4 times a number are exact unless they
+// overflow, so one rounding gives the same as two. The specification asks for one, also if the
 // multiple overflows, so that all processors agree. 6 times a number is rounded.
 Value* GridSources::without_own(Value* sum, Value* own) {
     llvm::Type* type = own->getType();
@@ -281,7 +282,7 @@ void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
 }
 
 /// Fills the halo columns of a row whose cells are written, if the caller asks for it. The cells
-/// are in the cache or on the way there, and the copies take place while later rows are computed.
+/// are in the cache or on the way there, and the copies overlap with the computation of later rows.
 void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
     llvm::BasicBlock* fill = frame.new_block("fill_columns");
     llvm::BasicBlock* filled = frame.new_block("columns_filled");
@@ -305,8 +306,8 @@ void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
     builder.SetInsertPoint(filled);
 }
 
-/// Two rows at a time take fewer loads, since the rows beside one are the other and its neighbours.
-/// Vectors of a whole cache line have units for all of their loads and gain less.
+/// Two rows at a time take fewer loads, since each row's neighbours include the other row. Vectors
+/// of a whole cache line have units for all of their loads and gain less.
 bool takes_two_rows(const KernelFrame& frame) {
     if (frame.vector_bytes() != cache_line / 2) return false;
     if (frame.kernel().code.size() > largest_twofold_kernel) return false;
@@ -315,8 +316,8 @@ bool takes_two_rows(const KernelFrame& frame) {
                        [](const Reading& each) { return std::get<1>(each) != 0; });
 }
 
-/// All rows, with or without prefetches of what the next row will be the first to read: its own
-/// cells, or, of fields that are read at neighbours, those below it.
+/// All rows, with or without prefetches of the cells that the next row will be the first to read:
+/// its own cells, or, in fields that are read at neighbours, the cells below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
                 const std::set<FieldSlot>& shifted, Fetching fetching, Builder& builder) {
     std::map<FieldSlot, int> rows_ahead;

@@ -1,7 +1,7 @@
 // The loops over links.
 //
-// For each vector of cells one loop over the entries of its slice computes all sums of the kernel
-// together, and one more each group of reductions that wait for each other.
+// For each vector of cells, one loop over the entries of its slice computes all sums of the kernel
+// together. Each group of reductions that wait for each other has one more loop.
 #include "jit/skeleton_linked.h"
 
 #include "jit/link_entry.h"
@@ -15,12 +15,12 @@ namespace {
 
 using llvm::Value;
 
-/// Calls `write(entry, inner, totals)` for the entries of a loop: it writes with `inner` and
+/// Calls `write(entry, inner, totals)` for the entries of a loop. It writes with `inner` and
 /// returns the totals after an entry.
 using WriteEntry = llvm::function_ref<std::vector<Value*>(LinkEntry& entry, Builder& inner,
                                                           llvm::ArrayRef<Value*> totals)>;
 
-/// What linked cells read.
+/// The values that linked cells read.
 class LinkedSources final : public CellSources {
 public:
     LinkedSources(KernelFrame& frame, Builder& builder, const CellVector& vector,
@@ -67,7 +67,7 @@ Value* LinkedSources::start_of(Value* slice) {
 void LinkedSources::find_links() {
     if (first_) return;
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
-    // The stride is that of whole slices and of padding as wide as one on each side.
+    // The stride is the width of whole slices plus one slice of padding on each side.
     Value* slices =
         builder_.CreateSub(builder_.CreateUDiv(frame_.stride(), count(links_of_entry)), count(2));
     Value* column = builder_.CreateSub(element_, vector_.row_start);
@@ -78,9 +78,9 @@ void LinkedSources::find_links() {
     end_ = start_of(builder_.CreateAdd(slice, count(1)));
 }
 
-// A slice may have no entries. What the entries need of the cells is written to the block before
-// the loop until the loop is written, so that block gets its terminator last. Until then loads
-// stand for the phi nodes: from those that are not finished LLVM's folder draws wrong conclusions.
+// A slice may have no entries. Values of the cells that the entries need are written to the block
+// before the loop until the loop is written, so that block gets its terminator last. Until then
+// loads replace the phi nodes, because LLVM's folder draws wrong conclusions from unfinished ones.
 std::vector<Value*> LinkedSources::over_entries(llvm::ArrayRef<llvm::Constant*> first,
                                                 WriteEntry write) {
     find_links();
@@ -111,7 +111,7 @@ std::vector<Value*> LinkedSources::over_entries(llvm::ArrayRef<llvm::Constant*> 
         llvm::PHINode* node = phi(at_first, later);
         load->replaceAllUsesWith(node);
         llvm::cast<llvm::Instruction>(load)->eraseFromParent();
-        return node->getIncomingValue(1);  // Which may have been the load.
+        return node->getIncomingValue(1);  // This may have been the load.
     };
     replace(link, first_, next_link);
     std::vector<Value*> results;
@@ -137,7 +137,8 @@ void LinkedSources::add_up() {
     for (auto& [key, value] : sums_) value = totals[k++];
 }
 
-// By integers, since LLVM takes no sum that begins with 0 for -0. Flushed ones may be.
+// Turns −0 into 0 as an integer. LLVM assumes that sums beginning with 0 are never −0, but flushed
+// sums may be.
 Value* LinkedSources::without_minus(Value* sum) {
     llvm::Type* words = frame_.vector_of(frame_.word());
     Value* const bits = builder_.CreateBitCast(sum, words);
@@ -165,7 +166,7 @@ void LinkedSources::reduce_links(BodyScope& cells, const LinkLoop& loop) {
         for (const ValueId id : loop.reductions) {
             const auto [op, operands, payload] = instruction(id);
             Value* const before = totals[next.size()];
-            // What a reduction begins with changes nothing where there is no link.
+            // In lanes without a link, the initial value changes no total.
             Value* const a = inner.CreateSelect(entry.is_link(), links.flushed_number(operands[0]),
                                                 first[next.size()]);
             if (op == Op::link_sum) {

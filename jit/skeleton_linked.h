@@ -1,6 +1,6 @@
 // The loops over the rows and vectors of linked cells around a kernel's body.
 //
-// Internal to jit/. The arguments of the function are those of jit/skeleton.h and those of a
+// Internal to jit/. The function has the arguments of jit/skeleton.h and the members of a
 // LinkTable:
 //
 //     const uint32_t *starts, const int32_t *bases, const int16_t *offsets,
@@ -8,10 +8,10 @@
 //     const float *gradient_z, const uint16_t *filled,
 //     float *pairs, int64_t first_of_pairs, int64_t end_of_pairs
 //
-// of which those that the kernel does not need are not read. `pairs` is scratch, aligned to 64
-// bytes, for the elements first_of_pairs … end_of_pairs − 1 of all pairs of fields
-// (jit/field_pairs.h), two numbers each; they include all that the rows' links lead to, and begin
-// and end at multiples of PlaneLayout::row_pad.
+// Arguments that the kernel does not need are not read. `pairs` is scratch, aligned to 64 bytes,
+// for the elements first_of_pairs … end_of_pairs − 1 of all pairs of fields (jit/field_pairs.h),
+// two numbers each. They include all targets of the rows' links, and begin and end at multiples of
+// PlaneLayout::row_pad.
 #pragma once
 
 #include "ir/kernel_parts.h"
@@ -23,7 +23,7 @@
 
 namespace cascade {
 
-/// Adds the function to `module`, whose data layout is already that of the target.
+/// Adds the function to `module`, whose data layout is already the target's.
 llvm::Function* build_linked_function(llvm::Module& module, const KernelPart& part,
                                       const KernelShape& shape, const std::string& name);
 

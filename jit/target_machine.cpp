@@ -1,4 +1,4 @@
-// Looks up targets, and names what they can do.
+// Looks up targets and their features.
 #include "jit/target_machine.h"
 
 #include "jit/llvm_module.h"
@@ -17,7 +17,7 @@
 namespace cascade {
 namespace {
 
-/// Registers the native code generator; LLVM keeps the registry. True if it has one.
+/// Registers the native code generator in LLVM's registry. Returns whether it has one.
 bool initialise_target() {
     static const bool done =
         !llvm::InitializeNativeTarget() && !llvm::InitializeNativeTargetAsmPrinter();
@@ -127,7 +127,7 @@ KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine) {
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes) {
     function.addFnAttr("target-cpu", machine.getTargetCPU());
     function.addFnAttr("target-features", machine.getTargetFeatureString());
-    // Processors that prefer narrower vectors than they have split ours without this.
+    // Processors that prefer vectors narrower than their widest would split ours without this.
     const std::string bits = std::to_string(8 * vector_bytes);
     function.addFnAttr("prefer-vector-width", bits);
     function.addFnAttr("min-legal-vector-width", bits);

@@ -1,4 +1,4 @@
-// The processor that code is made for.
+// The processor for which code is made.
 //
 // Internal to jit/.
 #pragma once
@@ -22,8 +22,8 @@ struct TargetChoice {
 };
 
 /// The target machine for a CPU of the host's architecture, by LLVM's name; "" is the host with all
-/// its features. The number of lanes is the one that `options` asks for, or that of the CPU's
-/// widest vectors. Options are in range; fails on a CPU that LLVM does not know.
+/// its features. The number of lanes is as `options` asks, or by the CPU's widest vectors. Options
+/// are in range. Fails on a CPU that LLVM does not know.
 Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options);
 
 /// Floats in the widest vector that this CPU computes with: 4, 8 or 16.
@@ -32,22 +32,22 @@ int widest_lanes(const llvm::TargetMachine& machine);
 /// Whether a * b + c with one rounding is an instruction.
 bool has_multiply_add(const llvm::TargetMachine& machine);
 
-/// Whether shifting two vectors together costs less than a load across two cache lines.
-/// Zen 4 loads 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
+/// Whether shifting two vectors together costs less than a load across two cache lines. Zen 4 loads
+/// 64 bytes a cycle and 32 a cycle across lines, while it shifts and computes 64.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
 /// Whether gathering a vector takes less time than a load for each of its numbers: on Intel's
-/// processors since 2021. AMD's take about as long, and older ones of Intel are slowed down by the
-/// mitigation of "gather data sampling"; neither has the instruction that this looks for.
+/// processors since 2021. On AMD's it takes about as long, and older Intel processors are slowed
+/// down by the mitigation of "gather data sampling". Neither has the instruction checked here.
 bool has_fast_gathers(const llvm::TargetMachine& machine);
 
 /// Whether rounding to whole numbers, ties to even, is an instruction.
 bool has_rounding(const llvm::TargetMachine& machine);
 
-/// The same shape with what this processor has and is fast at.
+/// The same shape with the features and strengths of this processor.
 KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine);
 
-/// Sets the attributes by which LLVM uses the processor's features, and the arithmetic of the
+/// Sets the attributes that let LLVM use the processor's features, and the arithmetic of the
 /// specification: strict, with denormals flushed to zero of the same sign.
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes);
 
