@@ -1,9 +1,9 @@
-// Products and quotients may be denormal and inexact. One just below the least normal number would
-// be rounded up to it, although x86 flushes it. Hence such an operation is also done with larger
-// operands, whose result is normal and rounded to all digits, and tells what to flush.
+// Products and quotients may be denormal and inexact. A result just below the least normal number
+// would be rounded up to it, although x86 flushes it. Hence such an operation is also done with
+// larger operands, whose result is normal and rounded to all digits, and tells what to flush.
 //
-// The larger operands overflow only where the result is far from being denormal, since no operand
-// is denormal, or where it is zero; then what tells is infinite or NaN, and nothing is flushed.
+// The larger operands overflow only if the result is far from being denormal, since no operand is
+// denormal, or if it is zero. The larger result is then infinite or NaN, and no number is flushed.
 #include "wasm/arithmetic.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ int enlarging_power(Precision precision) { return precision == Precision::single
 
 }  // namespace
 
-// Sums are exact where they are denormal.
+// Denormal sums are exact.
 void Arithmetic::add() {
     code_.write(Lanes::add);
     flush();
@@ -47,7 +47,7 @@ void Arithmetic::flush() {
     flush_below(0);
 }
 
-/// The result for operands that are larger by powers of two is larger by both together.
+/// If operands are larger by powers of two, the result is larger by both together.
 void Arithmetic::with_larger_operands(Lanes operation, int first_power, int second_power) {
     const Local second = function_.keep(level_), first = function_.keep(level_);
     code_.get(first);
@@ -67,9 +67,8 @@ void Arithmetic::with_larger_operands(Lanes operation, int first_power, int seco
     flush_below(first_power + second_power);
 }
 
-/// On top of the stack are a number and what it would be if it were larger by a power of two.
-/// Leaves the number, or a zero of its sign if the larger one says that it is below the least
-/// normal number.
+/// On top of the stack are a number and its value if it were larger by a power of two. Leaves the
+/// number, or a zero of its sign if the larger one shows that it is below the least normal number.
 void Arithmetic::flush_below(int power) {
     const WordFormat format = function_.format();
     code_.write(Lanes::absolute);

@@ -1,8 +1,8 @@
 // Arithmetic on vectors on top of the stack, with or without denormal numbers.
 //
-// Internal to wasm/. WebAssembly keeps denormal numbers. Exact kernels flush them as x86 does: the
-// operands (flush() is for those), and results that are below the least normal number when they
-// are rounded to as many digits as normal numbers have.
+// Internal to wasm/. WebAssembly has denormal numbers. Exact kernels flush them as x86 does: the
+// operands (by flush()), and results that are below the least normal number when rounded to as many
+// digits as normal numbers have.
 #pragma once
 
 #include "wasm/function.h"
@@ -22,7 +22,7 @@ public:
     void multiply();
     void divide();
 
-    /// Makes zeros of the same sign of denormal numbers, if the kernel is exact.
+    /// Turns denormal numbers into zeros of the same sign, if the kernel is exact.
     void flush();
 
 private:

@@ -1,4 +1,4 @@
-// Instructions for each operation, and how values get from one form to another.
+// Writes instructions for each operation, and converts values from one form to another.
 #include "wasm/body.h"
 
 #include "core/check.h"
@@ -30,7 +30,7 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
       schedule_(cell_schedule_of(kernel_, levels_)),
       readers_(kernel_.code.size()),
       values_(kernel_.code.size()) {
-    IdVector<ValueId, int> times(kernel_.code.size(), 1);  // That the value's code is written.
+    IdVector<ValueId, int> times(kernel_.code.size(), 1);  // Number of copies of the value's code.
     for (const ValueId id : times.ids()) times[id] = levels_[id] < LoopLevel::link;
     for (const LinkLoop& loop : schedule_.loops) {
         for (const ValueId id : loop.values) ++times[id];
@@ -42,8 +42,8 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
     }
 }
 
-/// Whether it chooses the less or the greater one of two numbers, which are also those that its
-/// condition compares: there are instructions for that, which do not flush.
+/// Whether it chooses the lesser or the greater of the two numbers that its condition compares.
+/// There are instructions for that, which do not flush.
 bool Body::is_bound(const Instruction& instruction) const {
     if (is_exact_ || instruction.op != Op::select) return false;
     const auto [a, b, c] = instruction.operands;
@@ -88,8 +88,8 @@ void Body::define(ValueId id) {
     for (const ValueId operand : operands_of(instruction)) release(operand);
 }
 
-// The code of links is written apart from that of cells, so that what it needs of cells in another
-// form still comes before the loop.
+// The code of links is separate from the code of cells, so that conversions of cells' values that
+// it needs still come before the loop.
 void Body::write_loop(const LinkLoop& loop) {
     for (const ValueId id : loop.reductions) {
         code().get(beginning_of(kernel_.code[id].op));
@@ -107,26 +107,26 @@ void Body::write_loop(const LinkLoop& loop) {
         if (kernel_.code[id].op != Op::link_sum) continue;
         code().get(*values_[id].number);
         code().get(function_.constant(0));
-        code().write(Lanes::add);  // Not -0.
+        code().write(Lanes::add);  // Avoids -0.
         code().set(*values_[id].number);
     }
     for (const ValueId id : std::exchange(read_in_loop_, {})) release(id);
 }
 
-/// What a reduction is without links.
+/// The result of a reduction without links.
 Local Body::beginning_of(Op op) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return function_.number(op == Op::link_sum ? 0 : op == Op::link_least ? infinity : -infinity);
 }
 
-/// Adds the value of a link to a total, or compares it with it.
+/// Adds a link's value to a total, or compares the two.
 void Body::reduce(ValueId id) {
     if (readers_[id] == 0) return;
     const auto [op, operands, payload] = kernel_.code[id];
     const Local total = *values_[id].number;
     if (op == Op::link_sum) code().get(total);
     code().get(operand(operands[0]));
-    code().get(beginning_of(op));  // Changes nothing where there is no link.
+    code().get(beginning_of(op));  // Leaves the total as it is where there is no link.
     code().get(cells_.is_link());
     code().write(Whole::choose);
     if (op == Op::link_sum) {
@@ -150,7 +150,7 @@ void Body::store(std::size_t result) {
     if (is_exact_) {
         cells_.store(part_.results[result], number(id));
     } else {
-        // Else processors would compute with denormal numbers for as long as a field decays, which
+        // Otherwise processors would compute with denormal numbers while a field decays, which
         // takes many times as long. Within a step they are rare.
         code().get(number(id));
         Arithmetic(function_, LoopLevel::cell, true).flush();
@@ -170,7 +170,7 @@ void Body::release(ValueId id) {
     }
 }
 
-/// Gives back the locals of a value.
+/// Releases the locals of a value.
 void Body::give_back(ValueId id) {
     Value& value = values_[id];
     const auto give_back = [&](std::optional<Local> local) {
@@ -258,7 +258,7 @@ std::optional<Local> Body::source(const Instruction& instruction) {
     }
 }
 
-/// Leaves the result on the stack; of comparisons and logic its truth.
+/// Leaves the result on the stack, or for comparisons and logic its truth.
 void Body::push(const Instruction& instruction) {
     const auto [a, b, unused] = instruction.operands;
     switch (instruction.op) {
@@ -332,7 +332,7 @@ void Body::push_shift(Lanes shift, int amount) {
     code().write(shift);
 }
 
-// A vector has one amount for all lanes; other amounts are taken lane by lane.
+// A vector has one amount for all lanes. Different amounts are taken lane by lane.
 void Body::push_shifted(const Instruction& instruction) {
     const auto [a, b, unused] = instruction.operands;
     const bool is_left = instruction.op == Op::bits_shift_left;
@@ -356,7 +356,7 @@ void Body::push_shifted(const Instruction& instruction) {
     }
 }
 
-// There is no instruction for vectors of words of 64 bits.
+// Vectors of 64-bit words have no such instruction.
 void Body::push_converted(ValueId a) {
     code().get(number(a));
     if (function_.precision() == Precision::single) return code().write(Whole::numbers_of_words);

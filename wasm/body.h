@@ -1,6 +1,6 @@
 // The meaning of every operation of ir/operations.def in WebAssembly's instructions.
 //
-// Internal to wasm/. Operations on words and numbers are those of the interpreter
+// Internal to wasm/. Operations on words and numbers match the interpreter's
 // (ir/word_operations.h), one by one, so that both have the same bits with denormal numbers, too.
 #pragma once
 
@@ -18,18 +18,18 @@ class Body {
 public:
     Body(const KernelPart& part, Function& function, Cells& cells, bool is_exact);
 
-    /// Writes the values of a loop level, outer levels first; that of cells once for each vector,
-    /// with the stores of results.
+    /// Writes the values of a loop level, outer levels first. Cells' values are written once for
+    /// each vector, with the stores of results.
     void write(LoopLevel level);
 
 private:
-    /// A value in up to three forms, of which those that are needed are made.
+    /// A value in up to three forms, made when needed.
     struct Value {
         std::optional<Local> number;   ///< The word as it is.
-        std::optional<Local> operand;  ///< The same, flushed. Of exact kernels.
+        std::optional<Local> operand;  ///< The same, flushed. Only in exact kernels.
         std::optional<Local> truth;    ///< All bits of a lane are set or clear.
         bool is_boolean = false;       ///< It was computed as truth.
-        bool is_of_source = false;     ///< The local of the form that came first is the source's.
+        bool is_of_source = false;     ///< The local of the first form belongs to the source.
         bool may_be_denormal = false;
     };
 
@@ -43,7 +43,7 @@ private:
     void release(ValueId id);
     void give_back(ValueId id);
 
-    // The forms of a value. They are made at the value's own loop level.
+    // The forms of a value, made at the value's own loop level.
     Local number(ValueId id);
     Local operand(ValueId id);
     Local truth(ValueId id);
@@ -55,7 +55,7 @@ private:
         code().get(operand(a));
         code().get(operand(b));
     }
-    /// An instruction on operands as numbers, as words or as truths.
+    /// Pushes an instruction on operands as numbers, as words or as truths.
     void push_numbers(Lanes instruction, std::initializer_list<ValueId> operands) {
         for (const ValueId id : operands) code().get(operand(id));
         code().write(instruction);
@@ -90,7 +90,7 @@ private:
     IdVector<ValueId, int> readers_to_come_;  ///< In the vector that is being written.
     std::vector<ValueId> read_in_loop_;       ///< Values of cells.
     IdVector<ValueId, Value> values_;
-    LoopLevel level_ = LoopLevel::call;  ///< That is being written.
+    LoopLevel level_ = LoopLevel::call;  ///< The level being written.
 };
 
 }  // namespace cascade::wasm

@@ -1,4 +1,4 @@
-// Appends to lists of bytes. Not inline, since g++ 12 then warns of overflows that cannot happen.
+// Appends to lists of bytes. Not inline, because g++ 12 would warn of overflows that cannot happen.
 #include "wasm/bytes.h"
 
 namespace cascade::wasm {

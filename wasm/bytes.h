@@ -12,11 +12,11 @@ namespace cascade::wasm {
 using Bytes = std::vector<std::uint8_t>;
 
 void append(Bytes& to, const Bytes& bytes);
-/// LEB128: seven bits a byte, the lowest first; the top bit says that more follow.
+/// LEB128: seven bits a byte, the lowest first. The top bit says that more follow.
 void append_unsigned(Bytes& to, std::uint64_t number);
 /// The same, in two's complement.
 void append_signed(Bytes& to, std::int64_t number);
-/// Bytes after their number.
+/// The number of bytes, then the bytes.
 void append_sized(Bytes& to, const Bytes& bytes);
 void append_name(Bytes& to, std::string_view name);
 

@@ -1,4 +1,4 @@
-// Loads from the cells themselves and beside them, masks, places, and stores.
+// Loads from the cells themselves and beside them, masks, positions, and stores.
 #include "wasm/cells.h"
 
 #include "core/check.h"
@@ -42,7 +42,7 @@ Local Cells::plane(Parameter table, std::size_t slot) {
     return known->second;
 }
 
-/// Bytes from a row to another one, computed once in a call.
+/// The distance in bytes from a row to another one, computed once per call.
 Local Cells::row_offset(int dy, int dz) {
     const auto [known, is_new] = row_offsets_.try_emplace({dy, dz});
     if (is_new) {
@@ -63,7 +63,7 @@ Local Cells::row_offset(int dy, int dz) {
     return known->second;
 }
 
-/// Where the group's cells are in a row of a plane, pad_bytes() before them.
+/// The position of the group's cells in a row of a plane, minus pad_bytes().
 Local Cells::address(const RowOfPlane& row) {
     const auto [known, is_new] = addresses_.try_emplace(row);
     if (is_new) {

@@ -1,7 +1,7 @@
-// What a kernel's operations without operands read, and where its results go.
+// The sources that a kernel's operations without operands read, and the stores of its results.
 //
-// Internal to wasm/. A group of vectors of cells is computed together; then the loop goes on to the
-// next group. Addresses of rows belong to the group, what was loaded to the vector.
+// Internal to wasm/. A group of vectors of cells is computed together. Then the loop continues with
+// the next group. Addresses of rows belong to the group, loaded values to the vector.
 #pragma once
 
 #include "core/grid.h"
@@ -17,7 +17,7 @@
 
 namespace cascade::wasm {
 
-/// The parameters of a kernel's function, in their order: see wasm/kernel_module.h.
+/// The parameters of a kernel's function, in order: see wasm/kernel_module.h.
 enum class Parameter : std::uint32_t {
     fields,
     masks,
@@ -29,15 +29,15 @@ enum class Parameter : std::uint32_t {
     row_begin,
     row_end,
     shared_parameters,
-    // Of grids of one slice.
+    // For grids of one slice.
     left_column = shared_parameters,
     right_column,
     plane_parameters,
-    // Of grids of several slices.
+    // For grids of several slices.
     slice_rows = shared_parameters,
     slice,
     volume_parameters,
-    // Of linked cells.
+    // For linked cells.
     starts = shared_parameters,
     bases,
     offsets,
@@ -52,10 +52,10 @@ constexpr Local local_of(Parameter parameter) {
     return Local(static_cast<std::uint32_t>(parameter));
 }
 
-/// The place of the loops: bytes from cell (0, 0, 0) of a plane of numbers.
+/// The position of the loops: bytes from cell (0, 0, 0) of a plane of numbers.
 struct Place {
-    Local row;    ///< Of the row's first cell.
-    Local group;  ///< Of the group's first cell.
+    Local row;    ///< The row's first cell.
+    Local group;  ///< The group's first cell.
 };
 
 class Cells {
@@ -71,12 +71,12 @@ public:
     /// Begins a group of this number of vectors. Emits its Laplacians and sums over links, which
     /// are computed before all other values.
     virtual void begin_group(int vectors) = 0;
-    /// The following is about a vector of the group, by its number.
+    /// Selects a vector of the group, by its number, for the calls that follow.
     void begin_vector(int number) { vector_ = number; }
     void end_vector();
 
-    // The local that has the source's value in all lanes, until the end of the vector. A mask's has
-    // the bits of lanes set or clear.
+    // The local that has the source's value in all lanes, until the end of the vector. A mask sets
+    // or clears all bits of a lane.
     Local uniform(UniformSlot slot);
     Local cell_row();
     Local cell_slice();
@@ -93,9 +93,9 @@ public:
     virtual void begin_links();
     virtual void end_links();
     // The local that has this for all lanes, until the end of the body.
-    /// What a field holds in the cells to which the links lead.
+    /// A field's values in the linked cells, in a local that is valid until the end of the body.
     virtual Local theirs(FieldSlot slot);
-    /// The bits of lanes are set where there is a link, and clear where there is none.
+    /// The bits of a lane are set if it has a link, else clear.
     virtual Local is_link();
 
     void store(std::size_t result, Local number);
@@ -103,7 +103,7 @@ public:
     void fill_columns(Code& code, std::size_t result, Local row_end);
 
 protected:
-    /// A field, and the numbers of columns, rows and slices from the cell to what is read.
+    /// A field, and the numbers of columns, rows and slices from the cell to where it is read.
     struct Reading {
         FieldSlot slot;
         int dx = 0, dy = 0, dz = 0;
@@ -116,18 +116,18 @@ protected:
     Local load(const Reading& reading);
     /// The same as an operand of arithmetic.
     Local operand(const Reading& reading);
-    /// The address of a plane in a table, of numbers pad_bytes() before its first cell.
+    /// A plane's address in a table, for numbers pad_bytes() before its first cell.
     Local plane(Parameter table, std::size_t slot);
-    /// Addresses of planes are that many bytes before the first cell, so that what is read west of
-    /// a cell has no negative offset.
+    /// Addresses of planes are this many bytes before the first cell, so that reads west of a cell
+    /// have no negative offset.
     std::uint32_t pad_bytes() const {
         return static_cast<std::uint32_t>(PlaneLayout::row_pad * function_.number_bytes());
     }
-    /// What is on top of the stack, until the end of the vector.
+    /// The top of the stack, stored until the end of the vector.
     Local keep();
-    /// Puts the number of columns from the row's first cell to the vector's on the stack.
+    /// Pushes the number of columns from the row's first cell to the vector's.
     void push_column();
-    /// What is on top of the stack, as a word in all lanes.
+    /// The top of the stack, a word, spread to all lanes.
     void splat_word(Code& code);
 
     Function& function_;
@@ -153,9 +153,9 @@ private:
 
     std::map<std::pair<Parameter, std::size_t>, Local> planes_;
     std::map<std::pair<int, int>, Local> row_offsets_;
-    std::map<RowOfPlane, Local> addresses_;  ///< Of the group.
+    std::map<RowOfPlane, Local> addresses_;  ///< The group's.
     std::map<Reading, Local> loads_, operands_;
-    std::vector<Local> kept_;  ///< Of the vector.
+    std::vector<Local> kept_;  ///< The vector's.
 };
 
 std::unique_ptr<Cells> make_grid_cells(Function& function, const CellKernel& kernel,

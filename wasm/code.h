@@ -1,7 +1,7 @@
 // Instructions one after another, as bytes.
 //
 // Internal to wasm/. WebAssembly computes on a stack: an instruction takes its operands from the
-// top and leaves its result there. Locals hold what is needed more than once.
+// top and leaves its result there. Locals hold values that are needed more than once.
 #pragma once
 
 #include "core/precision.h"
@@ -67,20 +67,20 @@ public:
         append_unsigned(bytes_, is_half ? 1 : 2);  // The binary logarithm of the alignment.
         append_unsigned(bytes_, offset);
     }
-    /// The same of one lane.
+    /// The same for one lane.
     void access(Lanes instruction, std::uint32_t offset, int lane) {
         access(instruction, offset);
         bytes_.push_back(static_cast<std::uint8_t>(lane));
     }
 
-    /// Opens a block, at whose end a branch to it goes on, or a loop, at whose beginning it does.
+    /// Opens a block, which a branch leaves at its end, or a loop, which a branch restarts.
     void open(Plain block_or_loop) {
         constexpr std::uint8_t no_value = 0x40;
         write(block_or_loop);
         bytes_.push_back(no_value);
     }
     void close() { write(Plain::end); }
-    /// To the innermost block or loop.
+    /// Branches to the innermost block or loop.
     void branch_if() {
         write(Plain::branch_if);
         append_unsigned(bytes_, 0);

@@ -1,4 +1,4 @@
-// Declares locals, and uses those of cells again.
+// Declares locals, and reuses those of cells.
 #include "wasm/function.h"
 
 namespace cascade::wasm {

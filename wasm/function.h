@@ -1,7 +1,7 @@
 // A function while it is written: its locals, its constants, and the code of each loop level.
 //
-// Internal to wasm/. Each level has code of its own, so that what is the same in all cells can
-// still be added before the loops when a cell asks for it.
+// Internal to wasm/. Each level has its own code, so that a cell can still add code before the
+// loops for values that are the same in all cells.
 #pragma once
 
 #include "ir/loop_levels.h"
@@ -29,18 +29,18 @@ public:
     Precision precision() const { return precision_; }
     WordFormat format() const { return format_of(precision_); }
     int number_bytes() const { return static_cast<int>(bytes_of(precision_)); }
-    /// The binary logarithm of that.
+    /// The binary logarithm of that size.
     int number_shift() const { return precision_ == Precision::single ? 2 : 3; }
     int lanes() const { return Code::vector_bytes / number_bytes(); }
 
     Code& at(LoopLevel level) { return codes_[static_cast<std::size_t>(level)]; }
 
-    /// A local that may be written to at this level.
+    /// A local that may be written at this level.
     Local take(LoopLevel level, LocalType type = LocalType::vector);
-    /// Locals of cells are used again for cells, those of links for links, whose code is repeated
-    /// while cells keep theirs; those of outer levels keep their values for all cells.
+    /// Releases a local for reuse at its level, by cells or by links, whose code is repeated while
+    /// cells keep theirs. Locals of outer levels keep their values for all cells.
     void give_back(Local local, LoopLevel level = LoopLevel::cell);
-    /// Moves what is on top of the stack to a local.
+    /// Moves the top of the stack to a local.
     Local keep(LoopLevel level, LocalType type = LocalType::vector) {
         const Local local = take(level, type);
         at(level).set(local);
@@ -48,7 +48,7 @@ public:
     }
     /// A vector with the same word in all lanes.
     Local constant(std::uint64_t word);
-    /// The same of a number, which is rounded.
+    /// The same for a number, which is rounded.
     Local number(double value) { return constant(word_of(value, precision_)); }
 
     /// A vector with the words 0, 1, 2, ….
@@ -56,7 +56,7 @@ public:
     /// A vector with the words 1, 2, 4, ….
     Local lane_bits();
 
-    /// The function as the binary format has it: its locals, then this code.
+    /// The function in binary format: its locals, then this code.
     Bytes with_locals(const Code& code) const;
 
 private:

@@ -51,7 +51,7 @@ void GridCells::begin_group(int vectors) {
     if (!laplacians_.empty() && stencil_.axes() < 3) compute_again_unless_finite();
 }
 
-// The order of the sums is the specification's: ((((N + S) + E) + W) + U) + D.
+// The specification gives the order of the sums: ((((N + S) + E) + W) + U) + D.
 void GridCells::push_sum(FieldSlot slot) {
     bool is_first = true;
     const auto add_pair = [&](const Reading& first, const Reading& second) {
@@ -84,10 +84,10 @@ void GridCells::push_difference_of_parts(FieldSlot slot) {
     code().write(Lanes::multiply);
 }
 
-// The difference of a sum and two or four times a value is to be rounded once. The multiple is
-// exact unless it overflows, and then the difference is not finite. So once in a group it is tested
-// whether all differences are finite; otherwise those of large values are computed from parts.
-// Choosing between the two in every cell takes a quarter longer with two species.
+// The difference of a sum and two or four times a value must be rounded once. The multiple is exact
+// unless it overflows, and then the difference is not finite. So each group tests once whether all
+// differences are finite. Otherwise differences of large values are computed from parts. Choosing
+// between the two in every cell takes a quarter longer with two species.
 void GridCells::compute_again_unless_finite() {
     bool is_first = true;
     for_each_laplacian([&](FieldSlot, Local laplacian) {

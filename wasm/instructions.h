@@ -1,4 +1,4 @@
-// The instructions of WebAssembly that kernels are made of, with their codes: WebAssembly Core
+// The instructions of WebAssembly that kernels use, with their codes: WebAssembly Core
 // Specification 2.0, section 5.4.
 //
 // Internal to wasm/.
@@ -8,7 +8,7 @@
 
 namespace cascade::wasm {
 
-/// On numbers and addresses, and control.
+/// Instructions on numbers and addresses, and control.
 enum class Plain : std::uint8_t {
     block = 0x02,
     loop = 0x03,
@@ -41,7 +41,8 @@ enum class Plain : std::uint8_t {
     long_to_number = 0xb9,
 };
 
-/// On vectors of 128 bits as a whole, or of lanes of one width. The byte before the code is 0xfd.
+/// Instructions on vectors of 128 bits as a whole, or of lanes of one width. The byte 0xfd precedes
+/// the code.
 enum class Whole : std::uint8_t {
     load = 0x00,
     load_16_splat = 0x08,

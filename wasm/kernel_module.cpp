@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t most_instructions = 20000;
 
-/// Vectors that are computed before the loop goes on, so that counting and addresses take little
-/// time: two of small kernels. A kernel may write that far after the last cell of a row.
+/// The number of vectors computed in one pass of the loop, so that counting and addresses take
+/// little time: two for small kernels. A kernel may write that far after the last cell of a row.
 int vectors_of_group(const CellKernel& kernel) {
     constexpr std::size_t largest_in_pairs = 64;
     return kernel.code.size() <= largest_in_pairs ? 2 : 1;
@@ -24,7 +24,7 @@ std::uint32_t parameter_count(Stencil stencil) {
                                                     : Parameter::plane_parameters);
 }
 
-/// Puts the bytes from the first cell of the plane to a column of the present row on the stack.
+/// Pushes the number of bytes from the plane's first cell to a column of the present row.
 void push_place(Code& code, const Function& function, Local row, Parameter column) {
     code.get(row);
     code.get(local_of(column));
@@ -33,7 +33,7 @@ void push_place(Code& code, const Function& function, Local row, Parameter colum
     code.write(Plain::add);
 }
 
-/// Fills the columns of the halo beside a row, if they are asked for.
+/// Fills the columns of the halo beside a row, if requested.
 void write_columns(Code& code, Cells& cells, const std::vector<std::size_t>& results,
                    Local row_end) {
     code.open(Plain::block);
@@ -124,7 +124,7 @@ void append_section(Bytes& to, Section section, const std::vector<Bytes>& entrie
     append_sized(to, content);
 }
 
-/// A function that hands its arguments to all others, one after another.
+/// A function that passes its arguments to all others, one after another.
 Bytes calls_of(std::size_t functions, std::uint32_t parameters) {
     Code code(Precision::single);
     for (std::size_t function = 0; function < functions; ++function) {
@@ -148,7 +148,7 @@ Bytes module_of(const std::vector<Bytes>& functions, std::uint32_t parameters) {
     Bytes memory;
     append_name(memory, "env");
     append_name(memory, "memory");
-    append(memory, {is_memory, 0, 0});  // Of at least no pages, and any number.
+    append(memory, {is_memory, 0, 0});  // Any number of pages from 0 on.
     Bytes exported;
     append_name(exported, "run");
     exported.push_back(is_function);

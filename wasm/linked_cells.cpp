@@ -1,5 +1,5 @@
-// Loops over the links of cells (core/links.h). One over the entries of a slice computes all sums
-// of the kernel for all vectors of a group; reductions have loops of their own for each vector.
+// Loops over the links of cells (core/links.h). One loop over the entries of a slice computes all
+// sums of the kernel for all vectors of a group. Each vector's reductions have loops of their own.
 #include "wasm/cells.h"
 
 #include "core/links.h"
@@ -15,7 +15,7 @@ constexpr int slice_cells = LinkTable<float>::slice_cells;
 constexpr int slice_shift = 4;
 static_assert(1 << slice_shift == slice_cells);
 
-/// A sum of a kernel, by what tells it from others.
+/// Identifies a sum of a kernel.
 using SumKey = std::pair<Op, std::uint64_t>;
 SumKey key_of(const Instruction& instruction) { return {instruction.op, instruction.payload}; }
 
@@ -43,10 +43,10 @@ public:
 private:
     using LocalBySlot = std::map<FieldSlot, Local>;
 
-    /// What a vector of the group has, in all entries.
+    /// The data of a vector of the group for all entries.
     struct Vector {
         std::map<SumKey, Local> sums;
-        LocalBySlot own;  ///< What fields hold in the cells themselves.
+        LocalBySlot own;  ///< Values of fields in the cells themselves.
     };
 
     Local sum(const SumKey& key) const { return vectors_.at(vector_).sums.at(key); }
@@ -67,29 +67,29 @@ private:
 
     Code& links() { return function_.at(LoopLevel::link); }
     Arithmetic arithmetic_of_links() { return {function_, LoopLevel::link, is_exact_}; }
-    /// What is on top of the stack of links, until the end of the entry.
+    /// Moves the top of the stack of links to a local until the end of the entry.
     Local keep_in_entry(LocalType type = LocalType::vector) {
         of_entry_.push_back(function_.keep(LoopLevel::link, type));
         return of_entry_.back();
     }
-    /// What is on top of the stack, until the end of the loop.
+    /// Moves the top of the stack to a local until the end of the loop.
     Local keep_in_loop() {
         of_loop_.push_back(function_.keep(LoopLevel::cell, LocalType::integer));
         return of_loop_.back();
     }
 
     std::map<int, Vector> vectors_;  ///< By number.
-    // What belongs to the loop: addresses of what an entry has, or the end of that.
+    // The loop's locals: addresses of an entry's data, or their end.
     std::vector<Local> of_loop_;
     Local base_at_{}, bases_end_{}, offsets_at_{}, filled_at_{};
-    Local lane_{};  ///< Of the group's first cell in the slice.
+    Local lane_{};  ///< The group's first cell in the slice.
     Local link_{};  ///< The number of its first link.
     std::map<Parameter, Local> factors_at_;
-    // What belongs to the entry.
+    // The entry's locals.
     std::vector<Local> of_entry_;
     Local base_{};                 ///< Bytes from cell (0, 0).
     LocalBySlot bases_of_fields_;  ///< Addresses from which offsets count.
-    // What belongs to the vector in the entry.
+    // The vector's locals in the entry.
     std::vector<Local> targets_;  ///< By lane: bytes from the base.
     std::optional<Local> is_link_;
     LocalBySlot fields_, operands_, differences_;
@@ -115,7 +115,7 @@ void LinkedCells::begin_group(int vectors) {
     end_links();
 }
 
-/// Sets the sums to 0, and loads what their terms have of the cells themselves.
+/// Sets the sums to 0, and loads the cells' own values for their terms.
 void LinkedCells::begin_sums(Vector& vector) {
     const auto load_own = [&](FieldSlot slot) {
         if (vector.own.contains(slot)) return;
@@ -133,14 +133,14 @@ void LinkedCells::begin_sums(Vector& vector) {
     }
 }
 
-/// The addresses of the first entry of the slice, which is number column / 16 of the row, at lane
-/// column mod 16, where column is that of the group's first cell.
+/// Finds the addresses of the slice's first entry. The slice is number column / 16 of the row, at
+/// lane column mod 16, where column is that of the group's first cell.
 void LinkedCells::find_links() {
     const int vector = std::exchange(vector_, 0);
     push_column();
     begin_vector(vector);
     const Local column = keep_in_loop();
-    // The stride is that of whole slices and of padding as wide as one on each side.
+    // The stride is the width of whole slices plus one slice of padding on each side.
     code().get(local_of(Parameter::stride));
     code().integer(slice_shift);
     code().write(Plain::shift_right);
@@ -289,7 +289,7 @@ Local LinkedCells::is_link() {
     return *is_link_;
 }
 
-/// What the entry adds to a sum.
+/// Pushes the entry's term in a sum.
 void LinkedCells::push_term(const SumKey& key) {
     const auto [op, payload] = key;
     const Flow flow = Flow::with(payload);
@@ -305,7 +305,7 @@ void LinkedCells::push_term(const SumKey& key) {
     arithmetic_of_links().multiply();
 }
 
-/// The address in a field from which the entry's offsets count, pad_bytes() before it.
+/// The address in a field from which the entry's offsets count, minus pad_bytes().
 Local LinkedCells::base_of(FieldSlot slot) {
     const auto [known, is_new] = bases_of_fields_.try_emplace(slot);
     if (is_new) {
