@@ -1,4 +1,4 @@
-// Even fields only have a mean; spots are counted at the level halfway from smallest to largest.
+// Uniform fields only have a mean. Spots are counted halfway from smallest to largest value.
 #include "measure/features.h"
 
 #include "core/spread.h"
@@ -30,9 +30,9 @@ struct Orientation {
     double anisotropy = 0;
 };
 
-/// The derivative along an axis, per cell, of sixth order: exact to 1 % for waves of 6 cells, of
-/// which f(1) − f(−1) alone would lose a sixth. Where it would read a cell outside of the domain,
-/// of second order, and a neighbour outside counts as the cell itself.
+/// The derivative along an axis, per cell, of sixth order: exact to 1 % for waves of 6 cells, while
+/// f(1) − f(−1) alone would lose a sixth. If it would read a cell outside the domain, it is of
+/// second order, and a neighbour outside counts as the cell itself.
 double derivative(const Samples& samples, std::size_t cell, std::size_t axis) {
     constexpr std::array weights{0.75, -0.15, 1.0 / 60};
     double sum = 0;
@@ -51,7 +51,7 @@ double derivative(const Samples& samples, std::size_t cell, std::size_t axis) {
 /// With J = ⟨∇f ∇fᵀ⟩, the mean over all cells (of central differences of sixth order), the gradient
 /// has the direction φ = ½ atan2(2 Jxy, Jxx − Jyy), perpendicular to the stripes. The anisotropy is
 /// the coherence √((Jxx − Jyy)² + 4 Jxy²) / (Jxx + Jyy). J. Bigün and G. H. Granlund, "Optimal
-/// orientation detection of linear symmetry", ICCV 1987. Both are NaN for even fields and
+/// orientation detection of linear symmetry", ICCV 1987. Both are NaN for uniform fields and
 /// one-dimensional grids.
 Orientation orientation_of(const Samples& samples) {
     if (samples.cells[0] == 1 || samples.cells[1] == 1) return {none, none};

@@ -11,7 +11,7 @@
 
 namespace cascade::measure {
 
-/// Lengths are in the unit of `spacing`. NaN marks what a field lacks.
+/// Lengths are in the unit of `spacing`. NaN marks features that a field lacks.
 struct Features {
     double wavelength = 0;  ///< At the spectrum's peak.
     double spots = 0;       ///< Connected regions above the level halfway from smallest to largest.
@@ -32,7 +32,7 @@ const std::array<std::string_view, feature_count>& feature_names();
 std::array<double, feature_count> to_array(const Features& features);
 Features from_array(const std::array<double, feature_count>& values);
 
-/// An even field (core/spread.h) has neither wavelength nor spots nor direction.
+/// A uniform field (core/spread.h) has no wavelength, spots or direction.
 Features measure(const Samples& samples);
 
 }  // namespace cascade::measure

@@ -1,4 +1,4 @@
-// Flood fill with a stack; cells are neighbours across their sides, not across their corners.
+// Flood fill with a stack. Cells are neighbours across their sides, not across their corners.
 #include "measure/regions.h"
 
 #include <cmath>

@@ -15,8 +15,8 @@ namespace {
 /// A field has one wavelength if the spectrum's peak has this fraction of the variance.
 constexpr double regular_share = 0.75;
 
-/// If waves have at most four cells, neighbours along some axis are correlated less than this: the
-/// worst case, a diagonal wave in a volume, has cos(2π / (4 √3)) = 0.62.
+/// If waves have at most four cells, the correlation of neighbours along some axis is below this.
+/// The worst case, a diagonal wave in a volume, has cos(2π / (4 √3)) = 0.62.
 constexpr double close_correlation = 0.65;
 
 double correlation_along(const Samples& samples, const Spread& spread, std::size_t axis) {

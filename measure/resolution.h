@@ -1,4 +1,4 @@
-// Whether a grid resolves the waves of a pattern.
+// Checks whether a grid resolves the waves of a pattern.
 #pragma once
 
 #include "measure/samples.h"
@@ -10,12 +10,12 @@ namespace cascade::measure {
 inline constexpr double fewest_cells_a_wave = 4;
 
 /// The wavelength in cells of a field whose waves have fewer than `fewest_cells_a_wave` cells, but
-/// more than the two of a chequerboard. NaN for all other fields, and for those without a
+/// more than the two of a chequerboard. NaN for all other fields, including fields without a
 /// wavelength, such as noise. Needs a Fourier transform only if neighbours are weakly correlated.
 double unresolved_wavelength(const Samples& samples);
 
-/// The fraction of a field's variance in waves of fewer than `fewest_cells_a_wave` cells, 0 … 1;
-/// for white noise in a plane 1 − π/16 = 0.80. 0 if correlations already show that it is small.
+/// The fraction of a field's variance in waves of fewer than `fewest_cells_a_wave` cells, 0 … 1: in
+/// a plane of white noise 1 − π/16 = 0.80. 0 if correlations already show that it is small.
 double unresolved_part(const Samples& samples);
 
 }  // namespace cascade::measure

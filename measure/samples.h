@@ -1,4 +1,4 @@
-// A field to be measured: plain numbers with the shape of their grid.
+// A field to measure: plain numbers with the shape of their grid.
 #pragma once
 
 #include "core/grid.h"
@@ -11,7 +11,7 @@
 namespace cascade::measure {
 
 /// One value per cell, in the order of columns, rows, slices. Cells with non-finite values are
-/// outside of the domain and ignored.
+/// outside the domain and ignored.
 struct Samples {
     std::array<std::size_t, 3> cells{1, 1, 1};  ///< Along x, y (downwards), z.
     std::array<bool, 3> periodic{true, true,
@@ -39,7 +39,7 @@ struct Samples {
         return periodic[axis] ? cell + last * stride(axis) : cell;
     }
     /// The cell at a distance along an axis, in cells, forwards or backwards: across periodic
-    /// sides, or in the mirror at the others.
+    /// sides, or mirrored at other sides.
     std::size_t mirrored(std::size_t cell, std::size_t axis, std::ptrdiff_t distance) const {
         const std::size_t at = position(cell, axis);
         const auto count = static_cast<std::ptrdiff_t>(cells[axis]);
@@ -51,7 +51,7 @@ struct Samples {
     }
 };
 
-/// Of a field on this grid.
+/// The samples of a field on this grid.
 Samples to_samples(const Field& field, const Grid& grid);
 
 }  // namespace cascade::measure

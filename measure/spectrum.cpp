@@ -1,5 +1,5 @@
 // FFTW transforms each axis, by a Fourier transform if it is periodic and a cosine transform
-// otherwise. Power is summed over rings of wave numbers; the rings at the peak give the wavelength.
+// otherwise. Power is summed over rings of wave numbers. The rings at the peak give the wavelength.
 #include "measure/spectrum.h"
 
 #include "core/late_library.h"
@@ -39,7 +39,7 @@ struct FreeBuffer {
 };
 using Buffer = std::unique_ptr<double[], FreeBuffer>;
 
-/// The values minus their mean; 0 for cells outside of the domain.
+/// The values minus their mean; 0 for cells outside the domain.
 Buffer centred(const Samples& samples) {
     Buffer buffer(fftw().alloc_real(samples.count()));
     double sum = 0;
@@ -57,7 +57,7 @@ Buffer centred(const Samples& samples) {
     return buffer;
 }
 
-/// Transforms in place; FFTW orders axes from the slowest. R2HC is FFTW's real Fourier transform,
+/// Transforms in place. FFTW orders axes from the slowest. R2HC is FFTW's real Fourier transform,
 /// with cosine parts from the start and sine parts from the end. REDFT10 is the DCT-II.
 void transform(const Samples& samples, double* values) {
     int sizes[3];
