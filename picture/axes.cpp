@@ -91,7 +91,7 @@ void Axes::draw_curve(Drawing& drawing, const std::vector<double>& across,
             if (is_inside) style.points.push_back(place(across[k], up[k]));
             continue;
         }
-        // It crosses an edge of the box.
+        // The segment crosses an edge of the box.
         double part = 1;
         if (across[k] > across_.high) {
             part = (across_.high - across[k - 1]) / (across[k] - across[k - 1]);

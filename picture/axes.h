@@ -1,4 +1,4 @@
-// The frame of a diagram: a box with ticks and numbers, and the places of values in it.
+// The frame of a diagram: a box with ticks and numbers, and the positions of values in it.
 #pragma once
 
 #include "picture/drawing.h"
@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// The values at the two ends of an axis; of one that runs downwards or to the left, low > high.
+/// The values at the two ends of an axis. If it runs downwards or to the left, low > high.
 struct AxisRange {
     double low = 0, high = 1;
     std::string name;
@@ -19,7 +19,7 @@ struct AxisBox {
     double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// Round numbers inside of a range, about `count` of them, in ascending order.
+/// Round numbers in a range, about `count` of them, in ascending order.
 std::vector<double> ticks_of(const AxisRange& range, int count);
 
 /// Adds the outline of a box.
@@ -27,7 +27,7 @@ void draw_frame(Drawing& drawing, const AxisBox& box);
 
 class Axes {
 public:
-    /// The box lies with the usual margins in a drawing of this size.
+    /// Places the box with the usual margins in a drawing of this size.
     Axes(AxisRange across, AxisRange up, double width, double height);
     Axes(AxisRange across, AxisRange up, const AxisBox& box);
 
@@ -39,7 +39,7 @@ public:
 
     /// Adds ticks, numbers, names and the box.
     void draw(Drawing& drawing) const;
-    /// Adds a curve, without the parts of it that lie above or below the box.
+    /// Adds a curve, without the parts above or below the box.
     void draw_curve(Drawing& drawing, const std::vector<double>& across,
                     const std::vector<double>& up, DrawnLine style) const;
 

@@ -11,8 +11,8 @@ namespace cascade {
 /// True if a picture of this size has room for a line of text and its plate.
 bool has_room_for_caption(std::int64_t width, std::int64_t height);
 
-/// Draws a line of text in the lower left corner, on a light plate, so that it can be read on any
-/// pattern. Text that is wider than the picture ends in "…". There must be room for it.
+/// Draws a line of text in the lower left corner, on a light plate, so that it is legible on any
+/// pattern. Text wider than the picture ends in "…". There must be room for it.
 void draw_caption(Image& image, std::string_view text);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// By libdeflate.
+// Compresses with libdeflate.
 #include "picture/deflate.h"
 
 #include "core/enough_memory.h"

@@ -1,4 +1,4 @@
-// Compression in the format of zlib, which PNG files, pages and browsers have in common.
+// Compression in the zlib format, which PNG files, pages and browsers share.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// The bytes in the format of zlib (RFC 1950). `level` is 1, fast, to 12, small. Throws
+/// The bytes in the zlib format (RFC 1950). `level` is 1, fast, to 12, small. Throws
 /// std::bad_alloc.
 std::string deflated(std::string_view bytes, int level);
 

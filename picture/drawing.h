@@ -13,18 +13,18 @@
 
 namespace cascade {
 
-/// A place of a drawing: to the right and down, in units of which a text line is 14 high.
+/// A position in a drawing: to the right and down, in units of which a text line is 14 high.
 using DrawnPoint = std::array<double, 2>;
 
 struct DrawnLine {
-    std::vector<DrawnPoint> points;  ///< Joined in their order.
+    std::vector<DrawnPoint> points;  ///< In the order in which they are joined.
     Colour colour{0, 0, 0};
     double width = 1;
     bool dashed = false;
 };
 
 struct DrawnArea {
-    DrawnPoint corner{};  ///< The upper left one.
+    DrawnPoint corner{};  ///< The upper left corner.
     double width = 0, height = 0;
     Colour colour{1, 1, 1};
 };
@@ -38,7 +38,7 @@ struct DrawnDisc {
 /// A line of text, in the colour of sheets.
 struct DrawnText {
     enum class Anchor { start, middle, end };
-    DrawnPoint place{};  ///< Of the anchor, on the line's half height.
+    DrawnPoint place{};  ///< The anchor, at half the line's height.
     std::string text;
     Anchor anchor = Anchor::start;
 };
@@ -68,11 +68,11 @@ Result<std::string> as_svg(const Drawing& drawing);
 /// marks. Fails if the page is larger than the format admits.
 Result<std::string> as_pdf(const Drawing& drawing);
 
-/// `scale` pixels for each unit, from 1 to 8.
+/// The drawing with `scale` pixels per unit, from 1 to 8.
 Image as_image(const Drawing& drawing, int scale);
 
-/// Writes it as the name ends: .svg, .pdf, or .png with two pixels for each unit. Fails as these
-/// and write_file() do, and on other endings.
+/// Writes the format of the name's ending: .svg, .pdf, or .png with two pixels per unit. Fails as
+/// these and write_file() do, and on other endings.
 Result<void> write_drawing(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace cascade

@@ -36,8 +36,8 @@ private:
         for (std::size_t k = 0; k < 3; ++k) pixel[k] += weight * (colour[k] - pixel[k]);
     }
 
-    /// Calls `cover` with the centre of each pixel within `reach` of the box of two points; it
-    /// returns the part of the pixel that is covered.
+    /// Calls `cover` with the centre of each pixel within `reach` of the box of two points. `cover`
+    /// returns the covered fraction of the pixel.
     template <typename Cover>
     void paint(DrawnPoint low, DrawnPoint high, double reach, const Colour& colour,
                const Cover& cover) {

@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double points_per_unit = 0.75;  // As SVG has it: 96 units are an inch, and 72 points.
+constexpr double points_per_unit = 0.75;  // As in SVG, 96 units are an inch of 72 points.
 constexpr double text_size = 13 * points_per_unit;
 constexpr Colour text_ink{0.16F, 0.16F, 0.17F};
 constexpr char unknown = '?';
@@ -26,9 +26,9 @@ struct Run {
     std::string bytes;
 };
 
-/// The letter of the font Symbol that looks like a Greek one; 0 if there is none.
+/// The letter of the font Symbol for a Greek one; 0 if there is none.
 char in_symbol(char32_t letter) {
-    // By code, from α and Α on; a blank where Unicode has no letter or the font none.
+    // By code, from α and Α on. A blank where Unicode has no letter or the font no glyph.
     constexpr std::string_view small = "abgdezhqiklmnxoprVstufcyw",
                                large = "ABGDEZHQIKLMNXOPR STUFCYW";
     if (letter >= U'α' && letter < U'α' + small.size()) return small[letter - U'α'];
@@ -39,8 +39,8 @@ char in_symbol(char32_t letter) {
     return '\0';
 }
 
-/// In the encodings of the fonts: WinAnsiEncoding, which is Latin-1 but for some signs, and that of
-/// Symbol.
+/// In the encodings of the fonts: WinAnsiEncoding, which is Latin-1 except for some signs, and
+/// Symbol's own.
 std::vector<Run> runs_of(std::string_view text) {
     std::vector<Run> runs;
     const auto add = [&](bool is_greek, char byte) {
@@ -153,7 +153,7 @@ private:
         HPDF_Page_EndText(page_);
     }
 
-    /// On white, which pages are. Without interpolation, which is the default of the format.
+    /// On white, like pages. Without interpolation, the format's default.
     void add(const DrawnImage& drawn) {
         const Image& image = drawn.image;
         std::vector<HPDF_BYTE> levels;

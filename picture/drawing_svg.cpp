@@ -14,13 +14,13 @@ namespace cascade {
 
 namespace {
 
-/// The image in pixels of at most half a unit, or as near to that as a size of 2048 × 2048 allows:
-/// programs that smooth images, such as librsvg, then blur only the edges of its squares.
+/// The image with pixels of at most half a unit, or as near to that as a size of 2048 × 2048
+/// allows. Programs that smooth images, such as librsvg, then blur only the edges of its squares.
 Image in_small_pixels(const DrawnImage& drawn) {
     constexpr double per_unit = 2;
     constexpr std::int64_t most_pixels = std::int64_t{1} << 22;
     const Image& image = drawn.image;
-    // Along an axis with a single pixel there is nothing to blur.
+    // An axis with a single pixel has no edges to blur.
     const auto units_of_pixel = [](double length, std::int64_t count) {
         return count > 1 ? length / static_cast<double>(count) : 0.0;
     };

@@ -1,4 +1,4 @@
-// Writes by the C interface of OpenEXR, which is loaded when the first file is written.
+// Writes with the C interface of OpenEXR, which is loaded for the first file.
 #include "picture/exr.h"
 
 #include "core/check.h"
@@ -115,7 +115,7 @@ private:
                                    : exr_.begin_block(context_, 0, &block, &blocks_));
     }
 
-    /// The library sorts channels by their names.
+    /// The library sorts channels by name.
     void fill(exr_coding_channel_info_t& into, std::int64_t row) const {
         const auto channel =
             std::find_if(channels_.begin(), channels_.end(),

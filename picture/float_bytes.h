@@ -14,7 +14,7 @@ namespace cascade {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Appends a number; all NaNs as 0x7fc00000 or 0x7ff8000000000000, so that files are reproducible.
+/// Appends a number, NaN as 0x7fc00000 or 0x7ff8000000000000, so that files are reproducible.
 template <typename Number>
 void append_number(std::string& bytes, Number number) {
     static_assert(std::is_arithmetic_v<Number>);

@@ -32,8 +32,8 @@ struct Image {
     std::int64_t width = 0;
     std::int64_t height = 0;
     std::vector<Colour> pixels;
-    /// How opaque each pixel is, 0 … 1, with colours as they are (not multiplied by it), as PNG
-    /// files have it; empty if all are, but for those that are `transparent`.
+    /// The opacity of each pixel, 0 … 1, not multiplied into its colour, as in PNG files. Empty if
+    /// all pixels are opaque, except `transparent` ones.
     std::vector<float> alpha = {};
 
     Image() = default;
@@ -74,26 +74,26 @@ struct ValueRange {
 /// The spread of the finite cell values of a plane.
 Spread spread_of(const Field& field);
 
-/// The default range for drawing values: their smallest and largest. For even values it has no
-/// width, so that rounding errors are not amplified; [0, 0] without values.
+/// The default range for drawing values: their smallest and largest. For uniform values it has no
+/// width, so that rounding errors are not amplified. [0, 0] without values.
 ValueRange automatic_range(const Spread& values);
 
 /// The position of a value in a range, 0 … 1 inside, and ½ in a range of no width. NaN stays NaN.
 double position_in(ValueRange range, float value);
 
-/// Draws a field by a palette. A range of no width gives the palette's middle; a range with swapped
-/// ends reverses the palette. Values beyond an end of the range get its colour, NaN magenta.
-/// The image may be made in the memory of an earlier one.
+/// Draws a field with a palette. A range of no width gives the palette's middle. A range with
+/// swapped ends reverses the palette. Values beyond an end of the range get its colour, NaN
+/// magenta. The image may reuse the memory of an earlier one.
 Image paint(const Field& field, ValueRange range, const Palette& palette, Image earlier = {});
 
-/// The same of any values, one colour for each.
+/// The same for any values, one colour each.
 void paint(std::span<const float> values, ValueRange range, const Palette& palette,
            std::span<Colour> colours);
 
 /// Three fields of one layout as red, green and blue, clamped to 0 … 1; magenta if one is NaN.
 Image paint(const Field& red, const Field& green, const Field& blue, Image earlier = {});
 
-/// What paint() is to draw, not yet drawn.
+/// The arguments of paint(), not yet drawn.
 struct Painting {
     const Field& field;
     ValueRange range;
@@ -103,14 +103,14 @@ struct Painting {
     bool has_two_greys() const;
 };
 
-/// Makes every pixel transparent whose cell of `field`, of the same columns and rows, is NaN: such
-/// cells are outside of the domain.
+/// Makes pixels transparent if their cell of `field`, which has the same columns and rows, is NaN,
+/// that is, outside the domain.
 void clear_where_nan(Image& image, const Field& field);
 
 /// Replaces every pixel by a square of `factor` × `factor` pixels, factor ≥ 1.
 Image enlarge(Image image, int factor);
 
-/// The image repeated `across` times in a row, in `down` such rows; both are at least 1.
+/// The image repeated `across` times in each of `down` rows; both are at least 1.
 Image repeated(const Image& image, int across, int down);
 
 enum class PngDepth { eight = 8, sixteen = 16 };
@@ -126,31 +126,31 @@ inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 /// map, which readers must not colour-correct.
 enum class PngMeaning { colours, numbers };
 
-/// The fast way takes a third of the time and makes files of patterns a tenth larger.
+/// `fast` takes a third of the time and makes files of patterns a tenth larger.
 enum class PngEffort { small, fast };
 
 /// A PNG file in memory, as write_png writes it. Fails if a side is 0 or above 2^31 − 1, if texts
-/// are too long or contain a NUL, or if memory is short.
+/// are too long or contain a NUL, or if memory runs out.
 Result<std::string> encode_png(const Image& image, PngDepth depth, const PngTexts& texts,
                                PngMeaning meaning = PngMeaning::colours,
                                PngEffort effort = PngEffort::small);
 
-/// The same file as that of what paint() draws. Of two greys it is made without an image, in half
-/// of the time.
+/// The same file as for the image that paint() draws. With two greys it is made without an image,
+/// in half of the time.
 Result<std::string> encode_png(const Painting& painting, PngDepth depth, const PngTexts& texts,
                                PngMeaning meaning = PngMeaning::colours,
                                PngEffort effort = PngEffort::small);
 
 /// Writes a PNG file atomically. A picture with only grey pixels is written as greyscale. Only
-/// `alpha` and transparent pixels give an alpha channel; the latter are white with alpha 0. Colours
-/// are rounded to 256 or 65536 levels; long texts are compressed. Fails as encode_png and
+/// `alpha` and transparent pixels cause an alpha channel; transparent ones are white with alpha 0.
+/// Colours are rounded to 256 or 65536 levels. Long texts are compressed. Fails as encode_png and
 /// write_file do.
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
                        const PngTexts& texts);
 
-/// The text chunks (tEXt, zTXt, iTXt) of a PNG file in memory. Latin-1 becomes UTF-8; of texts with
-/// the same keyword the first is kept. Does not decode the picture. Fails if the data is no PNG,
-/// truncated, damaged (checksums are verified) or has texts above the limit.
+/// The text chunks (tEXt, zTXt, iTXt) of a PNG file in memory. Latin-1 becomes UTF-8. The first of
+/// several texts with the same keyword is used. Does not decode the picture. Fails if the data is
+/// no PNG, truncated, damaged (checksums are verified) or has texts above the limit.
 Result<PngTexts> parse_png_texts(std::string_view bytes);
 
 /// The same for a file.
@@ -165,16 +165,16 @@ struct Panel {
 /// A contact sheet: panels in rows of `columns`, labelled in a small built-in font (ASCII; other
 /// characters are drawn as a box, and a label that is too long ends in "…"). The sheet shows
 /// through transparent pixels. All panels are enlarged by a common integral factor so that small
-/// ones are visible; a picture of a few rows is drawn as a band.
+/// ones are visible. A picture of a few rows is drawn as a band.
 Image make_sheet(std::span<const Panel> panels, int columns);
 
 /// The picture in half-block characters and 24-bit colour for terminals, at most `columns` wide.
-/// Wider pictures are averaged down in proportion; none is enlarged. Pixels that are less than half
+/// Wider pictures are averaged down in proportion. None is enlarged. Pixels that are less than half
 /// opaque show the terminal's background. Each line ends with a reset of the colours and a line
 /// end.
 std::string half_blocks(const Image& image, int columns);
 
-/// The same in plain characters from dark to light, " .:-=+*#%@", each for two vertically adjacent
+/// The same in plain characters from dark to light, " .:-=+*#%@", one for two vertically adjacent
 /// pixels, for pipes and for terminals without colours. Pixels that are less than half opaque are
 /// spaces.
 std::string plain_characters(const Image& image, int columns);

@@ -1,4 +1,4 @@
-// Glyphs are bitmaps drawn in whole dots; text that is too long ends in an ellipsis.
+// Glyphs are bitmaps drawn in whole dots. Text that is too long ends in an ellipsis.
 #include "picture/lettering.h"
 
 #include "picture/font.h"

@@ -1,4 +1,4 @@
-// Lays out tiles, labels and margins in whole pixels, then draws; the vertical axis points up.
+// Lays out tiles, labels and margins in whole pixels, then draws. The vertical axis points up.
 #include "picture/map.h"
 
 #include "core/check.h"
@@ -19,8 +19,8 @@ constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 struct MapLayout {
     std::int64_t factor = 1, dot = 1;
     std::int64_t tile_width = 0, tile_height = 0;
-    std::int64_t left = sheet_margin;  ///< Of the first column of tiles.
-    std::int64_t top = sheet_margin;   ///< Of the upper row of tiles.
+    std::int64_t left = sheet_margin;  ///< The left of the first column of tiles.
+    std::int64_t top = sheet_margin;   ///< The top of the upper row of tiles.
     std::int64_t width = 0, height = 0;
 };
 

@@ -15,15 +15,15 @@ struct MapAxis {
     std::vector<std::string> values;
 };
 
-/// A cell of a map. Without an image it is left empty, with the remark in it.
+/// A cell of a map. Without an image it only has the remark.
 struct MapTile {
     Image image;
     std::string remark;
 };
 
-/// A map of tiles in rows, the lowest first: as in a diagram, `up` increases upwards. The tile of a
-/// pair of values is row · across.values.size() + column. All images are enlarged by a common
-/// integral factor so that small ones are visible; a picture of a few rows is drawn as a band.
+/// A map of tiles in rows, the lowest first: as in a diagram, `up` increases upwards. The tile for
+/// a pair of values is row · across.values.size() + column. All images are enlarged by a common
+/// integral factor so that small ones are visible. A picture of a few rows is drawn as a band.
 Image make_map(std::span<const MapTile> tiles, const MapAxis& across, const MapAxis& up);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// NumPy's .npy files: one array. Writes little-endian floats in a field's precision; reads floats,
+// NumPy's .npy files: one array. Writes little-endian floats in a field's precision. Reads floats,
 // integers and booleans of both byte orders. The format is NumPy Enhancement Proposal 1.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace cascade {
 
-/// An array of slices × rows × columns in C order. A file of one dimension has one row and one
-/// slice, one of two has one slice.
+/// An array of slices × rows × columns in C order. If a file has one dimension, the array has one
+/// row and one slice. If it has two, the array has one slice.
 struct NpyArray {
     std::int64_t slices = 1;
     std::int64_t rows = 0;
@@ -23,12 +23,12 @@ struct NpyArray {
 };
 
 /// An array from a .npy file in memory, format versions 1 to 3. Types f4 f8 i1 i2 i4 i8 u1 u2 u4 u8
-/// b1, little- or big-endian; values are rounded to a precision. Fails on other types, Fortran
+/// b1, little- or big-endian. Values are rounded to a precision. Fails on other types, Fortran
 /// order, zero or more than three dimensions, no elements, missing or surplus bytes, and malformed
 /// headers. The message is a clause that follows "cannot read 'FILE': ".
 Result<NpyArray> parse_npy(std::string_view bytes, Precision precision = Precision::single);
 
-/// The largest .npy file that is read, in bytes.
+/// The largest .npy file, in bytes, that is read.
 inline constexpr std::uint64_t largest_npy_file =
     (std::uint64_t{1} << 34) + (std::uint64_t{1} << 17);
 
@@ -36,12 +36,12 @@ inline constexpr std::uint64_t largest_npy_file =
 Result<NpyArray> read_npy(const std::filesystem::path& path,
                           Precision precision = Precision::single);
 
-/// The header of a .npy file as NumPy writes it, version 1.0; the elements follow it in C order.
-/// `type` is NumPy's, such as "<f4"; `shape` is the inside of a tuple, such as "2, 3" or "2,".
+/// The header of a .npy file as NumPy writes it, version 1.0. The elements follow it in C order.
+/// `type` is NumPy's, such as "<f4". `shape` is the inside of a tuple, such as "2, 3" or "2,".
 std::string npy_head(std::string_view type, std::string_view shape);
 
 /// A field as a .npy file in memory: version 1.0, rows × columns (slices × rows × columns if there
-/// are several slices) of little-endian float32 or float64 in C order; every NaN as 0x7fc00000 or
+/// are several slices) of little-endian float32 or float64 in C order. Every NaN is 0x7fc00000 or
 /// 0x7ff8000000000000.
 std::string encode_npy(const Field& field);
 

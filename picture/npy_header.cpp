@@ -11,10 +11,10 @@ namespace cascade {
 namespace {
 
 constexpr std::string_view magic("\x93NUMPY", 6);
-constexpr std::size_t longest_header = 1 << 16;  // NumPy writes some 120 bytes.
+constexpr std::size_t longest_header = 1 << 16;  // NumPy writes about 120 bytes.
 
-/// Parses the dictionary from left to right. Member functions return false, or nothing, if the text
-/// does not match; the position is undefined then.
+/// Parses the dictionary from left to right. Member functions return false, or nullopt, if the text
+/// does not match. The position is then undefined.
 class DictionaryReader {
 public:
     explicit DictionaryReader(std::string_view text) : text_(text) {}

@@ -1,4 +1,4 @@
-// Drawing of fields as images: ranges, palettes, enlargement.
+// Draws fields as images: ranges, palettes, enlargement.
 #include "core/check.h"
 #include "core/wide_vectors.h"
 #include "picture/image.h"
@@ -27,13 +27,13 @@ namespace {
 
 constexpr std::size_t painted_at_once = 256;
 
-/// Places in a palette: the segment between two stops, and which part of it.
+/// Positions in a palette: the segment between two stops, and the fraction of it.
 struct PalettePlaces {
     std::array<std::int32_t, painted_at_once> segment;
     std::array<double, painted_at_once> part;
 };
 
-/// The places of at most `painted_at_once` values in a palette of `last` segments; `last` for NaN.
+/// Positions of at most `painted_at_once` values in a palette of `last` segments; `last` for NaN.
 WITH_WIDE_VECTORS void find_palette_places(std::span<const float> values, ValueRange range,
                                            std::int32_t last, PalettePlaces& places) {
     const double low = static_cast<double>(range.low);
@@ -109,10 +109,10 @@ public:
 
 private:
     ValueRange range_;
-    std::vector<PaletteSegment> segments_;  ///< The last one is NaN's.
+    std::vector<PaletteSegment> segments_;  ///< The last segment is for NaN.
 };
 
-/// An image of a plane whose pixels are as they were.
+/// An image of a plane whose pixels are not set.
 Image unpainted(const PlaneLayout& layout, Image image) {
     image.width = layout.width;
     image.height = layout.height;

@@ -1,4 +1,4 @@
-// The chunks of PNG files, of which animated ones have more kinds.
+// The chunks of PNG files, which animations extend by kinds of their own.
 #pragma once
 
 #include "core/result.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
-/// Data in one chunk are at most this long, in bytes: readers buffer it.
+/// The largest data of a chunk, in bytes, because readers buffer it.
 inline constexpr std::size_t longest_png_data = std::size_t{1} << 20;
 
 void append_big_endian(std::string& bytes, std::size_t number);
@@ -26,7 +26,7 @@ void append_srgb_chunk(std::string& file);
 /// Fails if the texts are too long or contain a NUL.
 Result<void> check_texts(const PngTexts& texts);
 
-/// A chunk for each text; long ones are compressed with this effort, 1 to 12.
+/// A chunk for each text. Long ones are compressed with this effort, 1 to 12.
 void append_texts(std::string& file, const PngTexts& texts, int level);
 
 }  // namespace cascade

@@ -20,10 +20,10 @@ public:
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
 
-    /// Creates libpng's structures. False, with an error, if memory is short.
+    /// Creates libpng's structures. Returns false, with an error, if memory runs out.
     bool open();
 
-    /// Runs an action that calls libpng; false, with an error, if libpng fails.
+    /// Runs an action that calls libpng. Returns false, with an error, if libpng fails.
     template <typename Action>
     bool guarded(const Action& action) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;

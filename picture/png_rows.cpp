@@ -1,6 +1,5 @@
-// Rows are filtered as section 12.8 of the PNG specification recommends: the filter whose
-// differences have the smallest sum is taken for each row. All loops are plain ones over bytes,
-// so that compilers vectorise them.
+// Each row gets the filter whose differences have the smallest sum, as section 12.8 of the PNG
+// specification recommends. All loops are plain loops over bytes, so that compilers vectorise them.
 #include "picture/png_rows.h"
 
 #include "core/wide_vectors.h"
@@ -34,7 +33,7 @@ WITH_WIDE_VECTORS bool show_background(std::span<const Colour> pixels) {
     return is_one != 0;
 }
 
-/// The levels of all channels of the pixels, or of the first one of each.
+/// The levels of all channels of the pixels, or only of each first one.
 WITH_WIDE_VECTORS void find_levels(std::span<const Colour> pixels, std::size_t channels,
                                    unsigned highest, std::uint16_t* levels) {
     const auto level = [highest](float value) {
@@ -48,7 +47,7 @@ WITH_WIDE_VECTORS void find_levels(std::span<const Colour> pixels, std::size_t c
     for (std::size_t k = 0; k < 3 * pixels.size(); ++k) levels[k] = level(values[k]);
 }
 
-/// The levels of pixels whose channels are the same numbers. Returns false if one's are not.
+/// The levels of pixels whose channels are equal. Returns false if a pixel's are not.
 WITH_WIDE_VECTORS bool find_grey_levels(std::span<const Colour> pixels, unsigned highest,
                                         std::uint16_t* levels) {
     int differ = 0;
@@ -60,14 +59,14 @@ WITH_WIDE_VECTORS bool find_grey_levels(std::span<const Colour> pixels, unsigned
     return differ == 0;
 }
 
-/// The levels of values in two greys, as paint() draws them. Returns false if one is not a number.
+/// The levels of values in two greys, as paint() draws them. Returns false if a value is NaN.
 WITH_WIDE_VECTORS bool find_painted_levels(std::span<const float> values, const Painting& how,
                                            unsigned highest, std::uint16_t* levels) {
     const double low = static_cast<double>(how.range.low);
     const double width = static_cast<double>(how.range.high) - low;
     const double from = static_cast<double>(how.palette.stops[0][0]);
     const double rise = static_cast<double>(how.palette.stops[1][0]) - from;
-    // It is 1, but compilers make no vectors if they know that.
+    // This is 1, but compilers do not vectorise if they know that.
     const double last = static_cast<double>(how.palette.stops.size() - 1);
     int is_one_nan = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -82,7 +81,7 @@ WITH_WIDE_VECTORS bool find_painted_levels(std::span<const float> values, const 
     return is_one_nan == 0;
 }
 
-/// A row of pixels; `alpha` is of the first one, or null.
+/// A row of pixels. `alpha` is the first pixel's, or null.
 struct PixelRow {
     std::span<const Colour> pixels;
     const float* alpha;
@@ -100,8 +99,7 @@ public:
     SampleWriter(const PngFormat& format, std::size_t width)
         : format_(format), levels_(width * format.colours()) {}
 
-    /// Checks and puts pixels of the most usual format, grey alone. Returns false if theirs is
-    /// another one.
+    /// Writes pixels of the commonest format, grey alone. Returns false for others.
     bool put_grey(const PixelRow& row, Byte* out) {
         if (!format_.is_grey || format_.has_alpha) return false;
         if (!find_grey_levels(row.pixels, highest_, levels_.data())) return false;
@@ -118,7 +116,7 @@ public:
         }
     }
 
-    /// The same for values in two greys. Returns false if one is not a number.
+    /// The same for values in two greys. Returns false if a value is NaN.
     bool put_painted(std::span<const float> values, const Painting& how, Byte* out) {
         if (!find_painted_levels(values, how, highest_, levels_.data())) return false;
         put_levels(out);
@@ -156,7 +154,7 @@ private:
 
     PngFormat format_;
     unsigned highest_ = highest_level(format_.depth);
-    std::vector<std::uint16_t> levels_;  ///< Of the colours of a row.
+    std::vector<std::uint16_t> levels_;  ///< A row's colours.
 };
 
 /// The bytes of a row, with the number of its filter.
@@ -164,8 +162,8 @@ std::size_t bytes_of_row(const PngFormat& format, std::int64_t width) {
     return 1 + static_cast<std::size_t>(width) * format.pixel_bytes();
 }
 
-/// Writes all rows in a format, which takes part in `rows`. Returns false if a row needs channels
-/// that the format lacks; then the format has them.
+/// Writes all rows in the format of `rows`. If a row needs other channels, adds them to the format
+/// and returns false.
 bool put_rows(const Image& image, PngRows& rows) {
     const PngFormat format = rows.format;
     const std::size_t count = bytes_of_row(format, image.width);
@@ -202,11 +200,11 @@ Byte byte_distance(Byte one, Byte other) {
     return static_cast<Byte>(std::max(one, other) - std::min(one, other));
 }
 
-/// The prediction of filter 4: that of the bytes to the left, above, and above to the left which is
-/// nearest to left + above − corner. All is done in bytes, of which a vector holds the most.
+/// The prediction of filter 4: the byte on the left, above, or above to the left that is nearest to
+/// left + above − corner. Computes only in bytes, of which a vector holds the most.
 Byte paeth(Byte left, Byte above, Byte corner) {
     const Byte by_left = byte_distance(above, corner), by_above = byte_distance(left, corner);
-    // Where the corner is not between the others, it is the farthest.
+    // If the corner is not between the others, it is the farthest.
     const bool is_between = (above >= corner) != (left >= corner);
     const Byte by_corner = is_between ? byte_distance(by_left, by_above) : Byte{255};
     const Byte upper = by_above <= by_corner ? above : corner;
@@ -235,7 +233,7 @@ WITH_WIDE_VECTORS void filter(const Byte* row, const Byte* above, std::size_t co
 
 /// The sum of the absolute values of differences, which are bytes modulo 256.
 WITH_WIDE_VECTORS std::uint32_t size_of(const std::vector<Byte>& differences) {
-    constexpr std::size_t at_once = 256;  // The sum of so many fits into 16 bits.
+    constexpr std::size_t at_once = 256;  // Their sum fits into 16 bits.
     std::uint32_t sum = 0;
     for (std::size_t begin = 0; begin < differences.size(); begin += at_once) {
         const std::size_t end = std::min(differences.size(), begin + at_once);
@@ -263,7 +261,7 @@ void filter_rows(std::span<std::uint8_t> rows, std::size_t count, std::size_t pi
     std::vector<Byte> row(pixel + count), above(pixel + count);
     std::array<std::vector<Byte>, filters> results;
     results.fill(std::vector<Byte>(count));
-    // From below, so that the row above is as it was.
+    // From below, so that the row above is still unfiltered.
     const auto take = [&](std::size_t end, std::vector<Byte>& to) {
         if (end == 0) std::fill(to.begin(), to.end(), Byte{0});
         else std::copy_n(rows.begin() + (end - count), count, to.begin() + pixel);

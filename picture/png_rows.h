@@ -23,8 +23,8 @@ struct PngFormat {
     bool operator==(const PngFormat&) const = default;
 };
 
-/// Filters rows in place. Each is a byte, which becomes the number of its filter, before `count`
-/// bytes; a pixel has `pixel` bytes. Throws std::bad_alloc.
+/// Filters rows in place. Each has a byte, which becomes the number of its filter, before `count`
+/// bytes. A pixel has `pixel` bytes. Throws std::bad_alloc.
 void filter_rows(std::span<std::uint8_t> rows, std::size_t count, std::size_t pixel);
 
 /// Filtered rows, in the format with the fewest channels that holds all pixels.
@@ -36,7 +36,7 @@ struct PngRows {
 /// All rows of an image. Throws std::bad_alloc.
 PngRows png_rows(const Image& image, PngDepth depth);
 
-/// The same of what paint() draws.
+/// The same for the image that paint() draws.
 PngRows png_rows(const Painting& painting, PngDepth depth);
 
 }  // namespace cascade

@@ -12,14 +12,14 @@
 namespace cascade {
 namespace {
 
-// Deflate expands data at most 1032 times: a small file that promises more is damaged.
+// Deflate expands data at most 1032 times, so a small file that promises more is damaged.
 constexpr std::uint64_t largest_growth = 1100;
 constexpr std::uint64_t many_pixels = std::uint64_t{1} << 24;
 
 struct Format {
     std::int64_t width = 0;
     std::int64_t height = 0;
-    std::uint64_t packed_bytes = 0;  ///< Of all rows, before compression.
+    std::uint64_t packed_bytes = 0;  ///< All rows, before compression.
     std::size_t row_bytes = 0;
     int channels = 0;  ///< Grey, grey and alpha, colour, colour and alpha.
     int depth = 0;     ///< Bits per channel, 8 or 16.
@@ -44,7 +44,7 @@ bool read_header(PngReader& reader, Format& format) {
     });
 }
 
-/// Requests whole channels of 8 or 16 bits; libpng allocates its rows.
+/// Requests whole channels of 8 or 16 bits. libpng allocates its rows.
 bool start_rows(PngReader& reader, Format& format) {
     return reader.guarded([&] {
         png_structp png = reader.png();
@@ -85,7 +85,7 @@ float number_of(const png_byte* row, std::size_t pixel, const Format& format,
     return grey * alpha + (1.0F - alpha);
 }
 
-/// Reads all pixels row by row; a pass of an interlaced picture has some of the rows and columns.
+/// Reads all pixels row by row. A pass of an interlaced picture has some of the rows and columns.
 /// Also reads the end of the file, to detect truncation after the pixels.
 bool read_pixels(PngReader& reader, const Format& format, PictureChannel channel,
                  std::vector<png_byte>& row, std::vector<float>& values) {
@@ -122,7 +122,7 @@ Result<GreyPicture> parse(std::string_view bytes, PictureChannel channel) {
                                    format.height, most_pixels),
                        "make the picture smaller");
     }
-    // For many pixels of few bits each, a byte of the file would otherwise allow too much memory.
+    // With many pixels of few bits each, the file's size would otherwise allow too much memory.
     const auto pixels = static_cast<std::uint64_t>(format.width * format.height);
     const std::uint64_t least =
         pixels > many_pixels ? std::max(pixels, format.packed_bytes) : format.packed_bytes;

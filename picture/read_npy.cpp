@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little);
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 static_assert(largest_npy_file >= most_elements * 8);
 
-/// Converts the elements of a file to numbers; `swapped` means big-endian.
+/// Converts the elements of a file to numbers. `swapped` means big-endian.
 using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<double>& values);
 
 /// Each element of type T is rounded to Number, once.
@@ -92,7 +92,7 @@ tl::unexpected<Failure> wrong_type(const std::string& type) {
                    hint);
 }
 
-/// The dimensions in a header's shape; checks that there are fewer than most_elements elements.
+/// The dimensions in a header's shape. Checks that there are fewer than most_elements elements.
 Result<NpyArray> array_of_shape(const NpyHeader& header) {
     const std::vector<std::uint64_t>& shape = header.shape;
     if (shape.empty()) return failure("it holds one number, not an array of rows and columns");

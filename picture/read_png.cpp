@@ -1,6 +1,6 @@
 // Reads the text chunks of PNG files, which may come from untrusted sources.
 //
-// libpng reads texts before the picture's data easily, but those after it only by inflating the
+// libpng reads texts before the picture's data easily, but later ones only by inflating the
 // picture. So this walks over the file's chunks and gives libpng short files of the header and one
 // text. libpng checks and inflates the text within the remaining limit for all texts.
 #include "core/enough_memory.h"
@@ -22,14 +22,14 @@ constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 constexpr std::size_t signature_size = 8;
 constexpr std::size_t chunk_frame = 12;        // Length, name and checksum around a chunk's data.
 constexpr std::size_t most_texts = 64;         // Further ones are skipped.
-constexpr std::size_t longest_keyword = 1024;  // And other data in a chunk.
+constexpr std::size_t longest_keyword = 1024;  // Also leaves room for a chunk's other data.
 
 struct Chunk {
     std::string_view name;
     std::string_view whole;  ///< With length, name and checksum.
 };
 
-/// The chunk at the start of `bytes`; nothing if it is incomplete.
+/// The chunk at the start of `bytes`; nullopt if it is incomplete.
 std::optional<Chunk> first_chunk(std::string_view bytes) {
     if (bytes.size() < chunk_frame) return std::nullopt;
     const std::uint32_t size = png_get_uint_32(reinterpret_cast<png_const_bytep>(bytes.data()));

@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-/// The weights of old pixels in a row for a new one.
+/// The weights of adjacent old pixels for a new one.
 struct Blend {
     std::int64_t first = 0;
     std::vector<double> weights;
@@ -24,7 +24,7 @@ Blend mean_over(double begin, double end, std::int64_t count) {
     return blend;
 }
 
-/// Linear interpolation between pixel centres; constant beyond the outer ones.
+/// Linear interpolation between pixel centres. Constant beyond the outer ones.
 Blend between(double middle, std::int64_t count) {
     const double last = static_cast<double>(count - 1);
     const double position = std::clamp(middle - 0.5, 0.0, last);
@@ -84,7 +84,7 @@ GreyPicture with_height(const GreyPicture& picture, std::int64_t height) {
 }  // namespace
 
 GreyPicture resized(const GreyPicture& picture, std::int64_t width, std::int64_t height) {
-    // The axis that leaves fewer pixels comes first: a picture may be very narrow.
+    // The axis that leaves fewer pixels comes first, because a picture may be very narrow.
     if (width * picture.height <= picture.width * height) {
         return with_height(with_width(picture, width), height);
     }

@@ -1,4 +1,4 @@
-// Copies cell by cell; across x the slices become columns, across y they become rows.
+// Copies cell by cell. Across x the slices become columns, across y they become rows.
 #include "picture/slice.h"
 
 #include <algorithm>

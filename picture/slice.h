@@ -18,8 +18,8 @@ struct Slice {
 /// The index of the cell at the slice's position: floor(place · cells), and the last cell at 1.
 std::int64_t slice_number(const PlaneLayout& layout, Slice slice);
 
-/// The grid of a slice's picture: across z columns are x and rows are y; across y columns are x and
-/// rows are z; across x columns are z and rows are y.
+/// The grid of a slice's picture. Across z, columns are x and rows are y. Across y, columns are x
+/// and rows are z. Across x, columns are z and rows are y.
 Grid slice_grid(const PlaneLayout& layout, Slice slice);
 
 /// The values of a slice as a field on slice_grid(), with a zero halo.

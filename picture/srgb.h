@@ -8,11 +8,11 @@
 
 namespace cascade {
 
-/// The linear light of an sRGB channel: maps 0 to 0 and 1 to 1; negative numbers and NaN become 0.
+/// The linear light of an sRGB channel: maps 0 to 0 and 1 to 1. Negative numbers and NaN become 0.
 /// The same bits on every processor.
 float light_of(float stored);
 
-/// The inverse of light_of, clamped to 0 … 1; NaN becomes 0.
+/// The inverse of light_of, clamped to 0 … 1. NaN becomes 0.
 float stored_of(float light);
 
 inline Colour light_of(const Colour& stored) {
@@ -26,20 +26,20 @@ inline Colour stored_of(const Colour& light) {
     return {red, stored_of(light[1]), stored_of(light[2])};
 }
 
-/// Replaces each colour by light_of() it, or by stored_of() it, in a fraction of the time.
+/// Applies light_of() or stored_of() to each colour, in a fraction of the time.
 void convert_to_light(std::span<Colour> colours);
 void convert_to_stored(std::span<Colour> colours);
 
-/// The nearest of the levels 0 … `highest` of a file to a value, clamped to 0 … 1; NaN becomes 0.
+/// The nearest of a file's levels 0 … `highest` to a value, clamped to 0 … 1. NaN becomes 0.
 inline unsigned level_of(float value, unsigned highest) {
-    // So written that compilers make vectors of it.
+    // Written so that compilers vectorise it.
     const double most = highest, amount = static_cast<double>(value) * most;
     const double above = amount > 0 ? amount : 0.0;
     return static_cast<unsigned>(static_cast<int>((above < most ? above : most) + 0.5));
 }
 
 /// base ^ exponent, computed in binary64: the library's binary32 functions differ in the last bit
-/// between processors; rounded binary64 results do not.
+/// between processors, but rounded binary64 results do not.
 float steady_power(float base, double exponent);
 
 }  // namespace cascade

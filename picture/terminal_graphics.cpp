@@ -36,7 +36,7 @@ struct Indexed {
     std::vector<std::int16_t> pixels;
 };
 
-/// The colours and pixels with this many levels; false if there are too many colours.
+/// The colours and pixels with this many levels. Returns false if there are too many colours.
 bool index(const Image& image, int levels, Indexed& indexed) {
     indexed.colours.clear();
     indexed.pixels.clear();
@@ -57,7 +57,7 @@ bool index(const Image& image, int levels, Indexed& indexed) {
     return true;
 }
 
-/// One character for each column: which of the six rows have the colour.
+/// One character per column, which tells which of the six rows have the colour.
 void append_run(std::string& out, int rows, std::int64_t count) {
     const char sixel = static_cast<char>('?' + rows);
     if (count > 3) out += fmt::format("!{}{}", count, sixel);
@@ -125,7 +125,7 @@ std::string sixel_picture(const Image& image) {
     for (const int levels : {255, 127, 63, 31, 15, 7, 5}) {
         if (index(image, levels, indexed)) break;
     }
-    // Pixels without a colour keep the background; pixels are square.
+    // Pixels without a colour leave the background. Pixels are square.
     std::string out = fmt::format("\x1bP0;1;0q\"1;1;{};{}", image.width, image.height);
     for (const auto& [colour, number] : indexed.colours) {
         const auto percent = [&](std::size_t c) {

@@ -64,7 +64,7 @@ Average average(const Image& image, const Stretch& across, const Stretch& down) 
     return result;
 }
 
-/// Characters and sixels are there or not.
+/// Characters and sixels are either drawn or not.
 bool is_seen(double opacity) { return opacity >= 0.5; }
 
 }  // namespace
@@ -89,7 +89,7 @@ namespace {
 
 using Levels = std::array<int, 3>;
 
-/// Nothing for the terminal's background.
+/// nullopt for the terminal's background.
 std::optional<Levels> bytes_of(const Colour& colour, double opacity) {
     if (!is_seen(opacity)) return std::nullopt;
     Levels bytes{};
@@ -101,7 +101,7 @@ std::optional<Levels> bytes_of(const Colour& colour, double opacity) {
 }
 
 /// Appends the escape sequence of a colour if it differs from the current one. `kind` is 38 for the
-/// foreground, 48 for the background; no colour means the terminal's own.
+/// foreground, 48 for the background. No colour means the terminal's own.
 void set_colour(std::string& out, std::optional<Levels>& current,
                 const std::optional<Levels>& wanted, int kind) {
     if (current == wanted) return;
@@ -138,7 +138,7 @@ std::string half_blocks(const Image& image, int columns) {
     for (std::int64_t y = 0; y < image.height; y += 2) {
         std::optional<Levels> ink, ground;
         for (std::int64_t x = 0; x < image.width; ++x) {
-            // Below the last row of an odd number the terminal's background remains.
+            // If the number of rows is odd, the terminal's background shows below the last one.
             const auto bytes = [&](std::int64_t row) -> std::optional<Levels> {
                 if (row >= image.height) return std::nullopt;
                 return bytes_of(image.at(x, row), static_cast<double>(image.opacity(x, row)));

@@ -1,4 +1,4 @@
-// Loads the module that has OpenVDB.
+// Loads the module that uses OpenVDB.
 #include "picture/vdb.h"
 
 #include "core/version.h"
@@ -15,7 +15,7 @@ constexpr const char* without_it = "--volume NAME.vti does without it";
 
 Result<VdbEncoder*> load_encoder() {
 #ifdef CASCADE_OPENVDB_MODULE
-    // Never unloaded: threads of OpenVDB's libraries may still run.
+    // Never unloaded, because threads of OpenVDB's libraries may still run.
     void* const module = ::dlopen(CASCADE_OPENVDB_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
         const char* reason = ::dlerror();

@@ -1,4 +1,4 @@
-// XML with offsets first, then the arrays as raw bytes; cells outside of a mask are hidden.
+// XML with offsets first, then the arrays as raw bytes. Cells outside a mask are hidden.
 #include "picture/vti.h"
 
 #include "core/check.h"

@@ -13,9 +13,9 @@
 namespace cascade {
 
 /// Fields of one layout as a .vti file in memory: an array of cell data each, little-endian
-/// float32, in the order x, y, z; every NaN as 0x7fc00000. Cells are cubes of side `spacing`; the
-/// grid's corner is the origin. y points down in pictures and up in VTK. The array vtkGhostType
-/// hides cells where `inside` is 0; nullptr hides none.
+/// float32, in the order x, y, z. Every NaN is 0x7fc00000. Cells are cubes of side `spacing`, and
+/// the grid's corner is the origin. y points down in pictures and up in VTK. The array vtkGhostType
+/// hides cells where `inside` is 0. nullptr hides none.
 std::string encode_vti(std::span<const VolumeArray> arrays, double spacing,
                        const Mask* inside = nullptr);
 

@@ -35,7 +35,7 @@ std::string compressed_rows(std::vector<std::uint8_t> rows, int level) {
     return deflated({reinterpret_cast<const char*>(rows.data()), rows.size()}, level);
 }
 
-/// A file of rows that `make_rows` gives.
+/// A file with the rows that `make_rows` returns.
 Result<std::string> encode_rows(PngSize size, const PngTexts& texts, PngMeaning meaning,
                                 PngEffort effort, const std::function<PngRows()>& make_rows) {
     if (size.width < 1 || size.height < 1) return failure("the picture has no pixels");
