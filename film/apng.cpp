@@ -1,6 +1,6 @@
 // Animated PNG files: APNG Specification, Mozilla, version 1.0, 2008, now part of "Portable Network
 // Graphics (PNG) Specification (Third Edition)", W3C, 2023. Frames after the first one hold only
-// the part that has changed.
+// the changed part.
 #include "core/check.h"
 #include "core/growing_file.h"
 #include "film/film.h"
@@ -23,7 +23,7 @@ public:
     ApngWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings)
         : file_(std::move(file)), times_(settings.frames_per_second, apng_ticks_per_second) {}
 
-    /// Everything before the first frame.
+    /// Writes everything before the first frame.
     Result<void> begin(std::int64_t width, std::int64_t height, const PngTexts& texts) {
         std::string header(png_signature), size;
         append_big_endian(size, static_cast<std::size_t>(width));
@@ -71,7 +71,7 @@ private:
         return chunk;
     }
 
-    /// The number of a chunk, in the order of all that belong to the animation.
+    /// The number of a chunk in the order of all animation chunks.
     std::string next_number() {
         std::string bytes;
         append_big_endian(bytes, chunks_++);
@@ -83,10 +83,10 @@ private:
         for (const std::int64_t number : {part.width, part.height, part.x, part.y}) {
             append_big_endian(data, static_cast<std::size_t>(number));
         }
-        // Two numbers of 16 bits: the time of the frame in ticks, and ticks in a second.
+        // Two numbers of 16 bits: the time of the frame in ticks, and ticks per second.
         append_big_endian(data,
                           static_cast<std::size_t>(times_.next()) << 16 | apng_ticks_per_second);
-        return data.append(2, '\0');  // The frame stays, and replaces what was there.
+        return data.append(2, '\0');  // The frame stays, and replaces the earlier content.
     }
 
     static std::string compressed(const FilmFrame& frame, const FramePart& part) {

@@ -1,6 +1,6 @@
-// posix_spawn() with a pipe for the input and an unnamed temporary file for errors, which cannot
-// fill up and block as a second pipe would. No call blocks: a program that hangs would not let this
-// one end.
+// Uses posix_spawn() with a pipe for the input and an unnamed temporary file for errors, which
+// cannot fill up and block as a second pipe would. No call blocks, because a program that hangs
+// would keep this one from ending.
 #include "film/child_process.h"
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ std::string last_line(std::FILE* file) {
     return begin == std::string::npos ? text : text.substr(begin + 1);
 }
 
-/// Another end of a pipe, from which can be read what nobody has; none without /proc.
+/// Another end of a pipe, to read what no process has read; none without /proc.
 Descriptor reader_of(const Descriptor& input) {
     const std::string name = fmt::format("/proc/self/fd/{}", input.number());
     return Descriptor(::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -62,7 +62,7 @@ bool has_bytes(const Descriptor& reader) {
     return reader.is_open() && ::read(reader.number(), &byte, 1) == 1;
 }
 
-/// The time of the processor that it has taken; nothing if it is gone.
+/// The processor time it has used; nullopt if it has ended.
 std::chrono::nanoseconds time_computed(pid_t process) {
     clockid_t clock{};
     timespec time{};
@@ -98,7 +98,7 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const std::filesystem:
     posix_spawn_file_actions_adddup2(&orders.files, its_end.number(), STDIN_FILENO);
     posix_spawn_file_actions_addopen(&orders.files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&orders.files, ::fileno(child->errors_.get()), STDERR_FILENO);
-    // Signals that this program ignores are not ignored there.
+    // The child must not inherit this program's ignored signals.
     sigset_t usual;
     sigemptyset(&usual);
     for (const int signal : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) sigaddset(&usual, signal);
@@ -129,7 +129,7 @@ void ChildProcess::give_up() {
     ::kill(-process_, SIGKILL);
 }
 
-/// Is this program to end, and the other one not getting on?
+/// Must this program end while the other one makes no progress?
 bool ChildProcess::is_hopeless() {
     if (!patience_.is_over) {
         begin_waiting();

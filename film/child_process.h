@@ -20,20 +20,20 @@ namespace cascade {
 /// True for a file that may be started.
 bool is_program(const std::filesystem::path& path);
 
-/// How long a process is waited for once this program is to end. Until then it may take any time.
+/// How long to wait for a process once this program must end. Until then it may take any time.
 struct Patience {
-    const std::atomic<bool>& is_over;     ///< Set when this program is to end.
-    std::chrono::seconds while_idle{5};   ///< It takes nothing and computes nothing.
-    std::chrono::seconds while_busy{60};  ///< It takes nothing.
+    const std::atomic<bool>& is_over;     ///< Set when this program must end.
+    std::chrono::seconds while_idle{5};   ///< It neither takes input nor computes.
+    std::chrono::seconds while_busy{60};  ///< It takes no input.
 };
 
-/// Started without a shell, in a process group of its own: signals of the terminal do not reach it.
-/// What it prints is dropped but for its errors. Its destructor ends it, and what it has started.
+/// Started without a shell, in a process group of its own, so that signals of the terminal do not
+/// reach it. Its output is dropped, except errors. The destructor ends it and its children.
 class ChildProcess {
 public:
     struct End {
-        bool is_good = false;    ///< It ended by itself, with status 0, and had read everything.
-        std::string last_words;  ///< Its last line of errors; else how it ended.
+        bool is_good = false;    ///< It exited with status 0 after reading everything.
+        std::string last_words;  ///< Its last line of errors, or else how it ended.
     };
 
     static Result<std::unique_ptr<ChildProcess>> start(const std::filesystem::path& program,
@@ -45,7 +45,7 @@ public:
 
     /// Writes to its standard input; false if it no longer reads.
     bool write(std::string_view bytes);
-    /// Closes its input and waits for its end. If patience runs out, it is ended.
+    /// Closes its input and waits for its end. Ends it if patience runs out.
     End end();
 
 private:
@@ -61,8 +61,8 @@ private:
     void give_up();
 
     Patience patience_;
-    Clock::time_point taken_at_, active_at_;  ///< When it has last taken bytes, or computed.
-    std::chrono::nanoseconds computed_{0};    ///< Time of the processor, at active_at_.
+    Clock::time_point taken_at_, active_at_;  ///< When it last took bytes, or computed.
+    std::chrono::nanoseconds computed_{0};    ///< Processor time at active_at_.
     bool is_given_up_ = false;
     bool has_refused_ = false;  ///< It has not taken what was written.
     pid_t process_ = -1;

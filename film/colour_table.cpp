@@ -1,4 +1,4 @@
-// Colours are counted once; groups are ranges of the list of colours.
+// Colours are counted once. Groups are ranges of the list of colours.
 #include "film/colour_table.h"
 
 #include "core/check.h"
@@ -43,7 +43,7 @@ struct Group {
     std::span<Counted> colours;
     std::array<double, 3> means{};
     std::size_t widest = 0;  ///< The channel with the largest variance.
-    double spread = 0;       ///< Of it: the sum of squares of distances from the mean.
+    double spread = 0;       ///< Its sum of squared distances from the mean.
 
     explicit Group(std::span<Counted> members) : colours(members) {
         double weight = 0;

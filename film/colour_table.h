@@ -1,4 +1,4 @@
-// Few colours that stand for many, for GIF files.
+// Chooses few colours to represent many, for GIF files.
 #pragma once
 
 #include "film/film_frame.h"
@@ -18,8 +18,8 @@ inline PackedColour packed(const unsigned char* pixel) {
     return PackedColour{pixel[0]} << 16 | PackedColour{pixel[1]} << 8 | pixel[2];
 }
 
-/// The colours of the frame, in rising order, without its transparent pixels; nothing if they are
-/// more than `most`.
+/// The colours of the frame, in ascending order, without its transparent pixels; nullopt if there
+/// are more than `most`.
 std::optional<std::vector<PackedColour>> few_colours(const FilmFrame& frame, std::size_t most);
 
 /// At most `count` colours for the pixels of all frames together: their own if they have no more,
@@ -28,8 +28,8 @@ std::optional<std::vector<PackedColour>> few_colours(const FilmFrame& frame, std
 /// SIGGRAPH 1982; here the group with the largest variance is divided at its mean).
 std::vector<PackedColour> chosen_colours(std::span<const FilmFrame> frames, std::size_t count);
 
-/// Finds the nearest colour of a table, and remembers it, so that the same colour becomes the same
-/// everywhere in a film. Distances are those of red, green and blue in sRGB, weighted 2 : 4 : 3.
+/// Finds the nearest colour of a table, and remembers it, so that equal colours are replaced
+/// equally in all of a film. Distances are between red, green and blue in sRGB, weighted 2 : 4 : 3.
 class NearestColours {
 public:
     explicit NearestColours(std::vector<PackedColour> table);
@@ -39,7 +39,7 @@ public:
 
 private:
     std::vector<PackedColour> table_;
-    std::vector<std::uint16_t> known_;  ///< Of every colour: 1 + number in the table, or 0.
+    std::vector<std::uint16_t> known_;  ///< For every colour: 1 + number in the table, or 0.
 };
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // ffmpeg is started directly, without a shell, in a process group of its own, so that Ctrl-C does
-// not end it before it has the frames that are drawn. It writes to a temporary file.
+// not end it before it has all drawn frames. It writes to a temporary file.
 #include "film/ffmpeg.h"
 
 #include "core/check.h"
@@ -17,12 +17,12 @@
 namespace cascade {
 namespace {
 
-/// The program of that name in the folders of PATH; empty if there is none.
+/// The path of a program in the folders of PATH; empty if there is none.
 std::filesystem::path program_named(const std::string& name) {
     const char* const path = std::getenv("PATH");
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
-        // Others would be below the current folder, where a stranger's file may lie.
+        // Others would be below the current folder, which may hold a stranger's file.
         if (!folder.starts_with('/')) continue;
         const std::filesystem::path program = std::filesystem::path(folder) / name;
         if (is_program(program)) return program;
@@ -30,7 +30,7 @@ std::filesystem::path program_named(const std::string& name) {
     return {};
 }
 
-/// How frames are given to ffmpeg, and what becomes of them.
+/// How frames reach ffmpeg, and what it makes of them.
 struct Stream {
     bool is_webm;
     double frames_per_second;
@@ -39,14 +39,14 @@ struct Stream {
 };
 
 std::vector<std::string> encoder(const Stream& stream) {
-    // The quality is such that noise of a pattern stays sharp; VP9 needs the bit rate 0 for it.
+    // At this quality, noise in a pattern stays sharp. VP9 needs the bit rate 0 for it.
     if (!stream.is_webm) {
         return {"-c:v",   "libx264",   "-crf",       "16", "-preset",
                 "medium", "-movflags", "+faststart", "-f", "mp4"};
     }
     std::vector<std::string> words = {"-c:v",    "libvpx-vp9", "-crf",      "24", "-b:v", "0",
                                       "-row-mt", "1",          "-cpu-used", "3",  "-f",   "webm"};
-    // The encoder cannot look ahead with alpha.
+    // With alpha, the encoder cannot look ahead.
     if (stream.has_alpha) words.insert(words.end(), {"-auto-alt-ref", "0"});
     return words;
 }
@@ -57,7 +57,7 @@ std::vector<std::string> arguments(const Stream& stream) {
         stream.has_alpha ? "rgba" : "rgb24", "-video_size",
         fmt::format("{}x{}", stream.width, stream.height), "-framerate",
         fmt::format("{:.6f}", stream.frames_per_second), "-i", "pipe:0",
-        // Players take the matrix of HDTV where the file says so; the transfer curve is sRGB.
+        // Players use the matrix of HDTV if the file says so. The transfer curve is sRGB.
         "-vf",
         fmt::format("scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,"
                     "format={}",
@@ -77,7 +77,7 @@ public:
           patience_(patience),
           is_webm_(is_of_format(path_, FileFormat::webm)) {}
 
-    /// Without a file ffmpeg drops what it encodes.
+    /// Without a file, ffmpeg drops what it encodes.
     Result<void> begin(const FilmSettings& settings, const FilmFrame& first,
                        std::unique_ptr<GrowingFile> file) {
         if (auto found = find_ffmpeg(path_); !found) return found;
@@ -134,7 +134,7 @@ private:
         }
     }
 
-    /// What became of ffmpeg, which has got all that it will get.
+    /// ffmpeg's result, after its last input.
     Result<void> outcome() {
         const ChildProcess::End end = process_->end();
         return end.is_good ? Result<void>() : failed(end.last_words);
@@ -166,7 +166,7 @@ Result<void> find_ffmpeg(const std::filesystem::path& film) {
 
 Result<void> try_ffmpeg(const std::filesystem::path& film, std::int64_t width, std::int64_t height,
                         const std::atomic<bool>& cancel) {
-    // Nothing is lost if it ends at once.
+    // Ending it at once loses nothing.
     FfmpegWriter writer(film, {cancel, std::chrono::seconds(0), std::chrono::seconds(0)});
     const FilmFrame first = film_frame(Image(width, height));
     if (auto begun = writer.begin({}, first, nullptr); !begun) return begun;

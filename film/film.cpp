@@ -1,4 +1,4 @@
-// Chooses the writer of a film, and checks what its format can hold.
+// Chooses the writer of a film, and checks the limits of its format.
 #include "film/film.h"
 
 #include "core/check.h"
@@ -25,7 +25,7 @@ struct FilmRow {
 
 constexpr std::int64_t unlimited = 0x7fffffff;
 
-// WebP's container has sides of up to 2^24 pixels, the pictures in it of 2^14 - 1. ffmpeg knows its
+// WebP's container has sides of up to 2^24 pixels, but its pictures of 2^14 - 1. ffmpeg knows its
 // own limits.
 constexpr std::array films = {
     FilmRow{FileFormat::gif, begin_gif, 65535, fastest_gif},

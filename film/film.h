@@ -1,5 +1,5 @@
-// Films: frames that are written one after the other, in the format of the file's ending. GIF, WebP
-// and APNG are written by Cascade itself, the others by the program ffmpeg.
+// Films: frames written one after the other, in the format of the file's ending. Cascade itself
+// writes GIF, WebP and APNG, the program ffmpeg the others.
 #pragma once
 
 #include "core/file_format.h"
@@ -17,43 +17,42 @@ namespace cascade {
 
 inline constexpr double slowest_film = 0.1;  ///< Frames per second.
 inline constexpr double fastest_film = 60;
-/// Browsers show faster GIF films slowly.
+/// Browsers slow down faster GIF films.
 inline constexpr double fastest_gif = 50;
 
 struct FilmSettings {
-    double frames_per_second = 10;  ///< slowest_film … fastest_film; of a GIF at most fastest_gif.
+    double frames_per_second = 10;  ///< slowest_film … fastest_film; for GIF at most fastest_gif.
     PngTexts texts;                 ///< Written into APNG files.
-    /// Set when the program is to end: ffmpeg then has to get on.
+    /// Set when the program must end. ffmpeg then has to make progress.
     const std::atomic<bool>* cancel = &never_cancelled;
 };
 
-/// A film that is being written. Frames have one size; each is on its way to the disk when add()
-/// returns.
+/// A film being written. Frames have one size. Each is on its way to the disk when add() returns.
 class FilmWriter {
 public:
     virtual ~FilmWriter() = default;
     /// Adds a frame.
     virtual Result<void> add(const FilmFrame& frame) = 0;
-    /// Completes the file, which gets its name only now. There must be a frame. Nothing may follow.
+    /// Completes the file and gives it its name. There must be a frame. Must be the last call.
     virtual Result<void> finish() = 0;
 };
 
-/// Checks before any work that a film of this name can be begun: its name is not that of a pipe or
-/// a device, and ffmpeg is there if it is needed.
+/// Checks before any work that a film of this name can be begun: the name is not a pipe's or a
+/// device's, and ffmpeg exists if needed.
 Result<void> check_film(const std::filesystem::path& path);
 
-/// Checks that players show this many frames in a second.
+/// Checks that players show this many frames per second.
 Result<void> check_pace(const std::filesystem::path& path, double frames_per_second);
 
-/// Checks that the format holds frames of this size; lets ffmpeg encode one. Fails once `cancel` is
-/// set.
+/// Checks that the format supports frames of this size. Makes ffmpeg encode one. Fails once
+/// `cancel` is set.
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
                              std::int64_t height,
                              const std::atomic<bool>& cancel = never_cancelled);
 
-/// Begins a film of frames of the size of the samples, of which there is at least one. A GIF has
-/// 256 colours, which are chosen for the samples: frames from all over the film, so that colours
-/// keep still from frame to frame.
+/// Begins a film of frames of the size of the samples, at least one. A GIF has 256 colours, which
+/// are chosen for the samples: frames from all over the film, so that colours stay constant from
+/// frame to frame.
 Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path,
                                                const FilmSettings& settings,
                                                std::span<const FilmFrame> samples);
@@ -64,7 +63,7 @@ using BeginFilm = Result<std::unique_ptr<FilmWriter>>(const std::filesystem::pat
                                                       std::span<const FilmFrame> samples);
 BeginFilm begin_gif, begin_apng, begin_webp;
 
-/// How long each frame is shown in whole ticks, so that rounding errors do not add up.
+/// The time for which each frame is shown, in whole ticks, so that rounding errors do not add up.
 class FrameTimes {
 public:
     FrameTimes(double frames_per_second, double ticks_per_second)

@@ -1,4 +1,4 @@
-// A frame of a film in bytes, and what changes from one to the next.
+// A frame of a film in bytes, and its changes from the previous frame.
 #pragma once
 
 #include "picture/image.h"
@@ -25,10 +25,10 @@ struct FilmFrame {
 /// The image with each colour rounded as in PNG files of 8 bits. Throws std::bad_alloc.
 FilmFrame film_frame(const Image& image);
 
-/// Whether a pixel counts as transparent where each has to be so or opaque: less than half opaque.
+/// Whether a pixel counts as transparent if it cannot be translucent: less than half opaque.
 inline bool is_hole(const unsigned char* pixel) { return pixel[3] < 128; }
 
-/// True if such a pixel is there.
+/// True if there is such a pixel.
 bool has_holes(const FilmFrame& frame);
 
 /// True if a pixel is not entirely opaque.
@@ -42,8 +42,8 @@ struct FramePart {
 
 inline FramePart whole_of(const FilmFrame& frame) { return {0, 0, frame.width, frame.height}; }
 
-/// The smallest rectangle outside of which two frames of one size are the same; the first pixel if
-/// they are the same everywhere, since films have no empty pictures.
+/// The smallest rectangle that contains all differences of two frames of one size. The first pixel
+/// if they are equal, since films have no empty pictures.
 FramePart changed_part(const FilmFrame& before, const FilmFrame& now);
 
 }  // namespace cascade

@@ -15,7 +15,7 @@ struct CloseFilm {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/// What a box holds: bytes of a file.
+/// The content of a box: bytes of a file.
 struct Box {
     std::uint64_t name = 0;
     std::int64_t begin = 0, end = 0;
@@ -25,7 +25,7 @@ class BoxReader {
 public:
     explicit BoxReader(const std::filesystem::path& path) : file_(std::fopen(path.c_str(), "rb")) {}
 
-    /// The whole file; of no bytes if it cannot be read.
+    /// The whole file; empty if it cannot be read.
     Box whole() {
         if (!file_ || ::fseeko(file_.get(), 0, SEEK_END) != 0) return {};
         return {0, 0, ::ftello(file_.get())};
@@ -42,7 +42,7 @@ public:
         }
         return value;
     }
-    /// A number of EBML, whose first byte says by its leading zeros how many follow. Names keep
+    /// A number of EBML, whose first byte tells by its leading zeros how many follow. Names keep
     /// that mark.
     std::optional<std::uint64_t> marked_number(bool keeps_mark) {
         const auto first = number(1);
@@ -73,7 +73,7 @@ std::optional<Box> box_of_webm(BoxReader& reader, std::int64_t) {
     return Box{*name, reader.place(), reader.place() + static_cast<std::int64_t>(*length)};
 }
 
-/// Calls visit(box) for each box in another one. False if they do not fill it.
+/// Calls visit(box) for each box in another one. Returns false if they do not fill it.
 template <typename Read, typename Visit>
 bool for_each_box(BoxReader& reader, const Box& outer, const Read& read, const Visit& visit) {
     std::int64_t place = outer.begin;
@@ -89,7 +89,7 @@ bool for_each_box(BoxReader& reader, const Box& outer, const Read& read, const V
     return true;
 }
 
-/// Four letters.
+/// The number of a name of four letters.
 constexpr std::uint64_t name_of_box(const char (&letters)[5]) {
     std::uint64_t name = 0;
     for (int k = 0; k < 4; ++k) name = name << 8 | static_cast<unsigned char>(letters[k]);
@@ -110,7 +110,7 @@ bool count_in_mp4(BoxReader& reader, const Box& outer, std::size_t depth, std::i
     });
 }
 
-/// Blocks, which are the frames, are in clusters of the segment; those with alpha in groups.
+/// Blocks, which are the frames, are in clusters of the segment. Blocks with alpha are in groups.
 bool count_in_webm(BoxReader& reader, const Box& outer, std::int64_t& count) {
     constexpr std::uint64_t segment = 0x18538067, cluster = 0x1f43b675, group = 0xa0, simple = 0xa3;
     return for_each_box(reader, outer, box_of_webm, [&](const Box& box) {

@@ -1,4 +1,4 @@
-// How many frames a film holds that another program has written.
+// Counts the frames of a film that another program has written.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// The frames of an MP4 file with one track, or of a WebM file. Nothing if the file is empty, cut
-/// or another one. Pixels are not decoded.
+/// The frames of an MP4 file with one track, or of a WebM file. nullopt if the file is empty,
+/// truncated or of another format. Does not decode pixels.
 std::optional<std::int64_t> frames_in_film(const std::filesystem::path& path, bool is_webm);
 
 }  // namespace cascade

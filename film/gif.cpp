@@ -22,7 +22,7 @@ struct FreeTable {
 };
 using Table = std::unique_ptr<ColorMapObject, FreeTable>;
 
-/// A table as the format wants it, with a power of two of colours.
+/// A table as the format requires, whose size is a power of two.
 Table table_of(const std::vector<PackedColour>& colours, std::size_t count) {
     const int bits = std::max(1, GifBitSize(static_cast<int>(count)));
     Table table(GifMakeMapObject(1 << bits, nullptr));
@@ -37,8 +37,8 @@ Table table_of(const std::vector<PackedColour>& colours, std::size_t count) {
 
 class GifWriter : public FilmWriter {
 public:
-    /// With holes each frame clears what was there before it, because pixels of a GIF can only be
-    /// made transparent so.
+    /// With holes, each frame clears the content before it, the only way to make pixels of a GIF
+    /// transparent.
     GifWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings, bool with_holes,
               std::vector<PackedColour> colours)
         : file_(std::move(file)),
@@ -97,7 +97,7 @@ private:
         return failure("there is not enough memory for a GIF film");
     }
 
-    /// giflib fails only if bytes cannot be written, or memory is short.
+    /// giflib fails only if bytes cannot be written, or memory runs out.
     Result<void> outcome(bool done) const {
         if (done) return {};
         if (failed_) return tl::unexpected(*failed_);
@@ -106,7 +106,7 @@ private:
 
     using OwnColours = std::optional<std::vector<PackedColour>>;
 
-    /// The colours of a frame that gets a table of its own: it has few, and not all are in the
+    /// The colours of a frame that gets a table of its own, because they are few and not all in the
     /// film's table.
     OwnColours own_colours(const FilmFrame& frame) const {
         OwnColours own = few_colours(frame, most_colours - with_holes_);
@@ -115,7 +115,7 @@ private:
         return own;
     }
 
-    /// The number after the last colour is that of transparent pixels.
+    /// The number after the last colour marks transparent pixels.
     int hole(const OwnColours& own) const {
         return static_cast<int>(own ? own->size() : nearest_.table().size());
     }
@@ -176,7 +176,7 @@ Result<std::unique_ptr<FilmWriter>> begin_gif(const std::filesystem::path& path,
                                               std::span<const FilmFrame> samples) {
     const bool with_holes = std::any_of(samples.begin(), samples.end(), has_holes);
     std::vector<PackedColour> colours = chosen_colours(samples, most_colours - with_holes);
-    if (colours.empty()) colours = {0xffffff};  // Nothing but holes.
+    if (colours.empty()) colours = {0xffffff};  // Only holes.
     auto file = GrowingFile::create(path);
     if (!file) return tl::unexpected(file.error());
     auto film =

@@ -1,6 +1,6 @@
 // Animated WebP files without loss: Google, "WebP Container Specification", 2011. libwebp encodes
-// the frames; they go into the container here, one after the other, because libwebpmux would keep
-// all of them in memory.
+// the frames. They are added to the container here, one after the other, because libwebpmux would
+// hold all of them in memory.
 #include "core/check.h"
 #include "core/growing_file.h"
 #include "film/film.h"
@@ -18,7 +18,7 @@ constexpr std::uint64_t largest_file = 0xfffffff0U;
 constexpr std::size_t frame_header = 16;  // Bytes of a frame before its picture.
 constexpr std::size_t file_header = 12;   // RIFF, size, WEBP.
 
-/// 0, fast, to 9, small: higher ones take twice the time for some percent.
+/// 0, fast, to 9, small. Higher efforts take twice the time for a few percent.
 constexpr int webp_effort = 2;
 
 std::string little_endian(std::uint64_t number, int bytes) {
@@ -123,7 +123,7 @@ private:
     static std::string chunk(const char* name, const std::string& data) {
         return name + little_endian(data.size(), 4) + data + std::string(data.size() % 2, '\0');
     }
-    /// The size that it states is that of the file without the first 8 bytes.
+    /// The stated size is the file's without its first 8 bytes.
     std::string riff_header() const {
         const std::uint64_t size = file_->size() == 0 ? 0 : file_->size() - 8;
         return "RIFF" + little_endian(size, 4) + "WEBP";
