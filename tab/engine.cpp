@@ -6,12 +6,11 @@
 // - allocate(size): memory for the bytes of the next call, which frees it.
 // - carry(name, name_size, bytes, size): a file that the script may read.
 // - begin(name, name_size, text, size, overrides, overrides_size, is_exact): the script, its
-//   overrides as pictures carry them, and whether denormal numbers are flushed wherever the program
-//   flushes them, from now on. 0 if the run could not start; the page has then been told why. May
-//   be called again for another script, which takes the place of the first, and its model where it
-//   has the same.
+//   overrides as in pictures, and whether denormal numbers are flushed from now on wherever the
+//   program flushes them. Returns 0, after telling the page why, if the run could not start. May
+//   be called again for another script, which replaces the first but shares its model if equal.
 // - receive(message, size): a message of the page.
-// - turn(): takes some steps and sends what has changed. 0 if nothing is left to do.
+// - turn(): takes some steps and sends changes. Returns 0 if it has no more to do.
 #include "core/file.h"
 #include "ir/tiered_backend.h"
 #include "run/domain/carried_model.h"
@@ -50,7 +49,7 @@ private:
     void tell_script() { send_text(print_script(turns_->run())); }
 
     std::optional<Turns> turns_;
-    std::shared_ptr<const Snapshot> newest_;  ///< That the page has.
+    std::shared_ptr<const Snapshot> newest_;  ///< The page has this one.
     bool wants_snapshot_ = false;
     bool has_library_ = false;  ///< The page.
     std::uint64_t told_script_ = 0;
@@ -98,7 +97,7 @@ void Engine::receive(std::string_view text) {
     if (std::holds_alternative<NextSnapshot>(message->request)) {
         wants_snapshot_ = true;
     } else if (std::holds_alternative<NamePage>(message->request)) {
-        return;  // There is one page.
+        return;  // There is only one page.
     } else if (std::holds_alternative<AskForSurface>(message->request)) {
         send_surface();
     } else if (const auto* question = std::get_if<PageQuestion>(&message->request)) {
@@ -126,7 +125,7 @@ bool Engine::turn() {
         }
         wants_snapshot_ = false;
         send_frame(print_snapshot(*newest_));
-        // Not before: a page that has the library at first lets its user choose from it.
+        // Not earlier: a page that has the library at first lets its user choose from it.
         if (!has_library_) send_text(print_systems());
         has_library_ = true;
     }
@@ -138,7 +137,7 @@ Engine& engine() {
     return one;
 }
 
-/// Takes the bytes that allocate() made room for.
+/// Takes the bytes stored in memory from allocate().
 std::string taken(char* bytes, std::size_t size) {
     std::string text(bytes, size);
     delete[] bytes;

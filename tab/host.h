@@ -1,4 +1,4 @@
-// What the page does for its engine: imports of the WebAssembly module.
+// Functions of the page for its engine: imports of the WebAssembly module.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ extern "C" {
 [[clang::import_module("page"), clang::import_name("send_frame")]] void host_send_frame(
     const char* bytes, std::size_t size);
 
-/// Compiles a module of wasm/kernel_module.h and puts its function into the engine's table. The
-/// place there, or 0 if that fails.
+/// Compiles a module of wasm/kernel_module.h and adds its function to the engine's table. Returns
+/// its index there, or 0 on failure.
 [[clang::import_module("page"), clang::import_name("add_kernel")]] std::uint32_t host_add_kernel(
     const std::uint8_t* bytes, std::size_t size);
 [[clang::import_module("page"), clang::import_name("drop_kernel")]] void host_drop_kernel(

@@ -16,7 +16,7 @@ namespace {
 
 bool are_modules_exact = false;
 
-/// Kernels of texts before are kept for texts that need them again, until there are this many.
+/// Kernels of earlier texts are stored for reuse, up to this number.
 constexpr std::size_t most_kept = 256;
 
 // The arguments that all kernels have: fields, masks, uniforms, results, columns, stride, rows.
@@ -33,7 +33,7 @@ using VolumeFunction = PlaneFunction;
 using LinkedFunction = Extended<Shared, const void*, const void*, const void*, const void*,
                                 const void*, const void*, const void*, const void*>::Type;
 
-/// A place in the engine's table of functions, which a pointer to a function is.
+/// An index in the engine's table of functions, which is what a pointer to a function is.
 class ModuleFunction {
 public:
     explicit ModuleFunction(std::uint32_t place) : place_(place) {}
@@ -117,7 +117,7 @@ public:
         return known;
     }
 
-    /// Writing the bytes of a module takes microseconds, and a browser compiles them at once.
+    /// Writing a module's bytes takes microseconds, and a browser compiles them at once.
     KernelPointer find(const CellKernel&, Stencil) override { return nullptr; }
 
     KernelCounts counts() const override { return counts_; }

@@ -1,5 +1,5 @@
 // The backend of a tab: kernels as WebAssembly modules (wasm/kernel_module.h), which the browser
-// compiles and puts into the engine's table of functions.
+// compiles and adds to the engine's table of functions.
 #pragma once
 
 #include "ir/backend.h"
@@ -13,8 +13,7 @@ void make_modules_exact();
 
 std::unique_ptr<Backend> make_module_backend();
 
-/// For kernels that run once: the interpreter or, as it flushes results only, modules that are
-/// exact.
+/// For kernels that run once: the interpreter or, because it flushes results only, exact modules.
 std::unique_ptr<Backend> make_starting_backend();
 
 }  // namespace cascade

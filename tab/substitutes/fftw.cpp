@@ -1,9 +1,9 @@
-// The part of FFTW's interface that Cascade uses, by the Fourier transform of Eigen (kissfft),
-// which consists of headers. It is slower than FFTW, and agrees with it to rounding.
+// The part of FFTW's interface that Cascade uses, by the Fourier transform of Eigen (kissfft), a
+// header-only library. It is slower than FFTW, and agrees with it up to rounding.
 //
 // Definitions of the real transforms: FFTW's manual, section 4.8. Cosine transforms of types II and
-// III are found by one complex transform of the same length (J. Makhoul, "A Fast Cosine Transform
-// in One and Two Dimensions", 1980).
+// III use one complex transform of the same length (J. Makhoul, "A Fast Cosine Transform in One and
+// Two Dimensions", 1980).
 #include "core/check.h"
 #include "core/late_library.h"
 
@@ -33,14 +33,14 @@ struct Lines {
 /// Transforms lines of n numbers: of values, or pairs of them for complex numbers.
 struct Pass {
     Transform transform;
-    fftw_r2r_kind kind;  ///< Of a real transform.
+    fftw_r2r_kind kind;  ///< For a real transform.
     int n, count;
     Lines from, to;
 };
 
 struct Plan {
     Pass pass;
-    // Of fftw_plan_r2r(), whose lines lie along several axes, the slowest first.
+    // For fftw_plan_r2r(), whose lines lie along several axes, the slowest first.
     std::vector<int> sizes = {};
     std::vector<fftw_r2r_kind> kinds = {};
     double* values = nullptr;
@@ -82,7 +82,7 @@ std::vector<double> real_of_half_complex(const std::vector<double>& x) {
     return y;
 }
 
-/// The place of number k after even ones in order come odd ones in reverse.
+/// The index of number k if even ones in order precede odd ones in reverse.
 std::size_t folded(std::size_t k, std::size_t n) { return k % 2 == 0 ? k / 2 : n - 1 - k / 2; }
 
 std::vector<double> cosine_2(const std::vector<double>& x) {

@@ -1,4 +1,4 @@
-// Files that live in memory: those that the page carries, and what is written meanwhile.
+// Files in memory: the files that the page carries, and files written meanwhile.
 #include "tab/files.h"
 
 #include "core/file.h"

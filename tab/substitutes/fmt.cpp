@@ -5,7 +5,7 @@
 
 namespace {
 
-// The compiler leaves out inline functions that nobody takes.
+// The compiler omits inline functions whose address is not taken.
 [[gnu::used]] const auto vformat =
     static_cast<std::string (*)(fmt::string_view, fmt::format_args)>(&fmt::vformat);
 [[gnu::used]] const auto throw_format_error = &fmt::detail::throw_format_error;

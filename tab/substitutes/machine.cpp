@@ -1,5 +1,5 @@
-// What the machine offers: in a tab one thread, memory without pages, no file system, and
-// arithmetic that keeps denormal numbers.
+// The machine in a tab: one thread, memory without pages, no file system, and arithmetic with
+// denormal numbers.
 #include "core/cache_sizes.h"
 #include "core/enough_memory.h"
 #include "core/floating_point.h"
@@ -24,7 +24,7 @@ int Team::size() const { return 1; }
 void Team::run(const std::function<void(int index)>& work) { work(0); }
 void Team::run(const std::function<void(int index)>& work, int) { work(0); }
 void Team::barrier() {}
-// The only thread looks for requests between steps, so no work is abandoned.
+// The only thread checks for requests between steps, so no work is abandoned.
 void abandon_work() { __builtin_trap(); }
 bool complete(const std::function<void()>& work) {
     work();
@@ -73,8 +73,8 @@ void free_plane(void* plane) {
     std::free(block);
 }
 
-/// Addresses have 32 bits, so browsers give a module at most 4 GiB, of which blocks that were freed
-/// may leave gaps. 1 if nothing is left, since 0 means that the amount is unknown.
+/// Addresses have 32 bits, so browsers give a module at most 4 GiB, in which freed blocks may leave
+/// gaps. 1 if memory is full, since 0 means that the amount is unknown.
 std::uint64_t available_memory(const std::filesystem::path&) {
     constexpr std::uint64_t most = std::uint64_t{3} << 30;
     return most - std::min<std::uint64_t>(most - 1, bytes_of_planes);

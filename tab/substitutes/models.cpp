@@ -1,5 +1,5 @@
-// What needs OpenMesh, tinygltf or Embree, which exist only as native code. A page that carries a
-// model carries its cells, too, so that only another model needs these.
+// Replaces functions that need OpenMesh, tinygltf or Embree, which exist only as native code. A
+// page with a model carries its cells, too, so that only another model needs these.
 #include "core/check.h"
 #include "mesh/coarse_copy.h"
 #include "mesh/flat_triangles.h"
@@ -32,7 +32,7 @@ Result<PolygonSoup> read_gltf(std::string_view, const GrantedFiles&) {
     return needs_program(cells);
 }
 
-// Nothing is drawn by tracing rays where there is no ray caster.
+// Without a ray caster, no picture is ray traced.
 struct RayCaster::Tree {};
 RayCaster::RayCaster(const Scene& scene) : scene_(scene) {
     CHECK(is_available(), "pictures of surfaces are refused before they are drawn");

@@ -1,5 +1,5 @@
-// Pictures without libpng and libdeflate: the pixels of pictures that a script reads come with the
-// page (picture/pixel_file.h), and PNG files are written without compression.
+// Pictures without libpng and libdeflate. The page carries the pixels of pictures that a script
+// reads (picture/pixel_file.h), and PNG files are written without compression.
 #include "picture/deflate.h"
 #include "picture/grey_picture.h"
 #include "picture/image.h"

@@ -1,4 +1,4 @@
-// Without threads a kernel is compiled when it is asked for, which takes a browser milliseconds.
+// Without threads, a kernel is compiled on request, which takes a browser milliseconds.
 #include "ir/tiered_backend.h"
 
 #include "tab/module_backend.h"
