@@ -5,8 +5,8 @@
 //     while (!pattern.finished()) pattern.step(100);
 //     std::vector<float> b = pattern.values("b");      // height() rows of width() numbers
 //
-// Link with the CMake target Cascade::cascade. Nothing here throws; nothing prints. A Pattern may
-// be used by one thread at a time, but cancel() may be called from any, or from a signal handler.
+// Link with the CMake target Cascade::cascade. No function throws or prints. One thread at a time
+// may use a Pattern, but any thread or signal handler may call cancel().
 #pragma once
 
 #include <cstdint>
@@ -32,11 +32,11 @@ struct Message {
     std::string hint;  ///< What to write instead; may be empty.
 };
 
-/// How a pattern is computed. Results do not depend on any of it.
+/// How a pattern is computed. Does not affect results.
 struct PatternOptions {
     bool native_code = true;        ///< Compile the equations; false interprets them.
-    int threads = 0;                ///< 0 uses all the machine has.
-    std::string name = "<script>";  ///< What messages call the script.
+    int threads = 0;                ///< 0 uses all of the machine's.
+    std::string name = "<script>";  ///< The script's name in messages.
     std::string folder = ".";       ///< Paths in the script are relative to it.
 };
 
@@ -51,14 +51,14 @@ public:
 
     /// False if the script is wrong or the run has failed: see diagnostics(), messages(), error().
     bool ok() const;
-    /// Faults and warnings of the script, in order of place.
+    /// Faults and warnings of the script, in order of source location.
     std::vector<Message> diagnostics() const;
     /// The same as text, drawn as the command line draws them.
     std::string messages() const;
-    /// Why a run failed (values that are not finite, no memory); empty while it has not.
+    /// Why a run failed (non-finite values, no memory); empty if it has not.
     std::string error() const;
 
-    /// Columns of the grid; 0 if the script is wrong. The cells of a model are one row of them.
+    /// Columns of the grid; 0 if the script is wrong. The cells of a model form one row.
     std::int64_t width() const;
     std::int64_t height() const;  ///< Rows.
     std::int64_t depth() const;   ///< Slices; 1 for a plane.
@@ -68,10 +68,10 @@ public:
     /// Names of the species of a stage; empty for an unknown stage.
     std::vector<std::string> species(const std::string& stage) const;
 
-    /// Takes up to `count` steps, going on to the next stage where one ends. Returns how many were
-    /// taken: fewer at the end of the last stage, after cancel(), or on failure. A value that is
-    /// not finite is found within 64 steps, at the end of a stage or by values(). The pattern has
-    /// then failed, and is back at the last step at which all values were finite.
+    /// Takes up to `count` steps, and continues with the next stage when one ends. Returns how many
+    /// were taken: fewer at the end of the last stage, after cancel(), or on failure. A non-finite
+    /// value is found within 64 steps, at the end of a stage or by values(). The pattern has then
+    /// failed, and returns to the last step at which all values were finite.
     std::int64_t step(std::int64_t count);
     /// True when every stage has taken all its steps.
     bool finished() const;
@@ -81,41 +81,41 @@ public:
     std::int64_t steps() const;
 
     // A pattern can be changed between two steps (spec/session.md). Each change returns false if it
-    // is refused; error() then says why, nothing has changed, and the pattern stays ok.
+    // is refused. Then error() says why, nothing has changed, and the pattern stays ok.
 
     /// Gives a parameter or setting another value, as `--set NAME=EXPRESSION` does: "ka", "1/80".
     bool set(const std::string& name, const std::string& expression);
-    /// Goes on with another script. What has the same name in it keeps its values; with other cells
+    /// Continues with another script. Items of the same name keep their values. With other cells
     /// (grid, mask, model, seed, precision) the run begins anew.
     bool set_script(const std::string& script);
-    /// Gives a species, or a parameter or `frozen` that varies, the values of an expression over
-    /// the present state of the current stage: "b", "if(disc(0.5, 0.5, 0.1) > 0, 8, b)".
+    /// Gives a species, or a varying parameter or `frozen`, the values of an expression over the
+    /// present state of the current stage: "b", "if(disc(0.5, 0.5, 0.1) > 0, 8, b)".
     bool paint(const std::string& item, const std::string& expression);
     /// Ends the current stage at its present step and begins the next one.
     bool begin_next_stage();
-    /// Back to the moment before the last change, to the bit, and forward again.
+    /// Returns to the moment before the last change, to the bit, and forward again.
     bool undo();
     bool redo();
-    /// The log of all that was done, as text: play() grows the same pattern from it, bit for bit.
+    /// The log of all steps and changes, as text. play() grows the same pattern from it to the bit.
     std::string session() const;
-    /// Plays a session again, up to its end: the text of session(), or the bytes of a picture.
-    /// Its script's paths are relative to `options.folder`.
+    /// Replays a session to its end: the text of session(), or the bytes of a picture. Its script's
+    /// paths are relative to `options.folder`.
     static Pattern play(const std::string& session, const PatternOptions& options = {});
 
     /// The values of an expression over the present state, row by row, slice after slice: a species
     /// or parameter of the current stage ("b"), of an earlier one ("stage1.b"), or arithmetic ("b -
-    /// stage1.b"). Cells outside of the domain's mask are NaN, unless the expression is the same in
-    /// all cells. In a stage of cells that crawl, one value for each, in the order of their numbers
-    /// (spec/cells.md). Empty if the expression is wrong; error() says why, and the pattern stays
-    /// ok. Empty, too, if a value of the state is not finite, as step() says.
+    /// stage1.b"). Cells outside the domain's mask are NaN, unless the expression is the same in
+    /// all cells. A stage of crawling cells has one value for each, in the order of their numbers
+    /// (spec/cells.md). Empty if the expression is wrong; then error() says why, and the pattern
+    /// stays ok. Also empty if a value of the state is not finite, as for step().
     std::vector<float> values(const std::string& expression);
 
     /// The present step as a PNG file in memory: what `cascade run` would draw, or `expression`. It
     /// carries the session, so that `cascade run FILE` draws it again. Empty if there is no
-    /// picture; error() says why, and the pattern stays ok.
+    /// picture; then error() says why, and the pattern stays ok.
     std::string picture(const std::string& expression = "");
 
-    /// Makes a step() that is going on return after the present step. The next step() goes on.
+    /// Makes a running step() return after its present step. The next step() continues.
     void cancel();
 
 private:
