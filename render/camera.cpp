@@ -21,17 +21,17 @@ struct Turn {
     }
 };
 
-/// The range of the scene along one axis of the picture. From the eye every vertex must be between
-/// the slopes −half and half, which gives a lower bound of the eye's distance that grows with the
-/// vertex's offset and nearness.
+/// The range of the scene along one axis of the picture. Seen from the eye, every vertex must be
+/// between the slopes −half and half. This gives a lower bound of the eye's distance that grows
+/// with the vertex's offset and nearness.
 struct Extent {
     float low = -INFINITY, high = -INFINITY;
     void add(float offset, float backward, float half) {
         low = std::max(low, -offset + half * backward);
         high = std::max(high, offset + half * backward);
     }
-    /// Adds all points of a circle: `offset` and `backward` are those of its centre; those of its
-    /// points add the sine of an angle times `offset_sine` and `backward_sine`.
+    /// Adds all points of a circle with its centre at `offset` and `backward`. Its points add the
+    /// sine of an angle times `offset_sine` and `backward_sine`.
     void add_circle(float offset, float backward, float offset_sine, float backward_sine,
                     float half) {
         low =

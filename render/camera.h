@@ -9,11 +9,11 @@ namespace cascade {
 
 /// The direction from which a picture is taken.
 struct View {
-    float azimuth = 30;    ///< Degrees around the upward axis, from the front to the right.
+    float azimuth = 30;    ///< Degrees around the up axis, from the front to the right.
     float elevation = 25;  ///< Degrees above the horizon, −89 … 89.
     Vector3 up{0, 0, 1};   ///< One of the axes x, y, z.
     /// Frames the scene for all azimuths at once, rotating around the centre of its box, so that
-    /// its position and size are constant in a series of pictures from all around.
+    /// its position and size stay the same in a series of pictures from all sides.
     bool is_turning = false;
     /// The tangent of half the field of view, along the shorter side of the picture.
     float half_field = 0.22F;
@@ -21,18 +21,18 @@ struct View {
 
 struct Ray {
     Vector3 origin;
-    Vector3 direction;  ///< Of length 1.
+    Vector3 direction;  ///< Has length 1.
 };
 
 class Camera {
 public:
-    /// Looks at the scene so that it fills a picture of width × height pixels except for a margin.
+    /// Places the camera so that the scene fills a picture of width × height pixels, with a margin.
     Camera(const Scene& scene, const View& view, std::int64_t width, std::int64_t height);
 
     /// The ray through a point of the picture, in pixels from its upper left corner.
     Ray ray(float x, float y) const;
 
-    /// Width of a pixel at distance 1.
+    /// The width of a pixel at distance 1.
     float pixel() const { return pixel_; }
     Vector3 eye() const { return eye_; }
     Vector3 right() const { return right_; }

@@ -1,4 +1,4 @@
-// Tiles for the threads of a team.
+// Distributes tiles to the threads of a team.
 #include "render/draw.h"
 
 #include "picture/srgb.h"
@@ -25,7 +25,7 @@ Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& 
             drawer.draw(tile % columns * TileDrawer::side, tile / columns * TileDrawer::side,
                         image);
             if (thread != 0 || !options.report) continue;
-            // The tiles of other threads that have begun count as done.
+            // Other threads' tiles count as done once they have begun.
             const double part =
                 static_cast<double>(std::min(next.load(), tiles)) / static_cast<double>(tiles);
             if (!options.report(part)) next = tiles;

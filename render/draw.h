@@ -15,12 +15,12 @@
 
 namespace cascade {
 
-/// The colour (sRGB) of the surface at a hit. Called from several threads at once.
+/// The colour (sRGB) of the surface at a hit. Several threads call it at once.
 using SurfaceColour = std::function<Colour(const Hit&)>;
 
 struct Sight {
     Hit hit;
-    Vector3 direction;  ///< Of the ray, of length 1.
+    Vector3 direction;  ///< The ray's, of length 1.
     float width = 0;    ///< Width of the ray's part of the pixel at the hit, across the ray.
 };
 
@@ -28,7 +28,7 @@ struct Sight {
 struct Look {
     Colour light{};  ///< Reflected fractions of red, green and blue light, 0 … 1 (light_of).
     Vector3 tilt;    ///< Added to the outward unit normal.
-    Colour glow{};   ///< Light that the surface gives off by itself, 0 … 1.
+    Colour glow{};   ///< Emitted light, 0 … 1.
     Gloss gloss = {};
 };
 
@@ -39,27 +39,27 @@ struct DrawOptions {
     Quality quality = Quality::normal;
     View view;
     Lighting lighting = Lighting::sun;
-    /// What is behind the scene; nothing: the picture has `alpha`.
+    /// The background of the scene. If nullopt, the picture has `alpha`.
     std::optional<Colour> background = pure_white;
     bool ground = true;
     bool round_shadows = false;  ///< Smooths shadows on large facets.
-    /// How opaque the body is where it is hit, 0 … 1; empty: opaque. What is behind shows through,
-    /// and light passes. Called from several threads at once.
+    /// The opacity of the body at a hit, 0 … 1; empty: opaque. The background shows through, and
+    /// light passes. Several threads call it at once.
     std::function<float(const Hit&)> opacity = {};
-    /// Told now and then, in the calling thread, what part is done, 0 … 1; may be empty. If it
-    /// returns false, drawing stops, and the picture is useless.
+    /// Called now and then, in the calling thread, with the fraction done, 0 … 1; may be empty. If
+    /// it returns false, drawing stops, and the picture is useless.
     std::function<bool(double)> report = {};
 };
 
 /// Renders by ray tracing. The picture is the same on any number of threads and on every processor.
-/// Both sides of a surface are drawn. `look` is that of the body, and may be empty if there is
-/// none. Without a background a surface is as opaque as the part of the pixel that it covers, and
+/// Both sides of a surface are drawn. `look` is the body's, and may be empty if there is none.
+/// Without a background, a surface is as opaque as the fraction of the pixel that it covers, and
 /// the shadow on the ground is black: over white it is as dark as on a white background. Throws
 /// std::bad_alloc.
 Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options,
            Team& team);
 
-/// The picture of nothing.
+/// The picture of an empty scene.
 inline Image empty_picture(const DrawOptions& options) {
     return Image(options.width, options.height, options.background.value_or(transparent));
 }

@@ -11,12 +11,12 @@ namespace cascade {
 
 namespace {
 
-constexpr float of_glass = 0.04F;  ///< Reflected from the front by glass, skin and most else.
+constexpr float of_glass = 0.04F;  ///< Reflected from the front by glass, skin and most materials.
 
 /// The factors of the Legendre polynomials P0, P1 and P2 of the angle between normal and light.
 ///
-/// The integrals of ((1 + c)/2)^p P_l(c) over c from −1 to 1 are those of powers of t = (1 + c)/2.
-/// Those of the cosine's lobe are π, 2π/3 and π/4; the factors are divided by π.
+/// The integrals of ((1 + c)/2)^p P_l(c) over c from −1 to 1 follow from powers of t = (1 + c)/2.
+/// For the cosine's lobe they are π, 2π/3 and π/4. The factors are divided by π.
 std::array<float, 3> orders_of(double p) {
     const double flat = 2 / (p + 1);
     const double linear = 4 / (p + 2) - flat;
@@ -47,7 +47,7 @@ Lights::Lights(Lighting lighting, const Camera& camera, const Vector3& up) {
             add(near * 0.3F + above * 0.5F - right, {1.2F, 1.15F, 1.1F}, 24);
             break;
         case Lighting::outdoors: {
-            // A sun that is not high, a blue sky that is brightest around it, and light ground.
+            // A low sun, a blue sky that is brightest around it, and light ground.
             const Vector3 level = unit(near - up * dot(near, up));
             const Vector3 side = cross(up, level);
             sun = unit(level * 0.75F + up * 0.75F - side * 0.8F);
@@ -80,8 +80,8 @@ Colour Lights::soft(const Vector3& normal) const {
 }
 
 Colour Lights::mirrored(const Vector3& direction, const Gloss& gloss) const {
-    // The half vector turns half as far as the reflected ray: cos^n of the one is about the
-    // ((1 + cos)/2)^(n/2) of the other. Both are near to Gaussians, whose squared widths add.
+    // The half vector turns half as far as the reflected ray: cos^n of the former is about ((1 +
+    // cos)/2)^(n/2) of the latter. Both are near to Gaussians, whose squared widths add.
     const double own = static_cast<double>(gloss.power) / 2;
     Colour sum{};
     for (const SoftLight& light : soft_) {

@@ -1,4 +1,4 @@
-// What light falls on a scene: a sun that throws shadows, and an environment all around.
+// The light on a scene: a sun that casts shadows, and an environment all around.
 #pragma once
 
 #include "core/vector3.h"
@@ -32,10 +32,10 @@ constexpr std::optional<Lighting> lighting_named(std::string_view name) {
 }
 
 /// A soft light far away. Its radiance in the direction ω is colour · ((1 + ω·d)/2)^power, so that
-/// a large power makes it small, and the power 1 lights everything but what turns away.
+/// a large power makes it small, and the power 1 lights all surfaces except those that face away.
 struct SoftLight {
     Vector3 direction;  ///< d, of length 1.
-    Colour colour{};    ///< Some channels may be negative, to take light away from that side.
+    Colour colour{};    ///< Some channels may be negative, which darkens that side.
     double power = 1;   ///< At least 0.
 };
 
@@ -49,7 +49,7 @@ public:
     Vector3 sun;               ///< The direction to its centre, of length 1.
     Colour sunlight{};         ///< The light of a white surface that faces it.
     float sun_radius = 0.12F;  ///< The tangent of its half width.
-    Colour even{};             ///< The radiance from all directions.
+    Colour even{};             ///< The uniform radiance from all directions.
 
     /// The light of the soft lights on a white surface with this normal if nothing is hidden: their
     /// convolution with the cosine up to the second order of spherical harmonics (R. Ramamoorthi
@@ -63,13 +63,13 @@ private:
     void add(const Vector3& towards, const Colour& colour, double power);
 
     std::vector<SoftLight> soft_;
-    /// Of each soft light: the factors of the three orders of its convolution with the cosine.
+    /// For each soft light: the factors of the three orders of its convolution with the cosine.
     std::vector<std::array<float, 3>> orders_;
 };
 
-/// The part of the light that a surface reflects from the direction of the viewer's mirror image:
-/// C. Schlick's approximation (1994), and less at grazing angles where it is rough (S. Lagarde,
-/// 2011). `facing` is the cosine between the normal and the direction to the viewer.
+/// The fraction of the light that a surface reflects from the direction of the viewer's mirror
+/// image: C. Schlick's approximation (1994), reduced at grazing angles for rough surfaces (S.
+/// Lagarde, 2011). `facing` is the cosine between the normal and the direction to the viewer.
 float reflectance(float facing, const Gloss& gloss);
 
 }  // namespace cascade

@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-constexpr float least_opacity = 0.5F / 65535;  ///< Below it, files of 16 bits have 0.
+constexpr float least_opacity = 0.5F / 65535;  ///< Lower opacities are 0 in files of 16 bits.
 
 void add(const Colour& light, float part, Colour& sum) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] += light[c] * part;

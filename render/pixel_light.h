@@ -1,4 +1,4 @@
-// The light of a pixel from that of its rays, and what it becomes in a picture.
+// The light of a pixel from its rays, and its conversion to colours of a picture.
 #pragma once
 
 #include "picture/image.h"
@@ -8,32 +8,32 @@
 
 namespace cascade {
 
-/// What eyes take for evenly spaced.
+/// Light on a scale that eyes see as evenly spaced.
 Colour tone_of(const Colour& light);
 
-/// What a hit sends to the camera if it sees these parts of the sun and of the sky.
+/// The light from a hit to the camera, given the visible parts of the sun and of the sky.
 Colour light_of(const Seen& seen, float sun, float sky);
 
 struct PixelLight {
     Colour light{};
-    float open = 0;    ///< The part of the pixel in which no surface is seen, 0 … 1.
-    float behind = 0;  ///< What it adds to each channel of `light` if the background is white.
+    float open = 0;    ///< The fraction of the pixel without a surface, 0 … 1.
+    float behind = 0;  ///< What a white background adds to each channel of `light`.
 };
 
-/// Adds a part of a light to a sum.
+/// Adds a fraction of a light to a sum.
 void add(const PixelLight& light, float part, PixelLight& sum);
 
 /// The light of a pixel with a single ray.
 PixelLight light_of_ray(const Seen& seen, float sun, float sky);
 
-/// The mean of rays through a pixel, and how far it may be off.
+/// The mean of rays through a pixel, and its possible error.
 class MeanLight {
 public:
     void add(const PixelLight& ray);
     PixelLight light() const;
     /// The standard error of the tone, as if rays were random.
     float error() const;
-    /// The same of the part in which no surface is seen.
+    /// The same for the fraction without a surface.
     float error_of_open() const;
 
 private:
@@ -43,7 +43,7 @@ private:
 };
 
 /// Sets a pixel. Without a background, surfaces cover their part of it, and the rest is black, as
-/// opaque as it is in shadow. The two are blended in sRGB, as other programs do.
+/// opaque as the shadow is dark. The two are blended in sRGB, as other programs do.
 void put(const PixelLight& light, bool has_background, std::int64_t x, std::int64_t y,
          Image& image);
 

@@ -1,4 +1,4 @@
-// How much work a rendered picture is worth.
+// The amount of work for a rendered picture.
 #pragma once
 
 #include <array>
@@ -26,13 +26,13 @@ constexpr std::optional<Quality> quality_named(std::string_view name) {
 
 /// The limits and counts of rays of each quality. A test is a ray towards a light.
 struct Effort {
-    /// One ray is enough for a pixel where the picture is even. Others have four, and then twice as
-    /// many until they agree or are `most_rays`, a power of 2.
+    /// One ray is enough for a pixel in uniform parts of the picture. Others have four, and then
+    /// twice as many until they agree or are `most_rays`, a power of 2.
     bool one_is_enough = true;
     std::uint32_t most_rays = 16;
-    /// The standard error of a pixel's tone (the root of its light) at which its rays agree.
+    /// The standard error of a pixel's tone (the root of its light) below which its rays agree.
     float error = 0.02F;
-    /// Tests of a pixel where a light is partly hidden; its neighbours' count, too.
+    /// Tests per pixel where a light is partly hidden. Its neighbours' tests count, too.
     std::uint32_t sun_tests = 8, sky_tests = 3;
 
     /// The width of the area that the first ray of a pixel samples, in pixels.

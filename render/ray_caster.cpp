@@ -1,7 +1,7 @@
 // Embree with one instruction set and one building thread, so that all machines draw the same.
 //
-// The body is a geometry of the root, and so is each copy: an instance, which refers to the tree of
-// its mesh and has a transformation. So a mesh is stored once, however many copies there are.
+// The body is a geometry of the root. So is each copy: an instance, which refers to the tree of its
+// mesh and has a transformation. So a mesh is stored once, however many copies there are.
 #include "render/ray_caster.h"
 
 #include "core/late_library.h"
@@ -20,7 +20,7 @@ namespace cascade {
 
 namespace {
 
-/// Its functions, by the names that Embree gives them without `rtc`.
+/// Embree's functions, by their names without `rtc`.
 struct Embree {
     LateLibrary library{CASCADE_EMBREE_LIBRARY};
     decltype(&rtcAttachGeometryByID) attach_geometry = library["rtcAttachGeometryByID"];
@@ -54,10 +54,10 @@ namespace {
 /// The process's only device, which is never released: on releasing the last device, the library
 /// that schedules Embree's tasks starts threads, and aborts if the system denies them.
 RTCDevice the_device() {
-    // One instruction set for all processors; building on one thread gives one tree.
+    // One instruction set for all processors, and one thread for building, which gives one tree.
     static const RTCDevice device = [] {
         const RTCDevice made = embree().new_device("isa=sse2,threads=1,set_affinity=0");
-        // Nothing but memory and threads is asked of the system.
+        // It only asks the system for memory and threads.
         if (!made) throw std::bad_alloc();
         return made;
     }();
@@ -134,8 +134,8 @@ struct RayCaster::Tree {
     Tree() = default;
     Tree(const Tree&) = delete;
     Tree& operator=(const Tree&) = delete;
-    /// Embree ends the program when it releases a tree that it had no memory to build: such trees
-    /// stay.
+    /// Embree ends the program when it releases a tree that it had no memory to build, so such
+    /// trees stay.
     ~Tree() {
         if (is_built) return;
         (void)root.release();
@@ -151,7 +151,7 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), tree_(std::make_unique
         attach_mesh(mesh, tree_->of_meshes.back(), 0);
         finish(tree_->of_meshes.back());
     }
-    // Copies have the numbers of their placements.
+    // Copies are numbered by their placements.
     const std::size_t count = copies.placements.size();
     for (std::size_t k = 0; k < count; ++k) {
         const Placement& placement = copies.placements[k];
@@ -188,8 +188,8 @@ RTCRay ray_of(const Ray& ray, float reach) {
 
 }  // namespace
 
-/// Whether a ray passes the box of all that is there, or ends before it. Most rays from the ground
-/// do, and this is far less work than asking Embree.
+/// Whether a ray misses the scene's box, or ends before it. Most rays from the ground do, and this
+/// is far less work than asking Embree.
 bool RayCaster::misses_all(const Ray& ray, float reach) const {
     float enters = 0, leaves = reach;
     for (float Vector3::*axis : {&Vector3::x, &Vector3::y, &Vector3::z}) {

@@ -9,12 +9,12 @@
 
 namespace cascade {
 
-/// Thread-safe. What the scene shows must outlive it.
+/// Thread-safe. The contents of the scene must outlive it.
 class RayCaster {
 public:
     /// Uses the same instructions on every processor, for equal pictures. Throws std::bad_alloc.
     explicit RayCaster(const Scene& scene);
-    /// False in a browser's tab, which has no Embree; then there are no others.
+    /// False in a browser's tab, which has no Embree. Then no ray caster can be made.
     static bool is_available();
     ~RayCaster();
 
@@ -31,7 +31,7 @@ private:
 
     Scene scene_;
     std::unique_ptr<Tree> tree_;
-    Box around_;  ///< A little larger than all that is there.
+    Box around_;  ///< Slightly larger than the scene.
 };
 
 }  // namespace cascade

@@ -1,8 +1,8 @@
-// Where the samples of a pixel are, on it and on the lights.
+// The positions of samples on a pixel and on the lights.
 //
-// Sample positions are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable
-// Effectiveness of Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So
-// a pixel depends neither on its tile nor on the thread.
+// They are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable Effectiveness of
+// Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So a pixel depends
+// neither on its tile nor on the thread.
 #pragma once
 
 #include "core/hash.h"
@@ -15,7 +15,7 @@
 
 namespace cascade {
 
-inline constexpr std::uint32_t first_rays = 4;  ///< Of a pixel that has several.
+inline constexpr std::uint32_t first_rays = 4;  ///< For a pixel that has several.
 
 inline float to_fraction(std::uint32_t word) {
     return static_cast<float>(word >> 8) * 0x1p-24F;  // In [0, 1).
@@ -27,15 +27,14 @@ struct Point {
 };
 
 /// Point `k` of a low-discrepancy sequence in the square, shifted by two hashed words: multiples of
-/// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32. Its third number is that of the golden
-/// section.
+/// 1/p and 1/p² with p³ = p + 1, as fractions of 2^32. Its third number uses the golden section.
 inline Point even_point(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
     return {to_fraction(a + k * 3242174889u), to_fraction(b + k * 2447445414u),
             to_fraction((a ^ b) + k * 2654435769u)};
 }
 
-/// Where the first rays of a pixel that has several go: a turned grid. Their mean place is the
-/// middle of the pixel, so that a constant slope comes out exactly.
+/// Positions of the first rays of a pixel that has several: a turned grid. Their mean is the middle
+/// of the pixel, so that a constant slope comes out exactly.
 inline Point first_point(std::uint32_t k) {
     constexpr std::array<Point, first_rays> turned = {
         {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
@@ -44,7 +43,7 @@ inline Point first_point(std::uint32_t k) {
 
 /// Maps the unit square to the unit disc, preserving ratios of areas: P. Shirley and K. Chiu, "A
 /// Low Distortion Map Between Disk and Square", 1997. Sine and cosine are polynomials, because
-/// those of libraries differ between processors.
+/// library functions differ between processors.
 inline DiscPoint on_disc(Point square) {
     const float a = 2 * square.x - 1, b = 2 * square.y - 1;
     const bool is_wide = std::abs(a) > std::abs(b);

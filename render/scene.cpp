@@ -1,4 +1,4 @@
-// Triangles of copies are moved when they are hit.
+// Triangles of copies are transformed when they are hit.
 #include "render/scene.h"
 
 #include "core/check.h"

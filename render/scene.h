@@ -1,4 +1,4 @@
-// What a picture shows: a body, copies of small meshes, or both.
+// The contents of a picture: a body, copies of small meshes, or both.
 #pragma once
 
 #include "mesh/instances.h"
@@ -12,7 +12,7 @@ namespace cascade {
 struct Hit {
     static constexpr std::uint32_t body = 0xffffffff;
 
-    std::uint32_t triangle = 0;  ///< Of the body or of the copy's mesh.
+    std::uint32_t triangle = 0;  ///< In the body or in the copy's mesh.
     float u = 0, v = 0;
     float distance = 0;
     std::uint32_t copy = body;  ///< The number of its placement.
@@ -20,7 +20,7 @@ struct Hit {
     std::array<float, 3> weights() const { return {1 - u - v, u, v}; }
 };
 
-/// Refers to what it shows, which must outlive it. At least one triangle is there.
+/// Refers to its meshes, which must outlive it. Has at least one triangle.
 class Scene {
 public:
     /// A body alone.
@@ -60,7 +60,7 @@ private:
     const Instances* copies_;
 };
 
-/// The bounding box of all that is shown.
+/// The bounding box of the whole scene.
 Box bounds(const Scene& scene);
 
 }  // namespace cascade

@@ -1,16 +1,16 @@
-// Few rays where the picture is even, more where it is not.
+// Few rays where the picture is uniform, more where it is not.
 //
 // Every pixel begins with one ray through its middle, which tests the sun and the sky once. The
-// tests of 5 × 5 pixels together are evenly spread over a light, so a window of them says how much
+// tests of 5 × 5 pixels together are evenly spread over a light, so a window of them tells how much
 // of it is hidden.
-// - Where pixels side by side see different things there is an edge: the pixel sends four rays or
-//   more, each of which tests both lights, until their mean is known well.
-// - Where only the colours differ, it sends rays in the same way, but they share its lights.
-// - Where a light is partly hidden around a pixel, it is tested more often.
+// - If adjacent pixels see different things, there is an edge: the pixel sends at least four rays,
+//   each of which tests both lights, until their mean is known well.
+// - If only the colours differ, it sends rays in the same way, but they share its lights.
+// - If a light is partly hidden around a pixel, it is tested more often.
 // - The visible part of a light varies slowly along a surface. Pixels use the mean over their
-//   neighbours on the same piece: of the sun, which throws outlines, only over the nearest.
-// - Where a surface is translucent, a pixel does as at edges, and each ray goes on through it.
-// - Where there are copies and edges all around, as in fur, no outline stands out: a pixel keeps to
+//   neighbours on the same piece. For the sun, which casts outlines, only over the nearest.
+// - If a surface is translucent, a pixel acts as at edges, and each ray continues through it.
+// - If there are copies and edges all around, as in fur, no outline stands out: a pixel sends only
 //   four rays, and takes the visible parts of the lights from the pixels around, too.
 #include "render/tile_drawer.h"
 
@@ -24,13 +24,14 @@ namespace cascade {
 
 namespace {
 
-constexpr int turn_side = 5;  ///< Pixels of a square that take turns in testing a light.
+constexpr int turn_side = 5;  ///< Side of a square of pixels that take turns in testing a light.
 constexpr int sun_reach = 1, sky_reach = 2;  ///< Pixels on each side whose tests count.
-constexpr std::uint32_t enough_tests = 16;   ///< Of a light that is partly hidden.
+constexpr std::uint32_t enough_tests = 16;   ///< For a light that is partly hidden.
 /// Two hits whose normals have a smaller cosine are not on one piece of a surface.
 constexpr float least_cosine = 0.9F;
-constexpr float sharp_outline = 0.2F;     ///< Between a pixel's share of the sun and those around.
-constexpr float contrast_beside = 0.06F;  ///< Of tones side by side: above it, one ray is too few.
+constexpr float sharp_outline = 0.2F;     ///< Between a pixel's share of the sun and its
+                                          ///< neighbours'.
+constexpr float contrast_beside = 0.06F;  ///< Of adjacent tones: above it, one ray is too few.
 constexpr float dark_share = 0.2F;        ///< Of the sky: below it, a pixel is in a crevice.
 
 float contrast(const Colour& a, const Colour& b) {
@@ -60,7 +61,7 @@ void TileDrawer::draw(std::int64_t left, std::int64_t top, Image& image) {
     });
 }
 
-/// The pixels of the tile, and those of the picture at most `around` beside it.
+/// Visits the pixels of the tile, and those at most `around` beside it in the picture.
 template <typename Use>
 void TileDrawer::visit(std::int64_t around, const Use& use) {
     const std::int64_t first = margin - around, last = margin + side + around;
@@ -75,7 +76,7 @@ void TileDrawer::visit(std::int64_t around, const Use& use) {
     }
 }
 
-/// The pixels of the picture in the square around a pixel, itself among them, within the room.
+/// Visits the pixels in the square around a pixel, including itself, in the picture and the room.
 template <typename Use>
 void TileDrawer::visit_around(const Pixel& pixel, int reach, const Use& use) {
     const auto low = [](std::int64_t at, std::int64_t start) {
@@ -143,7 +144,7 @@ void TileDrawer::look(Pixel& pixel) {
     }
 }
 
-/// An edge that crosses a pixel lies between its middle and that of a pixel at one of its sides.
+/// An edge that crosses a pixel lies between its middle and the middle of a pixel at its side.
 void TileDrawer::look_beside(Pixel& pixel) {
     const auto is_lit_alike = [&](const Pixel& other) {
         return other.first.sun.seen == pixel.first.sun.seen &&
@@ -168,9 +169,9 @@ void TileDrawer::ask_more(Light light, Pixel& pixel) {
     Tally around;
     visit_around(pixel, turn_side / 2, [&](const Pixel& other) { around += other.first[light]; });
     pixel.is_partly_hidden[light] = around.is_partial();
-    // Copies throw outlines on each other, but what they see of the sky is small and varied anyway.
+    // Copies cast outlines on each other, but their part of the sky is small and varied anyway.
     if (pixel.seen.is_copy && light == Light::sky) return;
-    // In a crevice hardly anything of the sky is seen, and noise stands out most where it is dark.
+    // In a crevice hardly any sky is visible, and noise stands out most in the dark.
     const bool is_dark = light == Light::sky && around.share() < dark_share;
     if (!around.is_partial() && !is_dark) return;
     const std::uint32_t tests =
@@ -221,7 +222,7 @@ PixelLight TileDrawer::light_of_pixel(Pixel& pixel) {
     return light_of_rays(pixel, rays, least, shares_of);
 }
 
-/// Whether its own tests agree, unlike those around. Where the sun sets slowly they do not.
+/// Whether its own tests agree, unlike its neighbours'. Where the sun sets slowly they do not.
 bool TileDrawer::is_at_outline_of_shadow(const Pixel& pixel, float share) const {
     if (pixel.seen.kind == Seen::Kind::background || pixel.all.sun.is_partial()) return false;
     return std::abs(pixel.all.sun.share() - share) > sharp_outline;
@@ -248,7 +249,7 @@ float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
         sum += other.all[light];
     });
     if (!pixel.is_partly_hidden[light]) return sum.share();
-    // On a narrow piece, its own tests go on where they ended.
+    // On a narrow piece, its own tests continue where they ended.
     Tally& own = pixel.all[light];
     while (sum.asked < enough_tests) {
         const Tally answer = ask_in_turn(light, pixel, own.asked);
@@ -258,7 +259,7 @@ float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
     return sum.share();
 }
 
-/// Whether this pixel shows nothing but copies, and half of those around have edges.
+/// Whether this pixel shows only copies, and half of its neighbours have edges.
 bool TileDrawer::is_in_thicket(const Pixel& pixel, const Rays& rays) {
     if (!std::all_of(rays.begin(), rays.end(), [](const Seen& seen) { return seen.is_copy; })) {
         return false;
@@ -271,7 +272,7 @@ bool TileDrawer::is_in_thicket(const Pixel& pixel, const Rays& rays) {
     return 2 * edges >= count;
 }
 
-/// Of four rays, with the shares of the lights that are seen from here and around.
+/// The light of four rays, with the shares of the lights visible from here and around.
 PixelLight TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
     OfLights<Tally> tally;
     for (const Light light : {Light::sun, Light::sky}) {
@@ -292,8 +293,8 @@ PixelLight TileDrawer::light_in_thicket(const Pixel& pixel, const Rays& rays) {
     return mean.light();
 }
 
-/// The mean of rays through a pixel. `shares(seen, number)` says how much of the lights reaches
-/// what they see.
+/// The mean of rays through a pixel. `shares(seen, number)` is the part of the lights that reaches
+/// the seen point.
 template <typename Shares>
 PixelLight TileDrawer::light_of_rays(const Pixel& pixel, const Rays& first, std::uint32_t least,
                                      const Shares& shares) {

@@ -1,4 +1,4 @@
-// Draws a picture in tiles, each by itself.
+// Draws a picture in independent tiles.
 #pragma once
 
 #include "picture/image.h"
@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// Has room for one tile, so each thread needs its own. What it refers to must outlive it.
+/// Has room for one tile, so each thread needs its own. Its arguments must outlive it.
 class TileDrawer {
 public:
     static constexpr std::int64_t side = 96;  ///< Pixels.
@@ -24,7 +24,7 @@ public:
     void draw(std::int64_t left, std::int64_t top, Image& image);
 
 private:
-    static constexpr std::int64_t margin = 4;  ///< Pixels around the tile that it looks at.
+    static constexpr std::int64_t margin = 4;  ///< Pixels around the tile that it also traces.
     static constexpr std::int64_t room_side = side + 2 * margin;
 
     /// The results of visibility tests of a light.
@@ -50,12 +50,12 @@ private:
     };
     struct Pixel {
         Seen seen;      ///< Through its middle.
-        Colour tone{};  ///< Of what is seen, were nothing hidden.
+        Colour tone{};  ///< Of the seen point, if no light were hidden.
         OfLights<Tally> first, all;
         OfLights<bool> is_partly_hidden;  ///< Here or nearby.
-        bool is_edge = false;             ///< Different things are seen here or beside.
+        bool is_edge = false;             ///< Sees other things than its neighbours.
         bool is_varied = false;           ///< Different colours of one thing.
-        std::int16_t x = 0, y = 0;        ///< In the room.
+        std::int16_t x = 0, y = 0;        ///< Position in the room.
     };
     using Rays = std::array<Seen, first_rays>;
 
@@ -88,7 +88,7 @@ private:
     const Tracer& tracer_;
     const DrawOptions& options_;
     const Effort effort_;
-    std::int64_t left_ = 0, top_ = 0;  ///< Of the room, in the picture.
+    std::int64_t left_ = 0, top_ = 0;  ///< The room's position in the picture.
     std::vector<Pixel> room_;          ///< The tile and the pixels around it.
 };
 

@@ -1,4 +1,4 @@
-// Shading of surfaces from both sides, and of a ground plane that only receives shadows.
+// Shades surfaces from both sides, and a ground plane that only receives shadows.
 #include "render/tracer.h"
 
 #include "picture/srgb.h"
@@ -11,8 +11,8 @@ namespace cascade {
 
 namespace {
 
-constexpr float usual_sun = 0.72F;     ///< The light for which strengths of gloss are.
-constexpr float ground_shade = 0.55F;  ///< How much of the light the ground's shadow takes away.
+constexpr float usual_sun = 0.72F;     ///< The light for which strengths of gloss are given.
+constexpr float ground_shade = 0.55F;  ///< The fraction of light that the ground's shadow removes.
 
 /// The offset from a point on a facet to the smooth surface implied by the vertex normals: J.
 /// Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4.
@@ -85,7 +85,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     Vector3 facet = corners.normal();
     Look look = look_at(ray, hit, width);
     for (float& channel : look.light) channel *= corners.shade;
-    // Both sides are drawn: the visible one faces the viewer.
+    // Both sides are drawn. The visible one faces the viewer.
     if (dot(facet, ray.direction) > 0) facet = -facet;
     const float side = dot(normal, facet) < 0 ? -1.0F : 1.0F;
     if (look.tilt != Vector3{}) normal = unit(normal + look.tilt);
@@ -101,7 +101,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     const Colour soft = lights_.soft(normal);
     const Vector3 onwards = ray.direction - normal * (2 * facing);
     const Colour mirrored = lights_.mirrored(onwards, gloss);
-    // Tilted normals mirror what is below the surface, which hides it.
+    // Tilted normals would mirror points below the surface, which hides them.
     const float above = std::clamp(1 + dot(onwards, facet), 0.0F, 1.0F);
     const float reflected = reflectance(-facing, gloss);
     const float metal = gloss.metalness, dull = 1 - metal;
@@ -122,7 +122,7 @@ Seen Tracer::surface(const Ray& ray, const Hit& hit, float width) const {
     return seen;
 }
 
-/// The background, darkened by the surface's shadow, which is grey in coloured lights, too.
+/// The background, darkened by the surface's shadow, which is grey even in coloured lights.
 Seen Tracer::ground(const Ray& ray) const {
     Seen seen;
     seen.always = background_;
@@ -162,7 +162,7 @@ bool Tracer::sees_sky(const Seen& from, DiscPoint disc) const {
     return !is_blocked({from.place, to_sky}, size_, disc.part);
 }
 
-/// Translucent surfaces block as many tests as the light that they take away.
+/// Translucent surfaces block as many tests as the light that they absorb.
 bool Tracer::is_blocked(const Ray& ray, float reach, float part) const {
     if (!options_.opacity) return caster_.is_blocked(ray, reach);
     float passing = 1, beyond = 0;

@@ -1,7 +1,7 @@
 // The hit of a ray from the camera, and the light that reaches it.
 //
-// The sun is a disc instead of a point, for soft shadows. The sky is all other light; the part of
-// it that a place sees darkens hollows.
+// The sun is a disc instead of a point, for soft shadows. The sky is all other light. The part of
+// it that is visible from a point darkens hollows.
 #pragma once
 
 #include "render/camera.h"
@@ -21,15 +21,15 @@ struct DiscPoint {
 /// The hit of a ray: its light is `always` plus the visible contributions of the sun and the sky.
 struct Seen {
     enum class Kind : std::uint8_t { background, ground, surface };
-    Kind kind = Kind::background;  ///< The other two are lit by the sun and the sky.
-    bool is_copy = false;          ///< Of a small mesh.
+    Kind kind = Kind::background;  ///< The sun and the sky light the other two.
+    bool is_copy = false;          ///< A hit of a small mesh.
     bool is_translucent = false;   ///< The ray continues through it.
     Colour always{0, 0, 0};
     Colour of_sun{0, 0, 0}, of_sky{0, 0, 0};
     Vector3 place, normal;
 };
 
-/// Refers to its arguments, which must outlive it. Safe to use from several threads at once.
+/// Its arguments must outlive it. Several threads may use it at once.
 class Tracer {
 public:
     Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options);
@@ -38,8 +38,8 @@ public:
     /// first surface that is not invisible. The ray samples a square of `width` pixels.
     Seen trace(float x, float y, float width) const;
 
-    /// Visits all that the same ray sees, from the front to the back: use(seen, weight) with
-    /// weights that sum to 1.
+    /// Visits all points that the same ray sees, from front to back: use(seen, weight) with weights
+    /// that sum to 1.
     template <typename Use>
     void trace_through(float x, float y, float width, const Use& use) const {
         const Ray ray = camera_.ray(x, y);
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    static constexpr float least_rest = 1.0F / 512;  ///< Of the light from behind.
+    static constexpr float least_rest = 1.0F / 512;  ///< Of the light from behind a surface.
 
     Seen surface(const Ray& ray, const Hit& hit, float width) const;
     Seen behind(const Ray& ray) const;
@@ -84,7 +84,7 @@ private:
     const SurfaceLook& look_;
     const DrawOptions& options_;
     Camera camera_;
-    Colour background_;  ///< Its light.
+    Colour background_;  ///< The background's light.
     Box box_;
     float size_;
     float ground_ = 0;
