@@ -7,7 +7,7 @@ namespace cascade {
 
 bool same_secret(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
-    volatile unsigned char difference = 0;  // Volatile: the loop must not end early.
+    volatile unsigned char difference = 0;  // Volatile, so that the loop never ends early.
     for (std::size_t k = 0; k < a.size(); ++k) {
         difference = static_cast<unsigned char>(difference | (a[k] ^ b[k]));
     }

@@ -1,4 +1,4 @@
-// What a page carries that has its engine with it: a script, and the files that it needs.
+// The contents of a page that includes its engine: a script, and the files that it needs.
 #pragma once
 
 #include "core/result.h"
@@ -11,15 +11,15 @@
 
 namespace cascade {
 
-/// The name of the model among the files that are carried: that of no file a script can name.
+/// The model's name among the carried files, which no script can use for a file.
 inline constexpr const char* carried_model_name = "//model";
 
 struct Carried {
     std::string name, text;
     bool is_exact = false;  ///< Steps flush denormal numbers wherever the program does.
-    std::string overrides;  ///< As pictures carry them (run/script/embedded_script.h).
-    /// By the names that the script has for them: NumPy arrays as they are, pictures as their
-    /// pixels (picture/pixel_file.h), and the model with its cells (run/domain/carried_model.h).
+    std::string overrides;  ///< As in pictures (run/script/embedded_script.h).
+    /// By their names in the script: NumPy arrays as they are, pictures as their pixels
+    /// (picture/pixel_file.h), and the model with its cells (run/domain/carried_model.h).
     std::vector<std::pair<std::string, std::string>> files;
 };
 

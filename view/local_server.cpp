@@ -1,7 +1,8 @@
-// The server on Boost.Beast, which no other file includes: its headers take long to compile.
+// The server on Boost.Beast, which no other file includes, because its headers take long to
+// compile.
 //
-// One thread runs everything that follows a network event, so connections need no locks. Other
-// threads only put messages into outboxes and ask that thread to look at them.
+// One thread handles all network events, so connections need no locks. Other threads only put
+// messages into outboxes and ask that thread to check them.
 #include "view/local_server.h"
 
 #include "core/temporary_file.h"
@@ -37,14 +38,14 @@ namespace {
 
 class Connection;
 
-/// For how long pages may answer when the server says goodbye, and strangers read why they are
+/// The time for pages to answer the server's goodbye, and for strangers to read why they are
 /// refused.
 constexpr std::chrono::milliseconds farewell_time{500};
 
-/// The server whose thread this is.
+/// The server that runs in this thread.
 thread_local const void* server_of_this_thread = nullptr;
 
-/// A program that is started to show the page must not keep the port.
+/// A program that is started to show the page must not inherit the port.
 template <typename Socket>
 void close_on_exec(Socket& socket) {
     ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
@@ -79,7 +80,7 @@ public:
     std::string token;
     std::string policy;
     std::optional<Admission> admission;
-    std::set<Connection*> connections;  ///< Of the server's thread.
+    std::set<Connection*> connections;  ///< Only for the server's thread.
     std::uint64_t last_connection = 0;  ///< Likewise.
 
 private:
@@ -92,7 +93,7 @@ private:
     std::mutex pages_mutex_;
     std::map<PageId, PageLine> pages_;
     PageId last_page_ = 0;
-    std::mutex stop_mutex_;  ///< Held while the thread is waited for.
+    std::mutex stop_mutex_;  ///< Held while waiting for the thread.
     bool is_closing_ = false;
     // Declared after `connections`, which connections leave when `io_` destroys them.
     asio::io_context io_{1};
@@ -100,7 +101,7 @@ private:
     std::thread thread_;
 };
 
-/// One connection: HTTP requests, one after another, until one of them makes it a page's WebSocket.
+/// One connection: HTTP requests, one after another, until one turns it into a page's WebSocket.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(Server& server, tcp::socket socket)
@@ -115,12 +116,12 @@ public:
     Connection& operator=(const Connection&) = delete;
 
     void read_request();
-    /// Sends what waits for the page, if nothing is being sent.
+    /// Sends what waits for the page, unless a message is being sent.
     void send_waiting();
     void say_goodbye();
-    /// May it be closed to make room? A page is at home here, and what is closed leaves soon.
+    /// May it be closed to make room? Pages stay, and closed connections leave soon.
     bool is_stranger() const { return page_ == 0 && !is_closed_; }
-    const std::uint64_t number;  ///< In order of their arrival.
+    const std::uint64_t number;  ///< In order of arrival.
     void close() {
         is_closed_ = true;
         patience_.cancel();
@@ -142,7 +143,7 @@ private:
     beast::flat_buffer buffer_;
     std::optional<http::request_parser<http::empty_body>> parser_;
     http::response<http::span_body<const char>> response_;
-    PageId page_ = 0;  ///< 0 before it is one.
+    PageId page_ = 0;  ///< 0 until it is a page.
     bool is_closed_ = false;
     std::shared_ptr<Outbox> outbox_;
     std::optional<Outgoing> sending_;
@@ -220,8 +221,7 @@ void Connection::answer(unsigned status, std::string_view type, std::string_view
     http::async_write(stream_.next_layer(), response_, then);
 }
 
-/// Reads what a stranger still sends: closing a socket with unread bytes would take back the
-/// answer.
+/// Reads what a stranger still sends, because closing a socket with unread bytes loses the answer.
 void Connection::wait_for_end() {
     buffer_.clear();
     const auto then = [self = shared_from_this()](error_code error, std::size_t) {
@@ -235,7 +235,7 @@ void Connection::open_page() {
     if (server_.count_pages() >= server_.limits.pages) {
         return refuse({503, "Too many pages are open."});
     }
-    stream_.next_layer().expires_never();  // The WebSocket has a clock of its own.
+    stream_.next_layer().expires_never();  // The WebSocket has a timer of its own.
     stream_.set_option(websocket::stream_base::timeout{server_.limits.request_time,
                                                        server_.limits.idle_time, true});
     stream_.read_message_max(server_.limits.message_bytes);
@@ -268,7 +268,7 @@ void Connection::read_text() {
     stream_.async_read(buffer_, then);
 }
 
-/// Its goodbye is answered at once, but a page may keep its end of the connection open.
+/// Its goodbye is answered at once, but a page may leave its end of the connection open.
 void Connection::expect_end() {
     patience_.expires_after(farewell_time);
     patience_.async_wait([self = shared_from_this()](error_code error) {
@@ -307,7 +307,7 @@ Result<void> Server::start() {
     try {
         if (auto opened = open_doors(); !opened) return opened;
         admission.emplace(port, token);
-        // Scripts, styles and connections of this server only; embedded nowhere.
+        // Scripts, styles and connections only from this server, and no embedding elsewhere.
         policy = fmt::format(
             "default-src 'self'; img-src 'self' blob: data:; worker-src 'self' blob:; "
             "connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}; base-uri 'none'; "
@@ -326,7 +326,7 @@ Result<void> Server::start() {
     return {};
 }
 
-/// Opens a free port of 127.0.0.1, and the same one of ::1 where there is IPv6.
+/// Opens a free port of 127.0.0.1, and the same one of ::1 if there is IPv6.
 Result<void> Server::open_doors() {
     constexpr int most_tries = 16;
     for (int k = 0; k < most_tries; ++k) {
@@ -344,7 +344,7 @@ Result<void> Server::open_doors() {
         six.open(tcp::v6(), error);
         if (!error) six.set_option(asio::ip::v6_only(true), error);
         if (!error) six.bind({asio::ip::address_v6::loopback(), port}, error);
-        // Whoever has this port there would be served to a browser that tries ::1 first.
+        // A browser that tries ::1 first would reach whoever has this port there.
         if (error == asio::error::address_in_use) continue;
         if (!error) six.listen(asio::socket_base::max_listen_connections, error);
         if (error) return {};
@@ -358,7 +358,7 @@ Result<void> Server::open_doors() {
 void Server::accept(tcp::acceptor& door) {
     door.async_accept([this, &door](error_code error, tcp::socket socket) {
         if (is_closing_) return;
-        // Descriptors may have run out: the thread would spin until one is free.
+        // If descriptors have run out, the thread would spin until one is free.
         if (error) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         if (!error && make_room()) {
             close_on_exec(socket);
@@ -369,8 +369,8 @@ void Server::accept(tcp::acceptor& door) {
     });
 }
 
-/// Closes the connection that has been here longest without becoming a page, so that idle strangers
-/// do not lock pages out. False if there is none.
+/// Closes the oldest connection that has not become a page, so that idle strangers do not lock
+/// pages out. Returns false if there is none.
 bool Server::make_room() {
     if (connections.size() < limits.connections) return true;
     Connection* oldest = nullptr;

@@ -1,4 +1,4 @@
-// What waits to be sent to one page: every text in order, and the newest frame of each kind.
+// The messages that wait for one page: every text in order, and the newest frame of each kind.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// Bytes that are sent, shared by the pages that receive them.
+/// Bytes to send, shared by the pages that receive them.
 using SharedBytes = std::shared_ptr<const std::string>;
 
 /// A message on its way out.
@@ -21,24 +21,24 @@ struct Outgoing {
     bool is_text = false;
 };
 
-/// Filled by any thread, emptied by one. A slow reader costs no more than one frame of each kind
-/// and a bounded amount of text.
+/// Any thread fills it, and one empties it. A slow reader costs at most one frame of each kind and
+/// a bounded amount of text.
 class Outbox {
 public:
     explicit Outbox(std::size_t most_text) : most_text_(most_text) {}
 
     enum class Added {
-        sleeping,  ///< The sender is to be woken.
-        awake,     ///< The sender will come by.
-        overflow,  ///< More text waits than is allowed; nothing was added.
+        sleeping,  ///< The sender must be woken.
+        awake,     ///< The sender will check the outbox.
+        overflow,  ///< Too much text waits. This one was dropped.
     };
 
     Added add_text(std::string text);
-    /// Replaces a frame of the same kind that waits.
+    /// Replaces a waiting frame of the same kind.
     Added add_frame(int kind, SharedBytes bytes);
 
-    /// The next message: texts first, then the kind of frame that has waited longest. Nothing if
-    /// the outbox is empty; then the sender sleeps until it is woken.
+    /// The next message: texts first, then the kind of frame that has waited longest. nullopt if
+    /// the outbox is empty. Then the sender sleeps until it is woken.
     std::optional<Outgoing> next();
 
 private:

@@ -21,12 +21,12 @@ namespace {
 using Json = nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "planes are sent as they lie in memory");
 
-/// Texts of users may hold bytes that are no UTF-8.
+/// Users' texts may hold bytes that are not UTF-8.
 std::string print(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// A position in a text as line, from 1, and column of JavaScript, from 0.
+/// A position in a text: a line, from 1, and a column as in JavaScript, from 0.
 Json place_of(std::string_view text, std::size_t byte) {
     const std::string_view before = text.substr(0, byte);
     const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0.
@@ -34,7 +34,7 @@ Json place_of(std::string_view text, std::size_t byte) {
     return {line, count_utf16_units(before.substr(start))};
 }
 
-/// Their places are left out where they are in other texts, such as an option.
+/// Leaves out source locations in other texts, such as an option.
 Json print_diagnostics(const Diagnostics& diagnostics, const Sources& sources,
                        std::string_view text) {
     Json list = Json::array();
@@ -58,7 +58,7 @@ Json print_failure(const Failure& failure) {
 }
 
 /// Sliders: the parameters with a range that are one number for all cells, of stages that have
-/// begun. A parameter of several stages is named with its stage.
+/// begun. A parameter of several stages has its stage in its name.
 Json print_controls(const LiveRun& run) {
     Json controls = Json::array();
     const Program& program = *run.script().program;
@@ -81,7 +81,7 @@ Json print_controls(const LiveRun& run) {
     return controls;
 }
 
-/// The species of the current stage, that which its pictures show first.
+/// The species of the current stage, led by the one that its pictures show.
 Json print_species(const LiveRun& run) {
     Json names = Json::array();
     const Program& program = *run.script().program;
@@ -96,14 +96,14 @@ Json print_species(const LiveRun& run) {
     return names;
 }
 
-/// What strokes change: species, and whether cells that crawl are there at all.
+/// The targets of strokes: species, and whether there are crawling cells at all.
 Json print_brushes(const LiveRun& run) {
     Json names = print_species(run);
     if (run.script().program->system_of(run.place().stage).cells) names.push_back("remove");
     return names;
 }
 
-/// What the arrays of cells hold.
+/// The contents of the arrays of cells.
 Json print_cells(const ShownCells& cells) {
     std::size_t vertices = 0, triangles = 0;
     for (const TriangleMesh& mesh : cells.meshes) {
@@ -168,7 +168,7 @@ Json print_header(const Snapshot& snapshot) {
     return header;
 }
 
-/// A frame that begins with its header, and has room for more bytes.
+/// A frame that begins with its header, with room for more bytes.
 std::string begin_frame(const Json& json, std::size_t more) {
     std::string header = print(json);
     header.resize((header.size() + 3) / 4 * 4, ' ');

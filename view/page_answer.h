@@ -1,5 +1,4 @@
-// What a page is told: JSON texts, and snapshots as binary frames. spec/page.md has the
-// layout.
+// Messages to a page: JSON texts, and snapshots as binary frames. spec/page.md has the layout.
 #pragma once
 
 #include "run/pictures/shown_surface.h"
@@ -14,7 +13,7 @@ namespace cascade {
 /// The palettes, which do not change while a page is open.
 std::string print_palettes();
 
-/// The systems of the library, each with a script to start from and the words to search in.
+/// The systems of the library, each with a script to start from and words for searching.
 std::string print_systems();
 
 /// The script of a run, its parameters with a range, for sliders, and the species of the current
@@ -25,18 +24,18 @@ std::string print_script(const LiveRun& run);
 std::uint64_t version_of_script(const Snapshot& snapshot);
 
 /// The answer to the message `id`. Diagnostics in `text`, the script as the page sees it, carry
-/// their place in it.
+/// their location in it.
 std::string print_answer(std::uint64_t id, const Accepted<void>& result, std::string_view text);
 
-/// The answer to a message that could not be read, or obeyed.
+/// The answer to a message that could not be read or obeyed.
 std::string print_failure(std::uint64_t id, const Failure& failure);
 
 /// A snapshot: the size of the header, as 4 bytes, least significant first; the header, JSON,
-/// filled with blanks to a multiple of 4 bytes; the shown fields, row after row, as binary32.
+/// padded with blanks to a multiple of 4 bytes; the shown fields, row after row, as binary32.
 std::string print_snapshot(const Snapshot& snapshot);
 
-/// A surface with its number, laid out like a snapshot: positions, normals, places of parameters,
-/// triangles, ends of shares, and the shares, each a cell and a weight; each number in 4 bytes.
+/// A surface with its number, laid out like a snapshot: positions, normals, texture coordinates,
+/// triangles, ends of shares, and the shares, each a cell and a weight. Each number has 4 bytes.
 std::string print_surface(const ShownSurface& surface, std::uint64_t number);
 
 }  // namespace cascade

@@ -9,7 +9,7 @@ namespace cascade {
 
 PageFiles page_files();
 
-/// The script of the worker in which a page runs an engine that it carries.
+/// The script of the worker in which a page runs its own engine.
 std::string_view page_worker();
 
 }  // namespace cascade

@@ -20,7 +20,7 @@ constexpr std::int64_t most_steps = std::int64_t{1} << 53;  ///< Exact in the nu
 constexpr std::int64_t largest_scale = 64;
 constexpr std::int64_t most_stages = 1'000'000;
 
-/// Reads the fields of a message; fault() says what is wrong with the first wrong one.
+/// Reads the fields of a message. fault() describes the first wrong one.
 class FieldReader {
 public:
     explicit FieldReader(const Json& object) : object_(object) {}
@@ -35,7 +35,7 @@ public:
     std::int64_t whole(const char* name, std::int64_t low, std::int64_t high) {
         const Json* const field = find(name);
         if (field != nullptr && field->is_number_integer()) {
-            // Numbers above the largest signed one are kept as unsigned ones.
+            // Numbers above the largest signed one are stored as unsigned ones.
             const bool is_large = field->is_number_unsigned() &&
                                   field->get<std::uint64_t>() > static_cast<std::uint64_t>(high);
             const auto number = is_large ? high + 1 : field->get<std::int64_t>();
@@ -45,7 +45,7 @@ public:
         return low;
     }
 
-    /// From 0 to 1.
+    /// A number from 0 to 1.
     double part(const char* name) {
         const Json* const field = find(name);
         if (field != nullptr && field->is_number()) {
@@ -70,7 +70,7 @@ public:
         return 0;
     }
 
-    /// From a number to another one, which may be smaller.
+    /// A pair of numbers, of which the second may be smaller.
     ValueRange range(const char* from, const char* to) {
         const ValueRange range{number(from), number(to)};
         if (range.low == range.high) complain(to, fmt::format("another number than '{}'", from));
@@ -83,7 +83,7 @@ public:
         return axis.value_or(Axis::z);
     }
 
-    /// False if there is none.
+    /// False if absent.
     bool flag(const char* name) {
         const Json* const field = find(name);
         if (field == nullptr) return false;

@@ -1,5 +1,4 @@
-// What a page says: one JSON object a message, read into typed values. spec/page.md lists
-// them.
+// Messages from a page: one JSON object each, read into typed values. spec/page.md lists them.
 #pragma once
 
 #include "core/result.h"
@@ -13,27 +12,27 @@
 
 namespace cascade {
 
-/// The name by which the page is known over several connections.
+/// The name that identifies the page over several connections.
 struct NamePage {
     std::string name;
 };
-/// The page has drawn what it has and takes the next snapshot.
+/// The page has drawn its snapshot and takes the next one.
 struct NextSnapshot {};
 // clang-format off
-// What a page asks, without changing anything.
+// Questions of a page, which change nothing.
 struct AskForLog {};
-struct AskForNames { std::string text; };  ///< That may stand in place of its last word.
+struct AskForNames { std::string text; };  ///< Candidates for its last word.
 struct AskAboutName { std::string text; };  ///< About its last word.
 /// The spread of each species, and its value in a cell: column + width · row, with rows numbered
-/// through all slices. No cell if it is −1.
+/// through all slices. −1 for no cell.
 struct AskForValues { std::int64_t cell = -1; };
-/// Distribution and spectrum of a species, and how it and another one occur together.
+/// Distribution and spectrum of a species, and its joint distribution with another one.
 struct AskForMeasures { std::string x, y; };
 /// A PNG that carries the session.
 struct AskForPicture { PictureRequest request; };
 // clang-format on
 
-/// The page asks for the mesh of the surface that the newest snapshot lies on.
+/// The page asks for the mesh of the newest snapshot's surface.
 struct AskForSurface {};
 
 using PageQuestion =
@@ -42,17 +41,17 @@ using PageRequest =
     std::variant<SessionCommand, NextSnapshot, NamePage, AskForSurface, PageQuestion>;
 
 struct PageMessage {
-    std::uint64_t id = 0;  ///< Chosen by the page; the answer carries it. 0 if there was none.
+    std::uint64_t id = 0;  ///< Chosen by the page for the answer. 0 if there was none.
     PageRequest request;
 };
 
-/// The text that messages about a command are about; empty if there is none.
+/// The text that messages about a command refer to; empty if there is none.
 std::string text_of(const SessionCommand& command);
 
 /// The most bytes of a message.
 inline constexpr std::size_t largest_page_message = std::size_t{1} << 20;
 
-/// Fails, with a sentence that says what is wrong, on everything that is no message of a page.
+/// Fails, with a sentence that says what is wrong, on text that is no message of a page.
 Result<PageMessage> parse_page_message(std::string_view text);
 
 }  // namespace cascade

@@ -49,8 +49,7 @@ Formula formula_of_item(ItemId item) {
     return formula;
 }
 
-/// The values of an item now; outside of a mask they are NaN. Those of cells that crawl are one
-/// row.
+/// The present values of an item, NaN outside a mask. Values of crawling cells form one row.
 Field values_of(const LiveRun& run, StageItem at) {
     Field values = std::move(run.simulation().evaluate(formula_of_item(at.item), at.stage)[0]);
     const Tissue* const cells = run.simulation().state(at.stage).tissue.get();
@@ -143,7 +142,7 @@ public:
         : low_(spread.smallest),
           width_((spread.largest - spread.smallest) / static_cast<double>(count)),
           count_(count) {}
-    /// Of a finite number of the spread.
+    /// The bin of a finite number of the spread.
     std::size_t operator()(double value) const {
         const double place = width_ > 0 ? (value - low_) / width_ : 0;
         return std::min(static_cast<std::size_t>(std::max(place, 0.0)), count_ - 1);
@@ -189,8 +188,8 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     for (const std::size_t k : {0, 1}) {
         reply[k == 0 ? "x" : "y"] = {spreads[k].smallest, spreads[k].largest};
     }
-    // Neither a model nor cells that crawl have waves along axes, and large fields would stop the
-    // run for too long.
+    // Neither a model nor crawling cells have waves along axes, and large fields would stop the run
+    // for too long.
     const bool is_small = grid.cell_count() <= most_cells_of_spectrum;
     if (is_small && !simulation.model() && !system.cells) add_spectrum(reply, samples[0]);
     return reply;
@@ -213,7 +212,7 @@ std::string print_reply(std::uint64_t id, const PageQuestion& question, LiveRun&
     reply["id"] = id;
     reply["seconds"] =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    // Texts of users may hold bytes that are no UTF-8.
+    // Users' texts may hold bytes that are not UTF-8.
     return reply.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

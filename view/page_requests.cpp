@@ -12,7 +12,7 @@ constexpr std::size_t most_names = 64, most_answers = 256;
 
 struct PageRequests::Page {
     PageId connection = 0;
-    std::uint64_t last = 0;                        ///< Of the requests that were obeyed.
+    std::uint64_t last = 0;                        ///< Id of the last obeyed request.
     std::map<std::uint64_t, std::string> answers;  ///< The newest ones.
 };
 

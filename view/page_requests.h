@@ -1,5 +1,5 @@
-// Which requests of each page were obeyed. A page that has lost its connection sends again what was
-// not answered, over another connection; nothing is obeyed twice.
+// Records which requests of each page were obeyed. A page that has lost its connection sends
+// unanswered requests again over another one. No request is obeyed twice.
 #pragma once
 
 #include "view/local_server.h"
@@ -14,31 +14,31 @@
 
 namespace cascade {
 
-/// Every function may be called from any thread.
+/// Any thread may call every function.
 class PageRequests {
 public:
     struct Page;
 
-    /// A page by the name that it has chosen, over a connection from now on. Without a call a page
-    /// is its connection.
+    /// Identifies a page by its chosen name, over this connection from now on. Without a call, a
+    /// page is its connection.
     void name(PageId connection, const std::string& name);
     void close(PageId connection);
 
     struct Begun {
         std::shared_ptr<Page> page;
         bool is_new = true;                 ///< Obey it, and call finish().
-        std::optional<std::string> answer;  ///< Of a request that was obeyed before.
+        std::optional<std::string> answer;  ///< If the request was obeyed before.
     };
-    /// A request; ids of a page grow. 0 is always new.
+    /// Begins a request. A page's ids grow. 0 is always new.
     Begun begin(PageId connection, std::uint64_t id);
-    /// Keeps an answer, and returns the page's present connection, to which it is to be sent.
+    /// Stores an answer, and returns the page's present connection, which must receive it.
     PageId finish(Page& page, std::uint64_t id, const std::string& answer);
 
 private:
     std::mutex mutex_;
     std::map<PageId, std::shared_ptr<Page>> connected_;
     std::map<std::string, std::shared_ptr<Page>> named_;
-    std::deque<std::string> names_;  ///< The oldest first.
+    std::deque<std::string> names_;  ///< Oldest first.
 };
 
 }  // namespace cascade

@@ -26,21 +26,20 @@ namespace cascade {
 
 namespace {
 
-// Makes the meshes of surfaces for pages, in a thread of its own: a large model takes seconds.
+// Makes surface meshes for pages, in a thread of its own, because a large model takes seconds.
 
 class SurfaceSender {
 public:
-    /// `send` gets a page and its frame; null if memory is short.
+    /// `send` gets a page and its frame; null if memory runs out.
     using Send = std::function<void(std::uint64_t page, SharedBytes frame)>;
 
     explicit SurfaceSender(Send send);
-    /// Waits for the mesh that is being made.
+    /// Waits for the mesh being made.
     ~SurfaceSender();
     SurfaceSender(const SurfaceSender&) = delete;
     SurfaceSender& operator=(const SurfaceSender&) = delete;
 
-    /// Sends a surface, whose number is that of its snapshots. The last one is kept for other
-    /// pages.
+    /// Sends a surface, numbered as in its snapshots. Stores the last one for other pages.
     void ask(std::uint64_t page, std::shared_ptr<const SurfaceSource> surface,
              std::uint64_t number);
 
@@ -49,7 +48,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// One thread, so that the steps of the session keep theirs.
+/// Uses one thread, so that the session's steps keep theirs.
 SharedBytes frame_of(const SurfaceSource& surface, std::uint64_t number) {
     try {
         Team team(1);
@@ -68,7 +67,7 @@ struct SurfaceSender::State {
     };
 
     Send send;
-    std::mutex mutex;  ///< Of the wishes.
+    std::mutex mutex;  ///< Protects the wishes.
     std::condition_variable has_wish;
     std::deque<Wish> wishes;
     bool is_ending = false;
@@ -120,7 +119,7 @@ void SurfaceSender::ask(std::uint64_t page, std::shared_ptr<const SurfaceSource>
     state_->has_wish.notify_all();
 }
 
-/// A page asks for one snapshot after the other, so one that draws slowly gets fewer.
+/// A page asks for one snapshot after the other, so a page that draws slowly gets fewer.
 struct OpenPage {
     bool wants_snapshot = false;
     std::uint64_t seen = 0;  ///< The number of its last snapshot.
@@ -131,14 +130,14 @@ constexpr int snapshot_frame = 0, surface_frame = 1;
 }  // namespace
 
 struct PageServer::State {
-    std::mutex mutex;  ///< Of all below but what locks for itself.
+    std::mutex mutex;  ///< Protects all below, except what locks for itself.
     std::condition_variable is_wanted;
     std::map<PageId, OpenPage> pages;
     PageRequests requests;
     bool is_ending = false;
     bool offers_library = false;
-    std::uint64_t told_script = 0;  ///< Of the sending thread.
-    // The session ends before the server, to which its answers go.
+    std::uint64_t told_script = 0;  ///< Only for the sending thread.
+    // The session ends before the server, which receives its answers.
     std::optional<LocalServer> server;
     std::unique_ptr<Session> session;
     std::optional<SurfaceSender> surfaces;

@@ -1,4 +1,4 @@
-// A session in a browser: what pages ask goes to the session, and its snapshots go to the pages.
+// A session in a browser: pages' requests go to the session, and its snapshots go to the pages.
 #pragma once
 
 #include "run/session/live_run.h"
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// Serves one session to the pages that are open, which all see and steer the same one.
+/// Serves one session to the open pages, which all see and steer the same one.
 class PageServer {
 public:
     /// Begins a session of a run and opens its page. With `offers_library`, pages receive the
@@ -20,7 +20,7 @@ public:
     ~PageServer();
 
     std::uint16_t port() const;
-    std::string address() const;  ///< As LocalServer::address().
+    std::string address() const;  ///< Same as LocalServer::address().
 
 private:
     struct State;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int smallest = 12;
 
-/// Scripts of the page and the code of kernels, and nothing from anywhere else.
+/// Allows scripts of the page and the code of kernels, and no other sources.
 constexpr std::string_view policy =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
     "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; "

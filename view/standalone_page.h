@@ -11,14 +11,14 @@
 
 namespace cascade {
 
-/// The most bytes of an engine that is read.
+/// The largest engine, in bytes, that is read.
 inline constexpr std::uint64_t largest_engine = std::uint64_t{1} << 28;
 
-/// The engine beside this program, or in the folder of its libraries: engine.wasm, which
-/// tab/engine.cmake builds. Fails if it is not there.
+/// The engine next to this program, or in the folder of its libraries: engine.wasm, which
+/// tab/engine.cmake builds. Fails if it is missing.
 Result<std::string> read_engine();
 
-/// The page as HTML, with what it carries.
+/// The page as HTML, with all that it carries.
 std::string standalone_page(const Carried& carried, std::string_view engine);
 
 }  // namespace cascade
