@@ -1,5 +1,5 @@
-// Threads paint bands of rows of texels, each texel as the mean of its samples in linear light;
-// then gaps are filled and colours stored.
+// Threads paint bands of rows of texels, each texel as the mean of its samples in linear light.
+// Then gaps are filled and colours stored.
 #include "export/bake.h"
 
 #include "core/check.h"
@@ -24,7 +24,7 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t rows_of_band = 16;  ///< Texels; a thread's unit of work.
-constexpr double most_covered_area = 64;   ///< Beyond it, the texture repeats all over the model.
+constexpr double most_covered_area = 64;   ///< Above it, the texture repeats all over the model.
 
 tl::unexpected<Failure> no_area() {
     return failure("the model's texture coordinates have no area in the texture",
@@ -34,12 +34,12 @@ tl::unexpected<Failure> no_area() {
 /// Working memory of one thread, allocated in advance.
 struct Scratch {
     std::unique_ptr<SamplePainter> painter;
-    std::vector<std::uint32_t> owners = {};     ///< Of the samples of a band.
-    std::span<const std::uint32_t> row = {};    ///< Those of a row of texels.
-    std::vector<Colour> lights = {};            ///< Of the samples of a row of texels.
+    std::vector<std::uint32_t> owners = {};     ///< For the samples of a band.
+    std::span<const std::uint32_t> row = {};    ///< For a row of texels.
+    std::vector<Colour> lights = {};            ///< For the samples of a row of texels.
     std::vector<float> heights = {};            ///< Likewise.
     std::vector<OfParts<float>> material = {};  ///< Likewise.
-    std::vector<SurfacePlace> places = {};      ///< Of the samples of a texel with heights.
+    std::vector<SurfacePlace> places = {};      ///< For the samples of a texel with heights.
     std::int64_t covered = 0;                   ///< A number of samples.
     TextureLayout::Overlap overlap = {};
 };
@@ -126,7 +126,7 @@ private:
         return static_cast<std::size_t>(j * layout_.width() + i);
     }
 
-    /// Paints the samples of a row span by span; the samples of a span are in one triangle.
+    /// Paints the samples of a row span by span. The samples of a span are in one triangle.
     void paint_samples(std::int64_t y, std::int64_t j, Scratch& own) const {
         for (std::int64_t i = 0; i < layout_.width();) {
             const std::uint32_t owner = own.row[sample(i, j)];
@@ -182,7 +182,7 @@ private:
         if (maps_.normals) turn_texel(x, y, own);
     }
 
-    /// The mean height of a texel's samples. False if none is finite.
+    /// Computes the mean height of a texel's samples. Returns false if none is finite.
     bool lift_texel(std::int64_t x, std::int64_t y, const Scratch& own) {
         double sum = 0, finite = 0;
         visit_samples(x, own, [&](std::int64_t i, std::int64_t j) {
@@ -322,7 +322,7 @@ private:
     CornerNormals normals_;
     RenderVertices vertices_;
     PartialTexture colour_, relief_, slopes_;
-    std::array<PartialTexture, 3> material_;  ///< Parts of the material, three to each.
+    std::array<PartialTexture, 3> material_;  ///< Parts of the material, three in each.
 };
 
 }  // namespace

@@ -21,29 +21,29 @@ struct BakeOptions {
 
 /// Normals are relative to the tangents of render_vertices().
 struct Bake : MaterialMaps {
-    double covered = 0;      ///< Fraction of the samples that are on the surface.
+    double covered = 0;      ///< Fraction of the samples on the surface.
     double overlapping = 0;  ///< Fraction of the surface covered by another part in the texture.
-    double shared = 0;       ///< Fraction of the samples that are on several parts of the surface.
-    std::vector<std::string> warnings;  ///< A sentence each.
+    double shared = 0;       ///< Fraction of the samples on several parts of the surface.
+    std::vector<std::string> warnings;  ///< One sentence each.
 };
 
-/// Of the largest maps.
+/// For the largest maps.
 inline constexpr double most_samples =
     4.0 * BakeOptions::largest_texture * BakeOptions::largest_texture;
 
 /// Checks that the model has texture coordinates suitable for baking maps of this many samples, or
 /// the largest ones. Fails, with a hint, if it has none, if they cover less than a sample, or if
-/// they cover the texture many times, as those for repeating textures do.
+/// they cover the texture many times, as coordinates for repeating textures do.
 Result<void> check_bakeable(const SurfaceMesh& mesh, double samples = most_samples);
 
 /// Paints every texel with the mean, in linear light, over its samples on the surface, and
-/// extrapolates to all others. Texture coordinates outside of 0 … 1 repeat the picture. Heights
-/// that are not finite are replaced from their surroundings. The same on any number of threads.
-/// Fails as check_bakeable does, if no sample is on the surface, and if memory is short;
-/// undefined if `cancel` became true.
+/// extrapolates to all others. Texture coordinates outside 0 … 1 repeat the picture. Non-finite
+/// heights are replaced from their surroundings. The same on any number of threads. Fails as
+/// check_bakeable does, if no sample is on the surface, and if memory runs out. Undefined if
+/// `cancel` became true.
 Result<Bake> bake(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
-/// The same of what painters see, of which each thread has one.
+/// The same with painters, of which each thread has one.
 Result<Bake> bake(const SurfaceMesh& mesh, const MakeSamplePainter& painter,
                   const BakeOptions& options, Team& team, const std::atomic<bool>& cancel);
 

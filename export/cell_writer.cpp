@@ -1,4 +1,4 @@
-// Collects the same arrays for both formats; each link is written once, from the lower cell.
+// Collects the same arrays for both formats. The lower cell writes each link.
 #include "export/cell_writer.h"
 
 #include "core/check.h"
@@ -33,7 +33,7 @@ struct Link {
     double weight = 0;
 };
 
-/// Each Voronoi edge once.
+/// The Voronoi edges, each once.
 std::vector<Link> links_of(const SurfaceCells& cells) {
     std::vector<Link> links;
     for (std::uint32_t cell = 0; cell < cells.places.size(); ++cell) {

@@ -19,7 +19,7 @@ struct CellResults {
 
 /// An archive of arrays for numpy.load, all little-endian, for n cells and m links:
 ///
-///     points   n × 3 float64  places of the cells
+///     points   n × 3 float64  positions of the cells
 ///     normals  n × 3 float64  smooth, of length 1
 ///     areas    n     float64
 ///     links    m × 2 uint32   pairs i < j, ascending
@@ -31,12 +31,12 @@ struct CellResults {
 Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                const CellResults& results);
 
-/// VTK's XML PolyData: each cell is a vertex at its place, with its normal, `area`, colour as
+/// VTK's XML PolyData: each cell is a vertex at its position, with its normal, `area`, colour as
 /// `color` and channels as point data.
 std::string encode_vtp(const SurfaceMesh& mesh, const SurfaceCells& cells,
                        const CellResults& results);
 
-/// The bytes of cells in the format of a name's ending, .npz or .vtp; fails on other endings.
+/// The bytes of cells in the format of a name's ending, .npz or .vtp. Fails on other endings.
 template <typename... Cells>
 Result<std::string> encode_cells(const std::filesystem::path& path, const Cells&... cells) {
     if (is_of_format(path, FileFormat::npz)) return encode_npz(cells...);
@@ -44,7 +44,7 @@ Result<std::string> encode_cells(const std::filesystem::path& path, const Cells&
     return failure("a file of cells has a name that ends in .npz or .vtp");
 }
 
-/// Writes encode_cells() atomically. Fails as that, encode_npz and write_file do.
+/// Writes encode_cells() atomically. Fails as encode_cells(), encode_npz and write_file do.
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const SurfaceCells& cells, const CellResults& results);
 

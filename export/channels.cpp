@@ -1,4 +1,4 @@
-// Names in use get underscores; colours are clamped, and NaN has a colour of its own.
+// Names in use get underscores. Colours are clamped, and NaN has a colour of its own.
 #include "export/channels.h"
 
 #include <algorithm>

@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// The distance of knots, in radii of the filter: linear interpolation between them leaves an error
+/// The distance of knots, in radii of the filter. Linear interpolation between them leaves an error
 /// below 1/255 of the range of the values.
 constexpr double knots_apart = 1.0 / 16;
 constexpr std::size_t most_steps = 64;  ///< Samples from one knot to the next.

@@ -8,11 +8,11 @@
 
 namespace cascade {
 
-/// Paints the pattern of cells, bumped by their heights if there are any. What it is made from must
+/// Paints the pattern of cells, bumped by their heights if there are any. The arguments must
 /// outlive it.
 ///
-/// Filtered values vary smoothly within a triangle, but thresholds and places make colours jump. So
-/// the filter is queried at knots along a row of samples, its values are interpolated, and every
+/// Filtered values vary smoothly within a triangle, but thresholds and positions make colours jump.
+/// So the filter is queried at knots along a row of samples, its values are interpolated, and every
 /// sample gets a colour of its own.
 class FieldSamples : public SamplePainter {
 public:

@@ -1,5 +1,5 @@
-// A rim around what is there, then pull and push through a pyramid of halved textures, each texel
-// the mean of those that have values (S. J. Gortler et al., "The Lumigraph", SIGGRAPH 1996).
+// Adds a rim around the filled texels, then pulls and pushes through a pyramid of halved textures
+// (S. J. Gortler et al., "The Lumigraph", SIGGRAPH 1996).
 #include "export/fill_gaps.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int rim = 2;  ///< Texels.
 
-/// Fills the texels that have filled neighbours, those at a side counting twice those at a corner.
+/// Fills texels that have filled neighbours. Neighbours at a side count twice those at a corner.
 void widen(PartialTexture& texture) {
     const std::vector<std::uint8_t> was_filled = texture.is_filled;
     const auto wrapped = [](std::int64_t place, std::int64_t size) {
@@ -21,7 +21,7 @@ void widen(PartialTexture& texture) {
         for (std::int64_t x = 0; x < texture.width; ++x) {
             const auto at = static_cast<std::size_t>(y * texture.width + x);
             if (was_filled[at] != 0) continue;
-            std::array<double, 3> sum{};  // In binary32 it could overflow.
+            std::array<double, 3> sum{};  // Would overflow in binary32.
             double count = 0;
             for (std::int64_t j = -1; j <= 1; ++j) {
                 const std::int64_t line = wrapped(y + j, texture.height) * texture.width;
@@ -43,12 +43,12 @@ void widen(PartialTexture& texture) {
     }
 }
 
-/// Half as wide and high; each texel is the mean of those below it that have values.
+/// Half as wide and high. Each texel is the mean of its fine texels that have values.
 PartialTexture halved(const PartialTexture& fine) {
     PartialTexture coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
     for (std::int64_t y = 0; y < coarse.height; ++y) {
         for (std::int64_t x = 0; x < coarse.width; ++x) {
-            std::array<double, 3> sum{};  // In binary32 it could overflow.
+            std::array<double, 3> sum{};  // Would overflow in binary32.
             double count = 0;
             for (std::int64_t j = 2 * y; j < std::min(2 * y + 2, fine.height); ++j) {
                 for (std::int64_t i = 2 * x; i < std::min(2 * x + 2, fine.width); ++i) {

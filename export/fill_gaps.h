@@ -1,4 +1,4 @@
-// Filling of gaps in a texture from their surroundings.
+// Fills gaps in a texture from their surroundings.
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@ struct PartialTexture {
 };
 
 /// Gives every texel without values numbers that smoothly continue those around it, so that
-/// interpolation and reduced copies of the picture have no artefacts. Within two texels of others,
-/// which renderers mix with them, it is the mean of those next to it; farther away pull and push of
-/// S. Gortler et al., "The Lumigraph" (SIGGRAPH 1996), section 3.4, which sees all that is around.
-/// The picture repeats in all directions. If no texel has values they stay 0.
+/// interpolation and reduced copies of the picture have no artefacts. Within two texels of filled
+/// ones, which renderers mix with them, it is the mean of adjacent texels. Farther away it is the
+/// pull and push of S. Gortler et al., "The Lumigraph" (SIGGRAPH 1996), section 3.4, which uses all
+/// surroundings. The picture repeats in all directions. If no texel has values, they stay 0.
 void fill_gaps(PartialTexture& texture);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Vertices, colours and pictures of one model.
+// Writes vertices, colours and pictures of one model.
 #include "export/glb.h"
 
 #include "core/check.h"
@@ -18,8 +18,8 @@ namespace {
 
 using Json = GlbFile::Json;
 
-/// The part of the screen that a model covers when the next level of detail takes its place, to
-/// that of the level before: each has as many fewer triangles.
+/// The coverage of the screen at which the next level of detail replaces a model, relative to the
+/// previous one. Each level has fewer triangles by the same factor.
 constexpr double coverage_factor = 4;
 
 /// Adds the parts of one model to a file.
@@ -92,7 +92,7 @@ private:
         return level_of(light_of(shown(colours[vertices_.points[vertex]])[channel]), 65535);
     }
 
-    /// What each moment differs by from the mesh.
+    /// Each moment's differences from the mesh.
     Json targets() {
         Json targets = Json::array();
         const std::vector<Vector3d> normals = point_normals(mesh_);
@@ -108,7 +108,7 @@ private:
             if (!moment.points.empty()) {
                 add_shape(moment, normals, target);
             } else {
-                // three.js shows no colours of targets without places.
+                // three.js shows no colours of targets without positions.
                 if (!still) still = file_.add_zeros(vertices_.points.size());
                 target["POSITION"] = *still;
             }
@@ -116,7 +116,7 @@ private:
                 GlbFile::vertex_buffer, "VEC4", vertices_.points.size(),
                 [&](std::size_t k, std::size_t c) {
                     if (c == 3) return 0;
-                    // 32767 stands for 1, as 65535 does in the colours.
+                    // 32767 means 1, as 65535 does in the colours.
                     return (static_cast<int>(level_in(moment.colours, k, c)) - levels[k][c]) / 2;
                 });
             targets.push_back(std::move(target));
@@ -124,7 +124,7 @@ private:
         return targets;
     }
 
-    /// Normals of vertices at creases turn as those of their points do.
+    /// Normals of vertices at creases turn as their points' normals do.
     void add_shape(const GlbMoment& moment, const std::vector<Vector3d>& normals, Json& target) {
         SurfaceMesh moved;
         moved.points = moment.points;
@@ -170,7 +170,7 @@ private:
         return result;
     }
 
-    /// Factors multiply what is in the map, which is 1 for parts that it does not have.
+    /// Factors multiply the map, which is 1 for parts that it lacks.
     void add_surface(Json& material) {
         const std::size_t texture = add_picture(look_.surface_map);
         if (look_.has.occlusion) material["occlusionTexture"] = {{"index", texture}};
@@ -181,7 +181,7 @@ private:
         if (look_.has.metalness) shine["metallicFactor"] = 1.0;
     }
 
-    /// The number of its texture.
+    /// The index of its texture.
     std::size_t add_picture(std::string_view png) {
         const std::size_t view = file_.add_view(0, [&](std::string& bytes) { bytes.append(png); });
         const std::size_t image =
@@ -191,7 +191,7 @@ private:
         return file_.add("textures", std::move(texture));
     }
 
-    /// The one sampler, which says where textures do not repeat. Without it they do.
+    /// The only sampler, which says where textures do not repeat. Without it they do.
     std::size_t sampler() {
         const auto wrap = [&](bool repeats) {
             return repeats ? GlbFile::wrap_repeat : GlbFile::wrap_clamp;
@@ -211,7 +211,7 @@ private:
     std::optional<std::size_t> sampler_;
 };
 
-/// A file without parts whose coordinates begin where those of the mesh are exact.
+/// An empty file whose coordinates begin where the mesh's are exact.
 Result<GlbFile> file_for(const SurfaceMesh& mesh) {
     const SurfaceMesh::Box box = mesh.box();
     const Result<Vector3d> origin = origin_of_glb(mesh.points, box.low, box.high);

@@ -15,17 +15,17 @@
 
 namespace cascade {
 
-/// The appearance of a model; all of it is optional.
+/// The appearance of a model. All of it is optional.
 struct GlbLook {
     std::span<const Colour> colours;  ///< sRGB, one per point of the mesh.
     std::string_view colour_map;      ///< A PNG file; requires texture coordinates.
     std::string_view normal_map;      ///< Likewise, relative to the tangents of render_vertices().
     std::string_view surface_map;     ///< Likewise, packed as in MaterialMaps.
     std::string_view emission_map;    ///< Likewise.
-    MapSet has;                       ///< What the maps hold; of opacity, that of the colours.
+    MapSet has;                       ///< The contents of the maps. Opacity is the colours'.
     bool is_cut = false;              ///< Opacities below ½ are holes, and there are no others.
-    std::array<bool, 2> repeats{true, true};  ///< The maps, along x and y.
-    float roughness = 0.6F;                   ///< 0 … 1, where no map has it.
+    std::array<bool, 2> repeats{true, true};  ///< Along x and y.
+    float roughness = 0.6F;                   ///< 0 … 1, if no map has it.
 };
 
 /// The file in memory: one mesh with smooth normals, and the texture coordinates and tangents that
@@ -38,17 +38,17 @@ Result<std::string> encode_glb(const SurfaceMesh& mesh, const GlbLook& look);
 /// A moment of the growth of a model: numbers at the points of its mesh.
 struct GlbMoment {
     std::vector<Colour> colours;   ///< sRGB.
-    std::vector<Vector3d> points;  ///< Where they are; empty: where the mesh has them.
+    std::vector<Vector3d> points;  ///< Their positions; empty: the mesh's.
 };
 
-/// How a model became what it is.
+/// The history of a model.
 struct GlbGrowth {
-    std::span<const GlbMoment> moments;  ///< Before that of the mesh, the first one first.
-    double seconds = 0;                  ///< From one to the next, above 0.
+    std::span<const GlbMoment> moments;  ///< Earlier than the mesh, in order.
+    double seconds = 0;                  ///< Between two moments, above 0.
 };
 
 /// The same with an animation: each moment is a morph target, with the differences of colours,
-/// places and normals, and between two moments they change evenly. Programs that know no colours of
+/// positions and normals, which change uniformly between two moments. Programs without colours of
 /// morph targets show the mesh as it is. Meshes with texture coordinates keep their tangents.
 Result<std::string> encode_growing_glb(const SurfaceMesh& mesh, const GlbLook& look,
                                        const GlbGrowth& growth);
@@ -59,9 +59,9 @@ struct GlbLevel {
     const GlbLook& look;
 };
 
-/// The same of a model and its coarser levels, finest first, as the extension MSFT_lod has them:
-/// programs that do not know it show the first one. Of the others, level k = 0, 1, … is meant for a
-/// model that covers 4⁻¹⁻ᵏ of the screen or more, and the last one for all that is smaller.
+/// The same for a model and its coarser levels, finest first, by the extension MSFT_lod. Programs
+/// that do not know it show the first one. Of the others, level k = 0, 1, … is meant for a model
+/// that covers at least 4⁻¹⁻ᵏ of the screen, and the last one for all smaller ones.
 Result<std::string> encode_glb(std::span<const GlbLevel> levels);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// A header of 12 bytes, then the chunks of JSON and of the buffer, each filled up to 4 bytes.
+// A header of 12 bytes, then the chunks of JSON and of the buffer, each padded to 4 bytes.
 #include "export/glb_file.h"
 
 #include "export/channels.h"

@@ -19,7 +19,7 @@
 
 namespace cascade {
 
-/// Numbers of one part are its place in the list of its kind.
+/// A part's number is its index in the list of its kind.
 class GlbFile {
 public:
     using Json = nlohmann::ordered_json;
@@ -28,19 +28,19 @@ public:
     static constexpr int vertex_buffer = 34962, index_buffer = 34963;
     static constexpr int wrap_repeat = 10497, wrap_clamp = 33071;
 
-    /// Begins without parts; all nodes will be in the one scene, moved by `origin`.
+    /// Begins without parts. All nodes will be in the one scene, moved by `origin`.
     explicit GlbFile(Vector3d origin = {});
 
     /// Appends to a list: "nodes", "meshes", "materials", "images", "textures",
     /// "samplers", "animations".
     std::size_t add(const char* list, Json part);
-    /// A node, which is moved by the origin. One that is not in the scene belongs to another one.
+    /// A node, moved by the origin. If it is not in the scene, it must belong to another node.
     std::size_t add_node(Json node, bool is_in_scene = true);
     /// An extension that readers may ignore.
     void use(const char* extension);
     void require(const char* extension);
 
-    /// A view of the bytes that `write` appends; `target` is 0 for what is neither vertices nor
+    /// A view of the bytes that `write` appends. `target` is 0 unless these are vertices or
     /// indices.
     template <typename Write>
     std::size_t add_view(int target, const Write& write) {
@@ -53,8 +53,8 @@ public:
         return views_.size() - 1;
     }
 
-    /// An accessor of `count` elements of a shape such as "VEC3"; `number(k, c)` is component c of
-    /// element k, and its type that of the file. Integers are fractions of their largest value.
+    /// An accessor of `count` elements of a shape such as "VEC3". `number(k, c)` is component c of
+    /// element k, and its type is the file's. Integers are fractions of their largest value.
     template <typename Number, typename Take>
     std::size_t add_numbers(int target, std::string_view shape, std::size_t count,
                             const Take& number) {
@@ -75,7 +75,7 @@ public:
         return accessors_.size() - 1;
     }
 
-    /// Positions of vertices relative to the origin, with their bounds; `place(k)` in double.
+    /// Positions of vertices relative to the origin, with their bounds. `place(k)` is in double.
     template <typename Take>
     std::size_t add_places(std::size_t count, const Take& place) {
         return add_bounded(vertex_buffer, "VEC3", count, [&](std::size_t k, std::size_t c) {
@@ -107,7 +107,7 @@ public:
     /// `count` vectors of zeros, which take no bytes.
     std::size_t add_zeros(std::size_t count);
 
-    /// The corners of triangles between `vertices` vertices, in as few bytes as they need.
+    /// The corners of triangles between `vertices` vertices, in as few bytes as possible.
     std::size_t add_corners(std::span<const std::array<std::uint32_t, 3>> triangles,
                             std::size_t vertices, bool is_compact);
 
@@ -137,14 +137,14 @@ private:
     Json views_ = Json::array(), accessors_ = Json::array();
 };
 
-/// Where coordinates of a file begin: 0 if binary32 represents all of them, otherwise their middle.
-/// `low` and `high` bound everything. Fails if binary32 cannot represent its size.
+/// The origin of a file's coordinates: 0 if binary32 represents all of them, otherwise their
+/// middle. `low` and `high` bound everything. Fails if binary32 cannot represent its size.
 Result<Vector3d> origin_of_glb(std::span<const Vector3d> points, Vector3d low, Vector3d high);
 
-/// A material of a roughness that is not metallic.
+/// A non-metallic material of this roughness.
 GlbFile::Json plain_material(float roughness);
 
-/// Adds a model with its look. Returns the number of its mesh.
+/// Adds a model with its look. Returns the index of its mesh.
 std::size_t add_model(const SurfaceMesh& mesh, const GlbLook& look, GlbFile& file,
                       const GlbGrowth& growth = {});
 

@@ -1,4 +1,4 @@
-// Few colours that stand for many.
+// Chooses few colours to represent many.
 #pragma once
 
 #include "core/palette.h"
@@ -12,7 +12,7 @@ namespace cascade {
 /// Groups of similar colours.
 struct ColourGroups {
     std::vector<Colour> means;
-    std::vector<std::uint32_t> group;  ///< Of each colour.
+    std::vector<std::uint32_t> group;  ///< For each colour.
 };
 
 /// Groups colours by median cut: P. Heckbert, "Color Image Quantization for Frame Buffer Display",

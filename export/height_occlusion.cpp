@@ -1,5 +1,5 @@
-// A march from each cell in each direction, in steps that grow with the distance, until nothing is
-// high enough to be seen above what has been passed.
+// Marches from each cell in each direction, in steps that grow with the distance, until no height
+// could be seen above those already passed.
 #include "export/height_occlusion.h"
 
 #include "core/check.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t directions = 16;
 constexpr double least_rise = 0.02;
-constexpr double step_part = 0.125;  ///< Of the distance; at first steps are a cell.
+constexpr double step_part = 0.125;  ///< Relative to the distance. The first steps are a cell.
 
 class Horizon {
 public:

@@ -1,4 +1,4 @@
-// Copies that share a mesh and a material are one node; nodes share the vertices of their mesh.
+// Copies that share a mesh and a material are one node. Nodes share the vertices of their mesh.
 #include "export/instanced_model.h"
 
 #include "core/check.h"
@@ -25,7 +25,7 @@ namespace {
 
 using Json = GlbFile::Json;
 
-constexpr float roughness = 0.6F;  ///< As of models.
+constexpr float roughness = 0.6F;  ///< Same as for models.
 
 double component(const Quaternion& q, std::size_t c) {
     // glTF has the real part last.
@@ -36,7 +36,7 @@ bool has_triangles(const InstancedModel& model) {
     return (model.body && !model.body->triangles.empty()) || model.copies.triangle_count() > 0;
 }
 
-/// Where the coordinates of body, copies and, if these are merged, their points begin.
+/// The origin of the coordinates of body, copies and, if these are merged, their points.
 Result<Vector3d> origin_of(const InstancedModel& model, std::vector<Vector3d> points = {}) {
     CHECK(has_triangles(model), "there is a body or a copy");
     const std::vector<Placement>& placements = model.copies.placements;
@@ -89,7 +89,7 @@ Json primitive_of(const TriangleMesh& mesh, GlbFile& file) {
     return {{"attributes", attributes}, {"indices", file.add_corners(mesh.triangles, count, true)}};
 }
 
-/// The attributes of some copies; `light` is that of their material.
+/// The attributes of some copies. `light` is their material's.
 Json attributes_of(const std::vector<const Placement*>& copies, const Colour& light,
                    GlbFile& file) {
     const std::size_t count = copies.size();
@@ -126,7 +126,7 @@ void add_copies(const Instances& copies, GlbFile& file) {
         material["pbrMetallicRoughness"]["baseColorFactor"] = {light[0], light[1], light[2], 1.0};
         materials.push_back(file.add("materials", std::move(material)));
     }
-    // Of each mesh and material.
+    // For each mesh and material.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Placement*>> nodes;
     for (std::size_t k = 0; k < copies.placements.size(); ++k) {
         const Placement& placement = copies.placements[k];

@@ -1,4 +1,4 @@
-// Scales, thorns or hairs on a body as files of other programs.
+// Scales, thorns or hairs on a body, as files for other programs.
 #pragma once
 
 #include "core/palette.h"
@@ -14,22 +14,22 @@
 
 namespace cascade {
 
-/// What is written; it refers to its parts.
+/// The model to write. Refers to its parts.
 struct InstancedModel {
     const SurfaceMesh* body = nullptr;  ///< May be absent.
-    std::span<const Colour> colours;    ///< Of the body, sRGB, one per point; empty: none.
-    const Instances& copies;            ///< May be none if there is a body.
+    std::span<const Colour> colours;    ///< The body's, sRGB, one per point; empty: none.
+    const Instances& copies;            ///< May be empty if there is a body.
 };
 
-/// A GLB file in which each mesh is stored once, by the extension EXT_mesh_gpu_instancing (Khronos
-/// Group, 2020), which readers must know. Copies have translations and scales in binary32,
-/// rotations as 16-bit fractions, which turn by less than 0.003 degrees, and colours.
+/// A GLB file that stores each mesh once, by the extension EXT_mesh_gpu_instancing (Khronos Group,
+/// 2020), which readers must know. Copies have translations and scales in binary32, rotations as
+/// 16-bit fractions, whose errors are below 0.003 degrees, and colours.
 ///
-/// The extension has no colours. Programs that know of colours anyway (three.js, Babylon.js) read
+/// The extension has no colours. Programs that support colours anyway (three.js, Babylon.js) read
 /// the attribute `_COLOR_0`, linear light by which they multiply the material's colour. For all
 /// others, copies of similar colours share one of at most `most_copy_materials` materials with
-/// their mean colour. `_COLOR_0` is a copy's light over that of its material, so that the former
-/// see each colour exactly and the latter an approximation, which is exact if there are as few
+/// their mean colour. `_COLOR_0` is a copy's light over its material's, so that the former see each
+/// colour exactly and the latter an approximation, which is exact if there are at most that many
 /// colours.
 Result<std::string> encode_instanced_glb(const InstancedModel& model);
 inline constexpr std::size_t most_copy_materials = 32;
@@ -37,7 +37,7 @@ inline constexpr std::size_t most_copy_materials = 32;
 /// The largest number of triangles of copies that are merged.
 inline constexpr std::uint64_t most_merged_triangles = std::uint64_t{1} << 24;
 
-/// All copies as plain triangles, for programs that know no instances.
+/// All copies as plain triangles, for programs without instances.
 struct MergedCopies {
     std::vector<Vector3d> points;
     std::vector<Vector3> normals;  ///< One per point, like the colours.
@@ -53,7 +53,7 @@ Result<MergedCopies> merge_copies(const Instances& copies);
 Result<std::string> encode_merged_glb(const InstancedModel& model);
 
 /// A Wavefront OBJ file, likewise: an object `body` and an object `copies`, with colours after the
-/// positions. Nine digits of the copies' coordinates are written, and more far from the origin.
+/// positions. Coordinates of copies have nine digits, and more far from the origin.
 Result<std::string> encode_merged_obj(const InstancedModel& model);
 
 /// Writes a file of the extension .glb or .obj, atomically. OBJ files are always merged. Fails on

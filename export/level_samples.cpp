@@ -1,4 +1,4 @@
-// Every sample looks for its own nearest place, since colours may jump anywhere.
+// Every sample finds its own nearest point, since colours may jump anywhere.
 #include "export/level_samples.h"
 
 #include "picture/srgb.h"

@@ -9,17 +9,17 @@
 
 namespace cascade {
 
-/// The surface that simplified ones stand for. What it is made from must outlive it. Thread-safe.
+/// The surface that simplified ones represent. The arguments must outlive it. Thread-safe.
 class FineSurface {
 public:
-    /// Cells lie on `mesh`. `displaced` is the same surface raised by their heights, if it is.
+    /// Cells lie on `mesh`. `displaced` is the same surface raised by their heights, if any.
     FineSurface(const SurfaceMesh& mesh, const CellFilter& filter, const PaintedCells& cells,
                 const RefinedMesh* displaced);
 
     PlacePainter painter() const { return {filter_, cells_}; }
     const PaintedCells& cells() const { return cells_; }
 
-    /// The place that is nearest to a point, where `mesh` is coloured so.
+    /// The nearest point to `point` on the surface, as a position on `mesh`, which has the colours.
     SurfacePlace place_near(Vector3d point) const;
     /// The normal there, bumped by heights with `painter` if the surface is not raised by them.
     Vector3d normal_near(Vector3d point, PlacePainter& painter) const;
@@ -38,13 +38,13 @@ private:
     CornerNormals normals_;  ///< Of the shape.
 };
 
-/// Paints each sample as the place of the fine surface that is nearest to it, with its colour, its
-/// material, and its normal, bumped by heights if there are any. The shape that is lost is so still
-/// seen in the light (P. Cignoni et al., "A General Method for Preserving Attribute Values on
-/// Simplified Meshes", IEEE Visualization 1998). There are no heights.
+/// Paints each sample as the nearest point of the fine surface, with its colour, its material, and
+/// its normal, bumped by heights if there are any. Light thus still shows the lost shape (P.
+/// Cignoni et al., "A General Method for Preserving Attribute Values on Simplified Meshes", IEEE
+/// Visualization 1998). There are no heights.
 class LevelSamples : public SamplePainter {
 public:
-    /// `mesh` is the simplified surface; both must outlive it.
+    /// `mesh` is the simplified surface. Both must outlive it.
     LevelSamples(const SurfaceMesh& mesh, const FineSurface& fine)
         : mesh_(mesh), fine_(fine), painter_(fine.painter()) {}
 

@@ -1,4 +1,4 @@
-// Simplifies level by level, and averages what has merged.
+// Simplifies level by level, and averages merged points.
 #include "export/levels.h"
 
 #include "core/file_format.h"
@@ -33,7 +33,7 @@ public:
     MergedMeans(const Simplified& simplified, std::vector<double> areas)
         : simplified_(simplified), areas_(std::move(areas)) {}
 
-    /// Of `number(point)`; what is not finite does not count, unless nothing is.
+    /// The means of `number(point)`. Non-finite numbers do not count, unless all are.
     template <typename Take>
     std::vector<float> of(const Take& number) const {
         const std::size_t count = simplified_.points.size();
@@ -90,7 +90,7 @@ Result<std::vector<ModelLevel>> levels_of(ModelLevel finest, int count, double p
         auto simplified = simplify(finer.mesh, triangles / triangles_to_level,
                                    {finer.colours, pattern_length}, cancel);
         if (!simplified) return tl::unexpected(simplified.error());
-        // The topology may need nearly all triangles that are left.
+        // The topology may need nearly all remaining triangles.
         if (2 * simplified->mesh.triangles.size() > triangles) break;
         levels.push_back(level_below(finer, *std::move(simplified)));
     }
@@ -107,7 +107,7 @@ std::filesystem::path path_of_level(const std::filesystem::path& path, std::size
 
 namespace {
 
-/// A file that has all levels inside.
+/// A file that contains all levels.
 Result<std::string> encode_all(std::span<const ModelLevel> levels) {
     std::vector<GlbLook> looks(levels.size());
     std::vector<GlbLevel> models;

@@ -1,5 +1,5 @@
-// Levels of detail: a model with its colours and numbers, coarser and coarser, for the view from
-// farther and farther away.
+// Levels of detail: coarser and coarser versions of a model with its colours and numbers, for views
+// from farther and farther away.
 #pragma once
 
 #include "core/result.h"
@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// Each level has about as many triangles as the one before divided by this.
+/// Each level has about as many triangles as the previous one divided by this.
 inline constexpr std::size_t triangles_to_level = 4;
 
 struct ModelLevel {
@@ -23,12 +23,12 @@ struct ModelLevel {
     PointResults results() const { return {colours, channels}; }
 };
 
-/// The finest level and coarser ones, `count` in all, each made from the one before; fewer if no
-/// more triangles can be left out. Their points are points of the finest one. Triangles follow
-/// edges of the pattern: a difference of black and white counts as much as a distance of
+/// The finest level and coarser ones, `count` in all, each made from the previous one. Fewer if no
+/// more triangles can be removed. Their points are points of the finest one. Triangles follow edges
+/// of the pattern: a difference of black and white counts as much as a distance of
 /// `pattern_length`. Colours (in linear light) and numbers of a point are the means, weighted by
-/// area, of the points that have merged into it, so that what has become too small to be seen fades
-/// (G. Turk, "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 5.4). Fails as
+/// area, of the points that have merged into it, so that details too small to be seen fade (G.
+/// Turk, "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 5.4). Fails as
 /// simplify() does. Throws std::bad_alloc. Meaningless if `cancel` became true.
 Result<std::vector<ModelLevel>> levels_of(ModelLevel finest, int count, double pattern_length,
                                           const std::atomic<bool>& cancel);
@@ -36,8 +36,8 @@ Result<std::vector<ModelLevel>> levels_of(ModelLevel finest, int count, double p
 /// "horse.ply" itself for level 0, "horse_lod1.ply" for level 1.
 std::filesystem::path path_of_level(const std::filesystem::path& path, std::size_t level);
 
-/// Writes each level to a file of its own, as write_model does; a GLB file of the finest one has
-/// all of them inside (encode_glb). Returns the files. Fails as write_model does.
+/// Writes each level to a file of its own, as write_model does. A GLB file of the finest one
+/// contains all of them (encode_glb). Returns the files. Fails as write_model does.
 Result<std::vector<std::filesystem::path>> write_levels(const std::filesystem::path& path,
                                                         std::span<const ModelLevel> levels);
 

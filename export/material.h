@@ -1,5 +1,4 @@
-// What a surface is made of besides its colour and its height, as glTF's metallic-roughness model
-// has it.
+// The properties of a surface besides colour and height, in glTF's metallic-roughness model.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +15,14 @@ enum class MaterialPart : std::uint8_t {
     occlusion,  ///< The visible part of the sky: 0 in the deepest crevice.
     roughness,
     metalness,
-    red,  ///< Of the emitted light, sRGB.
+    red,  ///< Emitted light, sRGB.
     green,
     blue,
     opacity,
 };
 inline constexpr std::size_t material_parts = 7;
 
-/// One thing for each part.
+/// One value for each part.
 template <typename Each>
 struct OfParts : std::array<Each, material_parts> {
     using Base = std::array<Each, material_parts>;
@@ -34,24 +33,24 @@ struct OfParts : std::array<Each, material_parts> {
     using Base::operator[];
 };
 
-/// One number from 0 to 1 per cell for each part that is said; others are empty. `red`, `green` and
-/// `blue` are said together.
+/// One number from 0 to 1 per cell for each given part; others are empty. `red`, `green` and `blue`
+/// are given together.
 using MaterialCells = OfParts<std::span<const float>>;
 
-/// True if opacities are those of holes: 0 or 1.
+/// True if opacities only mark holes: 0 or 1.
 inline bool is_cut(std::span<const float> opacities) {
     return !opacities.empty() && std::all_of(opacities.begin(), opacities.end(), [](float opacity) {
         return opacity == 0 || opacity == 1;
     });
 }
 
-/// Which maps there are besides colours.
+/// Which maps exist besides colours.
 struct MapSet {
     bool heights = false, normals = false;
     bool occlusion = false, roughness = false, metalness = false;
     bool emission = false, opacity = false;
 
-    /// True if one of those that are packed into one texture is there.
+    /// True if there is one of those that are packed into one texture.
     bool has_surface() const { return occlusion || roughness || metalness; }
 };
 

@@ -21,16 +21,16 @@ namespace cascade {
 
 namespace {
 
-/// A file of a map to be made, inside of the GLB file or beside it.
+/// The file of a map, inside the GLB file or next to it.
 struct MapFile {
     const Image* image = nullptr;
     PngDepth depth = PngDepth::eight;
     PngMeaning meaning = PngMeaning::colours;
-    /// Grey, of this channel of the image alone.
+    /// Grey, from this channel of the image alone.
     std::optional<std::size_t> channel = {};
     /// The alpha channel.
     const Image* opacity = nullptr;
-    /// Of heights: the numbers that are black and white.
+    /// For heights: the numbers that are black and white.
     std::optional<ValueRange> range = {};
     std::string bytes = {};
     Result<void> done = {};
@@ -76,7 +76,7 @@ private:
     }
 };
 
-/// Encodes files side by side; those of most bytes come first.
+/// Encodes files in parallel, the largest first.
 Result<void> encode(std::span<MapFile> files, MapFormat format, const PngTexts& texts) {
     if (files.empty()) return {};
     std::atomic<std::size_t> next = 0;
@@ -89,9 +89,9 @@ Result<void> encode(std::span<MapFile> files, MapFormat format, const PngTexts& 
     return {};
 }
 
-/// The files beside a model.
+/// The files next to a model.
 struct SideFiles {
-    std::vector<std::string_view> names;  ///< What follows after the model's.
+    std::vector<std::string_view> names;  ///< Endings after the model's name.
     std::vector<MapFile> files;
 };
 
@@ -115,13 +115,12 @@ SideFiles side_files(const MaterialMaps& maps, const MapSet& which) {
     return beside;
 }
 
-/// The maps of one level inside of a GLB file, which have 8 bits there: all viewers of GLB files
-/// know these.
+/// The maps of one level inside a GLB file, with 8 bits, which all viewers of GLB files support.
 class MapsInside {
 public:
     MapsInside(const MaterialMaps& maps, const PngTexts& texts) : maps_(maps), texts_(texts) {}
 
-    /// `plain_colours` is the encoded map of colours, if it is known.
+    /// `plain_colours` is the encoded map of colours, if known.
     Result<void> encode(std::string_view plain_colours) {
         const MapSet& has = maps_.maps;
         constexpr auto eight = PngDepth::eight;

@@ -32,21 +32,21 @@ std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results);
 /// 2010, chapter 19): triangles, normals, colours as `color` and each channel as point data.
 std::string encode_vtp(const SurfaceMesh& mesh, const PointResults& results);
 
-/// Binary STL: triangles with their normals in binary32, relative to the origin, without points in
-/// common, colours and channels.
+/// Binary STL: triangles with their normals in binary32, relative to the origin, without shared
+/// points, colours or channels.
 std::string encode_stl(const SurfaceMesh& mesh, Vector3d origin = {});
-/// 0, or the middle of a model that lies so far away that binary32 would blur its triangles.
+/// 0, or the model's middle if it is so far away that binary32 would blur its triangles.
 Vector3d stl_origin(const SurfaceMesh& mesh);
 
-/// Where the coordinates of this file of the model begin: 0 but for STL.
+/// The origin of the coordinates in this file of the model: 0 except for STL.
 Vector3d origin_of_file(const std::filesystem::path& path, const SurfaceMesh& mesh);
 /// Says so in a sentence; none if it is 0.
 std::vector<std::string> remarks_of_origin(const std::filesystem::path& path, Vector3d origin);
 
 /// Writes the format of the name's extension, .ply, .obj, .glb, .vtp or .stl in any case,
 /// atomically. NaN stays NaN in channels and is magenta in colours. Fails on other extensions, on
-/// models that the format cannot represent (see export/glb.h), and as write_file does. Another
-/// origin than that of origin_of_file() is for levels of a model, which have one in common.
+/// models that the format cannot represent (see export/glb.h), and as write_file does. An origin
+/// other than origin_of_file() is for levels of a model, which share one.
 Result<void> write_model(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const PointResults& results, std::optional<Vector3d> origin = {});
 

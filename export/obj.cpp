@@ -44,7 +44,7 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
             texture.push_back(entry->second);
         }
     }
-    text_ += "s 1\n";  // Smooth: some programs use normals only then.
+    text_ += "s 1\n";  // Smooth, because some programs use normals only then.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         text_ += 'f';
         for (std::size_t k = 0; k < 3; ++k) {
@@ -61,7 +61,7 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
 
 namespace {
 
-/// Of coordinates, so that nine tell the places in the model apart, however far away it is.
+/// The digits of coordinates, so that nine distinguish points of the model, however far away it is.
 int digits_of(std::span<const Vector3d> points) {
     constexpr int usual = 9, all = 17;
     if (points.empty()) return usual;

@@ -14,14 +14,14 @@ public:
     /// Begins an object with a name.
     void begin(std::string_view name);
     void add(const SurfaceMesh& mesh, const PointResults& results);
-    /// With nine digits of coordinates, and more far from the origin.
+    /// Coordinates have nine digits, and more far from the origin.
     void add(const MergedCopies& copies);
 
     const std::string& text() const { return text_; }
 
 private:
     std::string text_ = "# Cascade\n";
-    // What was written so far: indices of a file begin at 1 and go on from object to object.
+    // The numbers written so far. Indices of a file begin at 1 and continue from object to object.
     std::size_t points_ = 0, normals_ = 0, places_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Filters the values of nearby cells (surface/cell_filter), then maps the result to a colour:
-// values are blended, not colours.
+// Filters the values of nearby cells (surface/cell_filter), then maps the result to a colour, so
+// that values are blended instead of colours.
 #include "export/painted_cells.h"
 
 #include "export/channels.h"

@@ -1,4 +1,4 @@
-// The appearance of cells at any place of the surface.
+// The appearance of cells at any point of the surface.
 #pragma once
 
 #include "core/palette.h"
@@ -13,13 +13,13 @@
 
 namespace cascade {
 
-/// The colour (sRGB) for the values of all channels at a place. Must be thread-safe and not throw.
+/// The colour (sRGB) for the values of all channels at a point. Must be thread-safe and not throw.
 using PlaceColour = std::function<Colour(std::span<const float> values, const SurfacePlace& place)>;
 
-/// The same for many places, if the colours depend on the values alone. All are shown().
+/// The same for many points, if colours depend only on the values. All are shown().
 using ValueColours = std::function<void(std::span<const float> values, std::span<Colour> colours)>;
 
-/// Values to paint and their mapping to colours. All that it refers to must outlive it.
+/// Values to paint and their mapping to colours. Its references must outlive it.
 struct PaintedCells {
     std::size_t channels = 1;
     std::span<const float> values;  ///< `channels` per cell, cell after cell.
@@ -28,11 +28,11 @@ struct PaintedCells {
     /// One per cell: its height above the surface, in the unit of the mesh. Empty: no heights.
     std::span<const float> heights;
     MaterialCells material = {};
-    bool displaces = false;     ///< In pictures heights move the surface.
-    ValueColours colours = {};  ///< Faster for many places; may be left out.
+    bool displaces = false;     ///< Heights move the surface in pictures.
+    ValueColours colours = {};  ///< Faster for many points; may be left out.
 };
 
-/// Paints places. Not thread-safe.
+/// Paints points of the surface. Not thread-safe.
 class PlacePainter {
 public:
     PlacePainter(const CellFilter& filter, const PaintedCells& cells);
@@ -44,27 +44,27 @@ public:
     };
     /// The colour of the filtered values, the filtered height and material.
     Look at(const SurfacePlace& place);
-    /// The two halves of `at`: the filtered values, with those of the material and the height after
-    /// them, which vary smoothly along the surface, and their look. `values` has
+    /// The two halves of `at`. The first gives the filtered values, followed by the material's and
+    /// the height, which vary smoothly along the surface, and the second their look. `values` has
     /// number_of_values() elements.
     void filter_at(const SurfacePlace& place, std::span<float> values);
     Look look_of(std::span<const float> values, const SurfacePlace& place) const;
     std::size_t number_of_values() const { return cells_.channels + parts_.size() + 1; }
 
-    /// The gradient of the height, in the plane of the triangle. Exactly 0 if heights are equal
-    /// around.
+    /// The gradient of the height, in the plane of the triangle. Exactly 0 if all heights around
+    /// are equal.
     Vector3d rise_at(const SurfacePlace& place);
 
 private:
     const CellFilter& filter_;
     const PaintedCells& cells_;
-    std::vector<MaterialPart> parts_;  ///< Those that cells have.
+    std::vector<MaterialPart> parts_;  ///< The parts that cells have.
     std::vector<float> values_;
     std::vector<CellShare> shares_;
     std::vector<SlopedShare> slopes_;
 };
 
-/// The same with the emitted light as light.
+/// The same with emission converted to linear light.
 OfParts<float> in_light(OfParts<float> material);
 
 /// A vector along the normal of a surface with this normal that is raised by small heights with
@@ -73,7 +73,7 @@ inline Vector3d raised(Vector3d normal, Vector3d rise) {
     return normal - (rise - normal * dot(rise, normal));
 }
 
-/// The colours of places. The same on any number of threads. Throws std::bad_alloc.
+/// The colours at points of the surface. The same on any number of threads. Throws std::bad_alloc.
 std::vector<Colour> colours_at(std::span<const SurfacePlace> places, const CellFilter& filter,
                                const PaintedCells& cells, Team& team);
 

@@ -15,8 +15,8 @@ namespace cascade {
 /// Refers to its parts, each with one element per cell.
 struct PlacedCells {
     std::span<const Vector3d> places;
-    /// Rotations, of length 1, from the axes of space to those of the cell: y is away from the
-    /// surface on which it sits, z the direction of its combing.
+    /// Rotations, of length 1, from the axes of space to the cell's: y points away from the surface
+    /// on which it sits, z in the direction of its combing.
     std::span<const Quaternion> frames;
     std::span<const double> radii;
     std::span<const Colour> colours;  ///< sRGB; empty: none.
@@ -25,7 +25,7 @@ struct PlacedCells {
 
 /// An archive of arrays for numpy.load, all little-endian, for n cells:
 ///
-///     points  n × 3 float64  places
+///     points  n × 3 float64  positions
 ///     frames  n × 4 float64  rotations as quaternions w, x, y, z
 ///     radii   n     float64
 ///     colors  n × 3 float32  if there are any
@@ -34,12 +34,12 @@ struct PlacedCells {
 /// Fails above 4 GiB.
 Result<std::string> encode_npz(const PlacedCells& cells);
 
-/// VTK's XML PolyData: each cell is a vertex at its place, with the y axis of its frame as normal,
-/// `frame` (w, x, y, z, as glyph filters of ParaView take it), `radius`, its colour as `color` and
-/// the channels as point data.
+/// VTK's XML PolyData: each cell is a vertex at its position, with the y axis of its frame as
+/// normal, `frame` (w, x, y, z, as glyph filters of ParaView take it), `radius`, its colour as
+/// `color` and the channels as point data.
 std::string encode_vtp(const PlacedCells& cells);
 
-/// Writes encode_cells() atomically. Fails as that, encode_npz and write_file do.
+/// Writes encode_cells() atomically. Fails as encode_cells(), encode_npz and write_file do.
 Result<void> write_cells(const std::filesystem::path& path, const PlacedCells& cells);
 
 }  // namespace cascade

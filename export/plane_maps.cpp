@@ -1,4 +1,4 @@
-// Each row of samples is interpolated from rows of cells, then each sample from columns.
+// Interpolates each row of samples from rows of cells, then each sample from columns.
 #include "export/plane_maps.h"
 
 #include "core/between_cells.h"
@@ -19,10 +19,10 @@ namespace cascade {
 
 namespace {
 
-/// Where samples of an axis lie between cells.
+/// The position of an axis's samples between cells.
 struct SamplePlace {
-    std::int64_t before = 0;  ///< The cell whose middle is before the sample; may be −1.
-    float part = 0;           ///< Of the way to the next one.
+    std::int64_t before = 0;  ///< The last cell centred before the sample; may be −1.
+    float part = 0;           ///< Fraction of the way to the next one.
 };
 
 SamplePlace place_of_sample(std::int64_t sample, std::int64_t samples, std::int64_t cells) {
@@ -60,8 +60,8 @@ WITH_WIDE_VECTORS void blend_columns(const float* cells, const float* slopes,
     }
 }
 
-/// The values of a plane's cells: the channels of colours, the parts of the material that are
-/// there, and the height if there is one. Gives the attributes of samples, one row at a time.
+/// The values of a plane's cells: the channels of colours, the given parts of the material, and the
+/// height if there is one. Gives the attributes of samples, one row at a time.
 class CellValues {
 public:
     CellValues(const FlatCells& cells, const PaintedCells& painted)
@@ -82,7 +82,7 @@ public:
     std::size_t size() const { return values_.size(); }
     std::span<const MaterialPart> parts() const { return parts_; }
 
-    /// Value k of all columns at a place between rows; `line` has `margin` more cells at both ends.
+    /// Value k of all columns between rows. `line` has `margin` more cells at both ends.
     void row_at(std::size_t k, const SamplePlace& down, std::span<float> line) const {
         std::array<const float*, cells_between> rows{};
         for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -111,8 +111,8 @@ private:
         for (std::size_t cell = 0; cell < cells_.count(); ++cell) values_[k][cell] = take(cell);
     }
 
-    /// Replaces value k where it does not count: outside of the domain, though opacity is 0 there,
-    /// and where a height is not finite.
+    /// Replaces value k in cells where it does not count: outside the domain, though opacity is 0
+    /// there, and where a height is not finite.
     void fill(std::size_t k) {
         const bool is_height = has_heights_ && k + 1 == size();
         const bool is_opacity =
@@ -136,7 +136,7 @@ private:
     std::size_t channels_;
     bool has_heights_;
     std::vector<MaterialPart> parts_;
-    std::vector<std::vector<float>> values_;  ///< Of the cells, one value after the other.
+    std::vector<std::vector<float>> values_;  ///< The cells', one value after the other.
 };
 
 class PlaneBaker {
@@ -183,7 +183,7 @@ public:
     }
 
 private:
-    /// Paints rows of texels; has a thread's working memory.
+    /// Paints rows of texels. Holds a thread's working memory.
     class RowPainter {
     public:
         explicit RowPainter(PlaneBaker& baker)
@@ -214,7 +214,7 @@ private:
             convert_to_stored({row, sums_.size()});
         }
 
-        /// Over the samples of a texel, of emission as of colours in linear light.
+        /// Sums over the samples of a texel. Emission and colours are in linear light.
         struct Sum {
             Colour light{};
             OfParts<float> material{};
@@ -236,7 +236,7 @@ private:
             }
         }
 
-        /// Their light.
+        /// The light of the row's samples.
         void find_colours() {
             const PaintedCells& painted = baker_.painted_;
             const std::size_t channels = painted.channels;
@@ -280,15 +280,15 @@ private:
 
         PlaneBaker& baker_;
         std::vector<float> line_, slopes_;
-        std::vector<std::vector<float>> values_;  ///< Of a row of samples.
-        std::vector<float> by_sample_;  ///< The channels of each, one sample after another.
+        std::vector<std::vector<float>> values_;  ///< For a row of samples.
+        std::vector<float> by_sample_;  ///< The channels of each sample, one after another.
         std::vector<Colour> colours_;
-        std::vector<Sum> sums_;  ///< Of a row's texels.
+        std::vector<Sum> sums_;  ///< For a row's texels.
     };
 
     template <typename Use>
     void in_rows(Team& team, const Use& use) {
-        std::vector<RowPainter> painters;  // Made here: threads must not run out of memory.
+        std::vector<RowPainter> painters;  // Made here, because threads must not run out of memory.
         for (int k = 0; k < team.size(); ++k) painters.emplace_back(*this);
         std::atomic<std::int64_t> next = 0;
         team.run([&](int thread) {
@@ -298,7 +298,7 @@ private:
         });
     }
 
-    /// All but the colour.
+    /// Stores everything but the colour.
     void store(std::int64_t x, std::int64_t y, const RowPainter::Sum& sum) {
         const auto all = static_cast<float>(samples_ * samples_);
         const auto mean = [&](MaterialPart part) { return sum.material[part] / all; };
@@ -321,7 +321,7 @@ private:
         }
     }
 
-    /// From the heights of the texels on both sides.
+    /// Finds normals from the heights of the texels on both sides.
     void find_normals(std::int64_t y) {
         const Image& relief = maps_.relief;
         const auto rise = [&](std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {
@@ -356,9 +356,9 @@ private:
     const FlatCells& cells_;
     const PaintedCells& painted_;
     CellValues values_;
-    std::int64_t samples_ = 2;  ///< Of a texel, along each axis.
-    /// Where the samples of a row lie: the cell before each, counted from −1, and the part of the
-    /// way to the next one.
+    std::int64_t samples_ = 2;  ///< Per texel, along each axis.
+    /// The positions of a row's samples: the cell before each, counted from −1, and the fraction of
+    /// the way to the next one.
     std::vector<std::int32_t> before_;
     std::vector<float> parts_;
     MaterialMaps maps_;

@@ -8,17 +8,16 @@
 
 namespace cascade {
 
-/// The size of a texture of a plane whose longer side has this many texels; the other one is in
+/// The size of a plane's texture whose longer side has this many texels. The other side is in
 /// proportion, and at least 1.
 std::array<std::int64_t, 2> texture_size(const FlatCells& cells, std::int64_t texels);
 
 /// The maps of a plane. Values between cells lie on cubic curves that stay in range at edges
-/// (core/between_cells.h); colours are those of the values there. A texel is the mean of its
-/// samples, of colours in linear light, of which there are four or, in small textures, one or more
-/// for each cell. Normals are those of the surface raised by the texels' heights. Cells outside
-/// take values from their surroundings; heights that are not finite do, too. `colour` gets no
-/// place. `size` are texels across and down. The same on any number of threads. Throws
-/// std::bad_alloc.
+/// (core/between_cells.h). Colours are computed from the values there. A texel is the mean of its
+/// samples, with colours in linear light. There are four samples or, in small textures, one or more
+/// for each cell. Normals belong to the surface raised by the texels' heights. Cells outside take
+/// values from their surroundings, as do non-finite heights. `colour` gets no position. `size` is
+/// in texels across and down. The same on any number of threads. Throws std::bad_alloc.
 MaterialMaps bake_plane(const FlatCells& cells, const PaintedCells& painted,
                         std::array<std::int64_t, 2> size, Team& team);
 

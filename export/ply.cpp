@@ -20,8 +20,8 @@ std::string one_word(std::string name) {
     return name;
 }
 
-/// Names of channels without another meaning in a PLY file: G. Turk's own, and those that readers
-/// take for texture coordinates and colours.
+/// Names of channels without another meaning in a PLY file: neither G. Turk's own nor those that
+/// readers take for texture coordinates and colours.
 std::vector<std::string> property_names(std::span<const Channel> channels) {
     std::vector<Channel> named;
     for (const Channel& channel : channels) named.push_back({one_word(channel.name), {}});

@@ -1,4 +1,4 @@
-// Each point is a place in its first triangle; threads filter ranges of places.
+// Each point is a position in its first triangle. Threads filter ranges of positions.
 #include "export/point_values.h"
 
 namespace cascade {

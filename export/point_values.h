@@ -1,4 +1,4 @@
-// Values of cells at other places, such as the points of a mesh.
+// Values of cells at other positions, such as the points of a mesh.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,11 +10,11 @@
 
 namespace cascade {
 
-/// A place in a triangle for each point.
+/// A position in a triangle for each point.
 std::vector<SurfacePlace> places_of_points(const SurfaceMesh& mesh);
 
-/// Cell channels filtered at places. NaN if a cell with a positive weight is NaN. The same on any
-/// number of threads. Throws std::bad_alloc.
+/// Cell channels filtered at positions. NaN if a cell with a positive weight is NaN. The same on
+/// any number of threads. Throws std::bad_alloc.
 std::vector<Channel> values_at(std::span<const SurfacePlace> places, const CellFilter& filter,
                                std::span<const Channel> cells, Team& team);
 

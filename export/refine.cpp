@@ -1,5 +1,5 @@
 // Repeatedly halves all edges that are too long, and splits each triangle depending on which of its
-// edges are halved; of two diagonals it takes the shorter one. Adjacency is maintained.
+// edges are halved. Of two diagonals it takes the shorter one. Adjacency is maintained.
 #include "export/refine.h"
 
 #include <array>
@@ -49,7 +49,7 @@ public:
         }
     }
 
-    /// Halves all edges that are too long, once. False if there are none or too many.
+    /// Halves all edges that are too long, once. Returns false if there are none or too many.
     bool halve(double longest, std::size_t most_triangles) {
         find_middles(longest);
         std::size_t count = triangles_.size();
@@ -235,9 +235,9 @@ private:
     std::vector<Vector3d> points_;
     std::vector<Triangle> triangles_;
     std::vector<std::array<TriangleEdge, 3>> across_;
-    std::vector<SurfacePlace> places_;     ///< Of the points.
-    std::vector<TriangleOrigin> origins_;  ///< Of the triangles.
-    std::vector<Triangle> middles_;        ///< The new points on their edges, or none.
+    std::vector<SurfacePlace> places_;     ///< One per point.
+    std::vector<TriangleOrigin> origins_;  ///< One per triangle.
+    std::vector<Triangle> middles_;        ///< The new points on their edges, if any.
 };
 
 }  // namespace

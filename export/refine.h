@@ -1,4 +1,4 @@
-// Refinement of a mesh for files with vertex colours only.
+// Refines a mesh for files that only have vertex colours.
 #pragma once
 
 #include "mesh/flat.h"
@@ -11,12 +11,12 @@
 
 namespace cascade {
 
-/// Where a triangle of a refined mesh lies in a triangle of the original one.
+/// The position of a refined mesh's triangle in a triangle of the original mesh.
 struct TriangleOrigin {
     std::uint32_t triangle = 0;
-    std::array<std::array<double, 3>, 3> corners;  ///< The weights of each corner.
+    std::array<std::array<double, 3>, 3> corners;  ///< Weights at each corner.
 
-    /// The place in the original mesh with these weights of the part's corners.
+    /// The position in the original mesh, given weights of the part's corners.
     SurfacePlace at(const std::array<double, 3>& weights) const {
         SurfacePlace place{triangle, {}};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -28,17 +28,17 @@ struct TriangleOrigin {
 
 struct RefinedMesh {
     SurfaceMesh mesh;
-    std::vector<SurfacePlace> places;     ///< The place of each point in the original mesh.
-    std::vector<TriangleOrigin> origins;  ///< One for each triangle.
+    std::vector<SurfacePlace> places;     ///< Each point's position in the original mesh.
+    std::vector<TriangleOrigin> origins;  ///< One per triangle.
 };
 
 /// Halves edges longer than `longest_edge` (positive), splitting the triangles at them, until none
-/// is left or the mesh would exceed `most_triangles`. The mesh's points come first, unchanged;
-/// texture coordinates and attributes of new points are interpolated. Throws std::bad_alloc.
+/// is left or the mesh would exceed `most_triangles`. The mesh's points come first, unchanged.
+/// Texture coordinates and attributes of new points are interpolated. Throws std::bad_alloc.
 RefinedMesh refined(const SurfaceMesh& mesh, double longest_edge, std::size_t most_triangles);
 
-/// Moves each point along its normal by its height, in lengths of the mesh; one each. Heights that
-/// are not finite count as 0.
+/// Moves each point along its normal by its height, in lengths of the mesh. Non-finite heights
+/// count as 0.
 void displace(SurfaceMesh& mesh, std::span<const Vector3d> normals, std::span<const float> heights);
 
 }  // namespace cascade

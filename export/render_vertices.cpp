@@ -1,4 +1,4 @@
-// Sorts corners by normal, side and texture coordinates; equal ones become one vertex. A tangent is
+// Sorts corners by normal, side and texture coordinates. Equal ones become one vertex. A tangent is
 // the mean of its triangles' tangents, weighted by angle.
 #include "export/render_vertices.h"
 
@@ -22,7 +22,7 @@ TexturePlace finite(TexturePlace place) {
 
 /// The orientation of a triangle in the texture.
 struct TriangleTangent {
-    Vector3d direction;  ///< Direction of growth of the first coordinate; zero without an area in
+    Vector3d direction;  ///< Direction in which the first coordinate grows; zero without an area in
                          ///< the texture.
     int side = 1;
 };
@@ -47,7 +47,7 @@ Vector3d across(Vector3d vector, Vector3d normal) {
     return length(left) > 1e-6 ? unit(left) : Vector3d{};
 }
 
-/// Some unit vector perpendicular to a normal.
+/// Any unit vector perpendicular to a normal.
 Vector3d any_across(Vector3d normal) {
     return across(std::abs(normal.x) < 0.9 ? Vector3d{1, 0, 0} : Vector3d{0, 1, 0}, normal);
 }

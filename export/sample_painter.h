@@ -1,4 +1,4 @@
-// What baking paints: the look of a surface at the samples of a texture.
+// The input of baking: the look of a surface at the samples of a texture.
 #pragma once
 
 #include "atlas/texture_layout.h"
@@ -12,11 +12,11 @@
 
 namespace cascade {
 
-/// Consecutive samples of a row of a texture that lie in one triangle, and where their looks go.
+/// Consecutive samples of a texture's row in one triangle, and the memory for their looks.
 struct SampleRow {
     const TextureLayout& layout;
     std::uint32_t triangle = 0;
-    std::int64_t first = 0, row = 0;     ///< Of the first sample.
+    std::int64_t first = 0, row = 0;     ///< The first sample's.
     std::span<Colour> lights;            ///< Reflected fractions, 0 … 1 (light_of).
     std::span<float> heights;            ///< Above the surface, in the unit of the mesh.
     std::span<OfParts<float>> material;  ///< Emission as light.
@@ -26,7 +26,7 @@ struct SampleRow {
     }
 };
 
-/// Paints samples. Not thread-safe: each thread has one of its own.
+/// Paints samples. Not thread-safe, so each thread has its own.
 class SamplePainter {
 public:
     SamplePainter() = default;
@@ -34,14 +34,14 @@ public:
     SamplePainter(const SamplePainter&) = delete;
     SamplePainter& operator=(const SamplePainter&) = delete;
 
-    /// What it paints besides colours. Without heights all are 0.
+    /// The maps it paints besides colours. Without heights all are 0.
     virtual MapSet maps() const = 0;
 
     /// Sets all lights, and heights and material as far as maps() has them.
     virtual void paint(const SampleRow& row) = 0;
 
-    /// A vector along the normal of what is raised by the heights, for the samples of one texel,
-    /// of which there is at least one. `normal` is that of the surface in their middle.
+    /// A vector along the normal of the surface raised by the heights, for the samples of one
+    /// texel, at least one. `normal` is the surface's in their middle.
     virtual Vector3d raised_normal(std::span<const SurfacePlace> samples,
                                    const Vector3d& normal) = 0;
 };

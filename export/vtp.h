@@ -17,11 +17,11 @@ struct VtpPoints {
     std::span<const Vector3d> places;
     std::span<const Vector3d> normals;
     std::span<const Colour> colours;     ///< Empty: none.
-    std::span<const double> areas;       ///< Of cells; empty: none.
+    std::span<const double> areas;       ///< Per cell; empty: none.
     std::span<const double> radii;       ///< Likewise.
     std::span<const Quaternion> frames;  ///< Likewise; as `frame`, w first.
     std::span<const Channel> channels;
-    /// Between the points; if empty each point is a vertex.
+    /// Triangles between the points. If empty, each point is a vertex.
     std::span<const std::array<std::uint32_t, 3>> triangles;
 };
 

@@ -1,4 +1,4 @@
-// Dates are constant, so that the same cells give the same bytes.
+// Dates are constant, so that equal cells give equal bytes.
 #include "export/zip.h"
 
 #include "picture/float_bytes.h"
