@@ -8,22 +8,22 @@ namespace cascade {
 
 struct Animal {
     LimbBody body;
-    double edge = 0;  ///< Of triangles that are fine enough for its ears, fins and tail.
+    double edge = 0;  ///< Fine enough for the animal's ears, fins and tail.
 };
 
-// Lengths are metres, but those of the creature, which is no animal in particular.
+// Lengths are in metres, except those of the creature, which is an imaginary animal.
 
 /// A young animal with four legs, a long tail and round ears, 1.5 high.
 Animal creature();
-/// 0.7 high at its shoulders, with a tail as long as its trunk.
+/// A walking leopard, 0.7 high at its shoulders, with a tail as long as its trunk.
 Animal leopard();
-/// 4.8 high, with its horns.
+/// A giraffe, 4.8 high with its horns.
 Animal giraffe();
-/// 1.3 high at its shoulders, with a mane.
+/// A zebra with a mane, 1.3 high at its shoulders.
 Animal zebra();
-/// A fish of reefs, 0.43 long, with a high body. It floats: its lowest fin is at y = 0.
+/// A reef fish, 0.43 long, with a high body. It floats: its lowest fin is at y = 0.
 Animal fish();
-/// 0.1 long; it sits.
+/// A sitting frog, 0.1 long.
 Animal frog();
 
 }  // namespace cascade

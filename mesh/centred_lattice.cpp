@@ -12,7 +12,7 @@ std::int64_t row_length(const CentredLattice& lattice, std::size_t axis, bool is
     return lattice.counts()[axis] + (is_centre ? 2 : 1);
 }
 
-/// Index of a point in its layer.
+/// The index of a point in its layer.
 std::size_t index_in_layer(const CentredLattice& lattice, const LatticePoint& point) {
     const std::int64_t shift = point.is_centre ? 1 : 0;
     return static_cast<std::size_t>((point.place[1] + shift) *
@@ -70,7 +70,7 @@ void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     }
 }
 
-/// Reads values of points in given layers.
+/// Cuts faces along the surface by the values of points in given layers.
 class FaceCrosser {
 public:
     FaceCrosser(const CentredLattice& lattice, CrossedTriangles& triangles)

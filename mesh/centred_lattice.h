@@ -16,7 +16,7 @@
 
 namespace cascade {
 
-/// Indices of a lattice point. Those of centres start at −1, one before the cells.
+/// Indices of a lattice point. Indices of centres start at −1, one before the cells.
 struct LatticePoint {
     std::array<std::int32_t, 3> place{};
     bool is_centre = false;
@@ -31,7 +31,7 @@ public:
     const std::array<std::int32_t, 3>& counts() const { return counts_; }
     Vector3d place_of(const LatticePoint& point) const;
 
-    /// The number of a point; smaller for smaller z.
+    /// The number of a point. It increases with z.
     std::uint32_t number_of(const LatticePoint& point) const;
     LatticePoint point_of(std::uint32_t number) const;
 
@@ -54,8 +54,8 @@ std::vector<LatticePoint> layer_points(const CentredLattice& lattice, std::int32
 
 /// The crossing of the surface with an edge of the lattice.
 struct Crossing {
-    std::uint64_t edge = 0;  ///< The numbers of its ends, the smaller one first.
-    double part = 0;         ///< Fraction of the edge before it, by linear interpolation.
+    std::uint64_t edge = 0;  ///< The numbers of both ends, the smaller one first.
+    double part = 0;         ///< The fraction of the edge before the crossing, by interpolation.
 
     friend bool operator<(const Crossing& a, const Crossing& b) { return a.edge < b.edge; }
 };
@@ -71,7 +71,7 @@ void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer,
                          const LatticeLayer& below, const LatticeLayer& centres,
                          const LatticeLayer& above, CrossedTriangles& triangles);
 
-/// The same at the faces between the cells of layers `layer` − 1 and `layer` (0 … counts[2]).
+/// Does the same at the faces between the cells of layers `layer` − 1 and `layer` (0 … counts[2]).
 void cross_level_faces(const CentredLattice& lattice, std::int32_t layer, const LatticeLayer& below,
                        const LatticeLayer& corners, const LatticeLayer& above,
                        CrossedTriangles& triangles);

@@ -1,4 +1,4 @@
-// Coarse copies of surfaces, for work that does not need their finest details.
+// Coarse copies of surfaces, for work that ignores their finest details.
 #pragma once
 
 #include "core/result.h"
@@ -12,8 +12,8 @@ struct CoarseCopy {
     std::vector<std::uint32_t> merged;
 };
 
-/// The surface with its short edges collapsed until most are about as long as `edge`; it keeps its
-/// components, handles and boundaries. Fails as half_edges() does. Throws std::bad_alloc.
+/// The surface with its short edges collapsed until most are about as long as `edge`. Components,
+/// handles and boundaries remain. Fails as half_edges() does. Throws std::bad_alloc.
 Result<CoarseCopy> coarse_copy(const SurfaceMesh& mesh, double edge);
 
 }  // namespace cascade

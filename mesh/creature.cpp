@@ -1,4 +1,4 @@
-// A young animal of no kind in particular.
+// A young imaginary animal.
 #include "mesh/animals.h"
 
 namespace cascade {

@@ -1,5 +1,5 @@
-// Sorts half-edges by their two points. At edges with more than two triangles those that continue
-// each other best are paired. Orientation spreads breadth first.
+// Sorts half-edges by their two points. At edges with more than two triangles, pairs those that
+// continue each other best. Spreads orientation breadth-first.
 #include "mesh/edge_pairs.h"
 
 #include "mesh/disjoint_sets.h"
@@ -14,11 +14,11 @@ namespace {
 
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
-/// Edges with more triangles than this are not paired at all.
+/// Edges with more triangles are not paired.
 constexpr std::size_t most_at_edge = 16;
 
 struct HalfEdge {
-    std::uint32_t low = 0, high = 0;  ///< Its points in ascending order.
+    std::uint32_t low = 0, high = 0;  ///< The points in ascending order.
     TriangleEdge place;
 
     friend bool operator<(const HalfEdge& a, const HalfEdge& b) {
@@ -44,7 +44,7 @@ Vector3d inwards(std::span<const Vector3d> points, Triangles triangles, const Ha
 struct Match {
     bool is_elsewhere_apart = false;
     bool turns_against = false;
-    double fold = 0;  ///< Cosine between the triangles: −1 if they are coplanar.
+    double fold = 0;  ///< The cosine of the angle between the triangles: −1 if they are coplanar.
     std::size_t first = 0, second = 0;
 
     friend bool operator<(const Match& a, const Match& b) {
@@ -141,7 +141,7 @@ public:
     }
 
 private:
-    /// Breadth first, so that a one-sided component is cut where two fronts meet.
+    /// Works breadth-first, so that a one-sided component is cut where two fronts meet.
     void orient_component(std::uint32_t start) {
         std::vector<std::uint32_t> component = {start};
         seen_[start] = true;

@@ -1,4 +1,4 @@
-// Walks from triangle to triangle, laying each flat beside the last one, up to a limited number.
+// Walks from triangle to triangle, laying each flat beside the last, up to a limit of crossings.
 #include "mesh/flat.h"
 
 #include <algorithm>
@@ -7,13 +7,13 @@ namespace cascade {
 
 namespace {
 
-/// Limit of crossings in a walk: rounding could make it circle around a point forever.
+/// The limit of crossings in a walk. Rounding could make it circle around a point forever.
 constexpr int most_crossings = 100'000;
 
 /// The edge rotated by 90° counterclockwise.
 Vector2d left_of(Vector2d edge) { return {-edge.y, edge.x}; }
 
-/// The first edge crossed on the way from `point` by `step`, and the fraction of the step to it.
+/// The first edge crossed by `step` from `point`, and the fraction of the step to it.
 struct EdgeCrossing {
     std::uint32_t edge = 3;
     double part = 1;

@@ -1,4 +1,4 @@
-// OpenMesh flips and deletes; texture coordinates and model faces are updated here.
+// OpenMesh flips and deletes. This file updates texture coordinates and model faces.
 #include "mesh/flat_triangles.h"
 
 #include "mesh/half_edges.h"
@@ -125,7 +125,7 @@ private:
         if (done_.left_out > 0) renew_points();
     }
 
-    /// Removes points without triangles and splits points whose fans were separated by deletions.
+    /// Removes points without triangles and splits points with several fans after deletions.
     void renew_points() {
         const std::vector<std::uint32_t> sources = separate_fans(old_);
         const auto taken = [&](const auto& old) {
@@ -141,7 +141,7 @@ private:
 
     SurfaceMesh& old_;
     HalfEdges& mesh_;
-    std::vector<TexturePlace> texture_;  ///< Of half-edges; empty if the mesh has none.
+    std::vector<TexturePlace> texture_;  ///< Per half-edge. Empty if the mesh has none.
     FlatTriangles done_;
 };
 

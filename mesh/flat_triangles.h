@@ -8,12 +8,12 @@ namespace cascade {
 
 struct FlatTriangles {
     std::size_t merged = 0;     ///< Merged with a neighbour.
-    std::size_t left_out = 0;   ///< At a boundary: removed.
+    std::size_t left_out = 0;   ///< Removed at a boundary.
     std::size_t remaining = 0;  ///< Could not be repaired.
 };
 
-/// Removes triangles 10¹⁰ times as long as high by flipping their longest edge, which leaves two
-/// triangles with an area, unless two points would get a second edge. Fails as half_edges() does.
+/// Flips the longest edges of triangles 10¹⁰ times as long as high, which leaves two triangles with
+/// an area, unless two points would get a second edge. Fails as half_edges() does.
 Result<FlatTriangles> remove_flat_triangles(SurfaceMesh& mesh);
 
 }  // namespace cascade

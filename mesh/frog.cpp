@@ -1,4 +1,4 @@
-// A frog that sits.
+// A sitting frog.
 #include "mesh/animals.h"
 
 namespace cascade {

@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-/// The JSON text of a binary file: its length is at byte 12, and it begins at byte 20.
+/// The JSON text of a binary file. Its length is at byte 12, its beginning at byte 20.
 std::string_view json_of(std::string_view bytes, bool is_binary) {
     if (!is_binary || bytes.size() < 20) return bytes;
     std::uint32_t length = 0;

@@ -1,5 +1,5 @@
-// Each attribute is an accessor with an element for each copy; attributes of other meanings have
-// names that begin with an underscore.
+// Each attribute is an accessor with an element for each copy. The names of other attributes begin
+// with an underscore.
 #include "mesh/gltf_instances.h"
 
 #include "core/quaternion.h"
@@ -49,7 +49,7 @@ Result<GltfInstances> GltfInstances::of(const tinygltf::Model& model, const tiny
     }
     const tinygltf::Value& colour = attributes.Get("_COLOR_0");
     if (colour.IsInt()) instances.colour_ = GltfNumbers::of(model, colour.GetNumberAsInt());
-    // Without any of the three there is nothing to tell the copies apart.
+    // Without translation, rotation and scale, nothing tells the copies apart.
     if (!instances.count_) instances.count_ = 1;
     else if (!has_bytes && *instances.count_ > 0) return wrong();
     return instances;
@@ -58,7 +58,7 @@ Result<GltfInstances> GltfInstances::of(const tinygltf::Model& model, const tiny
 GltfMatrix GltfInstances::matrix(std::size_t copy) const {
     std::vector<double> turn = element_of(rotation_, copy);
     if (!turn.empty()) {
-        // Fractions of integers are not quite of length 1.
+        // Quaternions of normalized integers are only nearly of length 1.
         const Quaternion q = of_length_1({turn[3], turn[0], turn[1], turn[2]});
         turn = {q.x, q.y, q.z, q.w};
     }

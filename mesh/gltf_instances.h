@@ -13,16 +13,16 @@ namespace cascade {
 
 class GltfInstances {
 public:
-    /// `is_there` is false if the node has none. Fails on attributes of different lengths, on those
+    /// `is_there` is false if the node has no copies. Fails on attributes of different lengths or
     /// beyond the data, and if no attribute takes bytes of the file.
     static Result<GltfInstances> of(const tinygltf::Model& model, const tinygltf::Node& node);
 
     bool is_there() const { return count_.has_value(); }
     std::size_t count() const { return count_.value_or(0); }
-    /// Where a copy is, in the coordinates of the node.
+    /// The position of a copy in the coordinates of the node.
     GltfMatrix matrix(std::size_t copy) const;
-    /// The light by which the attribute `_COLOR_0` multiplies a copy's colour, as three.js and
-    /// Babylon.js do; nothing without one.
+    /// The light by which the attribute `_COLOR_0` multiplies a copy's colour, as in three.js and
+    /// Babylon.js, if there is such an attribute.
     std::optional<std::array<double, 3>> light(std::size_t copy) const;
 
 private:

@@ -1,4 +1,4 @@
-// Columns are where the axes and the origin come to.
+// Columns are the images of the axes and of the origin.
 #include "mesh/gltf_matrix.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// Nothing is copied: numbers are read where they lie, and replaced ones are looked up.
+// Copies no data: reads numbers from the buffer and looks up replaced ones.
 #include "mesh/gltf_numbers.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::optional<GltfNumbers::Row> GltfNumbers::row_of(const tinygltf::Model& model
     row.component_size = static_cast<std::size_t>(component_size);
     const std::size_t element = components * row.component_size;
     row.stride = has_stride && bytes->byteStride > 0 ? bytes->byteStride : element;
-    // The library lets through distances that are no multiple of the components.
+    // The library accepts strides that are no multiple of the component size.
     if (row.stride % row.component_size != 0) return {};
     const std::size_t size = buffer->data.size();
     if (bytes->byteOffset > size || offset > size - bytes->byteOffset) return {};
@@ -86,7 +86,7 @@ bool GltfNumbers::replace(const tinygltf::Model& model, const tinygltf::Accessor
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: break;
         default: return false;
     }
-    const bool fractions = std::exchange(is_normalized_, false);  // Places are whole numbers.
+    const bool fractions = std::exchange(is_normalized_, false);  // Indices are integers.
     double next = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const double place = number(places_, k, 0);

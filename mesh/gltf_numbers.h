@@ -1,5 +1,5 @@
-// The numbers of glTF's accessors: elements of some components in a buffer, of which a sparse
-// accessor replaces some.
+// The numbers of glTF's accessors: elements with a few components in a buffer, some replaced by a
+// sparse accessor.
 #pragma once
 
 #include "mesh/gltf_model.h"
@@ -11,16 +11,16 @@ namespace cascade {
 
 class GltfNumbers {
 public:
-    /// Refers to the buffers of the model. Nothing if there is no such accessor, if its numbers lie
-    /// beyond the data, or if those that are replaced are not in ascending order.
+    /// Refers to the buffers of the model. Empty if there is no such accessor, if its numbers lie
+    /// beyond the data, or if the replaced elements are not in ascending order.
     static std::optional<GltfNumbers> of(const tinygltf::Model& model, int accessor);
 
     std::size_t count() const { return count_; }
     std::size_t components() const { return components_; }
-    /// Whether each element takes bytes of the file; else all are 0 unless they are replaced.
+    /// Whether each element takes bytes of the file. Otherwise all are 0 unless they are replaced.
     bool has_bytes() const { return base_.data != nullptr; }
 
-    /// Integers are fractions of their largest value if the accessor says so.
+    /// A component. Integers are fractions of their largest value if the accessor is normalized.
     double at(std::size_t element, std::size_t component) const {
         if (replaced_count_ > 0) {
             if (const auto k = replacement_of(element)) return number(values_, *k, component);
@@ -46,7 +46,7 @@ private:
     bool is_normalized_ = false;
     Row base_;
     std::size_t replaced_count_ = 0;
-    Row places_, values_;  ///< Which elements are replaced, in ascending order, and by what.
+    Row places_, values_;  ///< The replaced elements, in ascending order, and their values.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// tinygltf does not look at required extensions, and takes a compressed file for a broken one.
+// tinygltf ignores required extensions, and takes a compressed file for a broken one.
 #include "mesh/gltf_requirements.h"
 
 #include "core/json_size.h"
@@ -19,14 +19,14 @@ using GltfJson = nlohmann::json;
 
 constexpr std::size_t deepest_nesting = 128;
 
-/// Those that are applied, or refused where their data are needed.
+/// Extensions that are applied, or refused where their data are needed.
 constexpr std::array applied_extensions = {
     "EXT_mesh_gpu_instancing", "KHR_texture_transform",   "KHR_mesh_quantization",
     "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
     "KHR_node_visibility",
 };
 
-/// Those that say nothing of shapes, places and texture coordinates; also all of look_prefixes.
+/// Extensions irrelevant to shapes, positions and texture coordinates, like all of look_prefixes.
 constexpr std::array beside_the_shape = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
@@ -45,14 +45,14 @@ constexpr std::array beside_the_shape = {
 constexpr std::array look_prefixes = {"KHR_materials_", "EXT_materials_", "ADOBE_materials_",
                                       "MSFT_packing_"};
 
-/// A member of an object; null if there is none.
+/// A member of an object. Null if there is none.
 const GltfJson* member(const GltfJson* object, const char* name) {
     if (!object || !object->is_object()) return nullptr;
     const auto found = object->find(name);
     return found == object->end() ? nullptr : &*found;
 }
 
-/// The part of a list that a number names; null if there is none.
+/// The entry of a list at an index. Null if there is none.
 const GltfJson* entry(const GltfJson* list, const GltfJson* number) {
     if (!list || !list->is_array() || !number || !number->is_number_integer()) return nullptr;
     const auto place = number->get<std::int64_t>();
@@ -77,7 +77,7 @@ Result<void> for_each_entry(const GltfJson* list, const Visit& visit) {
 Result<void> check_version(const GltfJson& file) {
     const GltfJson* const version = member(member(&file, "asset"), "version");
     const GltfJson* const meshes = member(&file, "meshes");
-    // Version 1 may leave out its number, and has objects in place of lists.
+    // Version 1 may omit its number, and has objects where later ones have lists.
     const bool is_old = (version && version->is_string() &&
                          version->get_ref<const std::string&>().starts_with("1")) ||
                         (!version && meshes && meshes->is_object());
@@ -95,7 +95,7 @@ Result<void> check_extension(const GltfJson& name) {
                    "export it without this extension");
 }
 
-/// Bytes that are only there in a compressed form.
+/// Fails on bytes that exist only in a compressed form.
 Result<void> check_view(const GltfJson& file, const GltfJson& view) {
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         if (!extension(&view, name)) continue;
@@ -111,7 +111,7 @@ Result<void> check_view(const GltfJson& file, const GltfJson& view) {
     return {};
 }
 
-/// Draco's triangles may have plain copies beside them.
+/// Fails on triangles compressed by Draco without an uncompressed copy.
 Result<void> check_primitive(const GltfJson& file, const GltfJson& primitive) {
     constexpr const char* name = "KHR_draco_mesh_compression";
     if (!extension(&primitive, name)) return {};
@@ -129,7 +129,7 @@ Result<void> check_primitive(const GltfJson& file, const GltfJson& primitive) {
                    "export it without compression");
 }
 
-/// tinygltf refuses such corners, too, but does not say why.
+/// tinygltf refuses such corners, too, but gives no reason.
 Result<void> check_corners(const GltfJson& file, const GltfJson& primitive) {
     const GltfJson* const corners =
         entry(member(&file, "accessors"), member(&primitive, "indices"));
@@ -172,7 +172,7 @@ Result<void> check_gltf_requirements(std::string_view json) {
     if (auto good = for_each_entry(member(&file, "extensionsRequired"), check_extension); !good) {
         return good;
     }
-    // Draco first: where both are used, its extension says more.
+    // Checks Draco first: where a file uses both, Draco's extension says more.
     const auto check_mesh = [&](const GltfJson& mesh) {
         return for_each_entry(member(&mesh, "primitives"), [&](const GltfJson& primitive) {
             auto good = check_primitive(file, primitive);

@@ -1,4 +1,4 @@
-// What a glTF file asks of its reader, said before it is read.
+// The requirements of a glTF file, checked before it is read.
 #pragma once
 
 #include "core/result.h"
@@ -10,13 +10,12 @@ namespace cascade {
 /// Whether a JSON text is within the limits of memory and nesting that a parser needs.
 Result<void> check_gltf_size(std::string_view json);
 
-/// Fails on files of another version than 2, on extensions that a file requires and that are not
-/// known, and on geometry that only a compressed form has; each is named. What is no JSON text
-/// passes.
+/// Fails on files of another version than 2, on required extensions that are unknown, and on
+/// geometry that exists only in a compressed form. Names each. Accepts any text that is not JSON.
 Result<void> check_gltf_requirements(std::string_view json);
 
-/// Whether a file may use the extension without changing shapes, places, or coordinates in a way
-/// that this reader leaves out.
+/// Whether the reader can ignore or apply the extension without an error in shapes, positions, or
+/// texture coordinates.
 bool is_known_extension(std::string_view name);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Nodes are visited iteratively, and everything that is placed counts: a hostile file nests deeply,
-// in cycles, or places the same data again and again.
+// Nodes are visited iteratively, and every placement counts: a hostile file nests deeply, in
+// cycles, or places the same data again and again.
 #include "mesh/gltf_scene.h"
 
 #include "core/result.h"
@@ -27,11 +27,11 @@ namespace {
 
 // The points of a glTF primitive, by default weights and joints.
 
-/// Where a mesh is placed, and in which shape and light.
+/// The position, shape and light of a mesh.
 struct GltfPlacing {
-    const GltfMatrix& matrix;               ///< Of its node; skinned points ignore it.
-    const std::vector<GltfMatrix>* joints;  ///< Of its skin; null if there is none.
-    std::span<const double> weights;        ///< Of its morph targets; others have none.
+    const GltfMatrix& matrix;               ///< The node's matrix. Skinned points ignore it.
+    const std::vector<GltfMatrix>* joints;  ///< The skin's joints. Null if there is none.
+    std::span<const double> weights;        ///< The weights of morph targets, 0 for missing ones.
     /// Multiplies the colours of a copy.
     std::optional<std::array<double, 3>> light = {};
 };
@@ -39,8 +39,8 @@ struct GltfPlacing {
 /// An attribute of a primitive with its morph targets.
 class MorphedAttribute {
 public:
-    /// Nothing if the primitive has no such attribute of at least `least` components, or beyond
-    /// the data. Targets that lack it leave it as it is. Fails on targets for fewer points, and
+    /// Empty if the primitive has no such attribute of at least `least` components within the data.
+    /// Targets that lack the attribute leave it unchanged. Fails on targets for fewer points, or
     /// beyond the data.
     static Result<std::optional<MorphedAttribute>> of(const tinygltf::Model& model,
                                                       const tinygltf::Primitive& primitive,
@@ -49,7 +49,7 @@ public:
 
     std::size_t count() const { return base_.count(); }
     std::size_t components() const { return base_.components(); }
-    /// The number of arrays that a value is the sum of.
+    /// The number of arrays that sum to a value.
     std::size_t parts() const { return 1 + targets_.size(); }
     double at(std::size_t element, std::size_t component) const {
         double sum = base_.at(element, component);
@@ -67,7 +67,7 @@ private:
     };
     explicit MorphedAttribute(const GltfNumbers& base) : base_(base) {}
     GltfNumbers base_;
-    std::vector<Target> targets_;  ///< Those whose weight is not 0.
+    std::vector<Target> targets_;  ///< Targets with weights other than 0.
 };
 
 Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Model& model,
@@ -94,7 +94,7 @@ Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Mod
     return attribute;
 }
 
-constexpr std::size_t steps_of_copy = 8;  ///< Numbers that are read and matrices.
+constexpr std::size_t steps_of_copy = 8;  ///< Numbers and matrices that are read.
 
 /// Limits derived from the file's size, with an allowance for small files: a small file can use the
 /// same mesh or list the same triangles any number of times. A copy takes a few bytes and may have
@@ -107,7 +107,7 @@ struct SceneBounds {
           corners(std::min(std::size_t{1} << 29, (std::size_t{1} << 20) + 4 * bytes)),
           steps((std::size_t{1} << 24) + 16 * std::min(bytes, std::size_t{1} << 36)) {
         if (!has_copies) return;
-        constexpr std::size_t copied_triangles = std::size_t{1} << 24;  // As many as are merged.
+        constexpr std::size_t copied_triangles = std::size_t{1} << 24;  // Limit of merged copies.
         points = std::max(points, std::min(3 * copied_triangles, points + 64 * bytes));
         corners = std::max(corners, std::min(3 * copied_triangles, corners + 192 * bytes));
     }
@@ -149,7 +149,7 @@ private:
         });
     }
 
-    /// By KHR_node_visibility; its descendants are hidden with it.
+    /// Whether KHR_node_visibility hides the node, and with it its descendants.
     static bool is_hidden(const tinygltf::Node& node) {
         const auto visibility = node.extensions.find("KHR_node_visibility");
         if (visibility == node.extensions.end() || !visibility->second.IsObject()) return false;
@@ -157,7 +157,7 @@ private:
         return visible.IsBool() && !visible.Get<bool>();
     }
 
-    /// Counts work that adds neither points nor corners, or much for few.
+    /// Counts work that adds no points or corners, or few for its amount.
     Result<void> take_steps(std::size_t arrays, std::size_t length = 1) {
         if (length > 0 && arrays > (bounds_.steps - steps_) / length) {
             return failure("the glTF file uses its data too often for its size");
@@ -212,7 +212,7 @@ private:
         return {};
     }
 
-    /// Skins are shared by many nodes.
+    /// The joints of a skin, which many nodes may share.
     Result<const std::vector<GltfMatrix>*> joints_of(int skin) {
         const auto known = joints_.find(skin);
         if (known != joints_.end()) return &known->second;
@@ -312,7 +312,7 @@ private:
         return {};
     }
 
-    /// Of each point; empty if there are none.
+    /// The texture coordinates of each point. Empty if there are none.
     Result<std::vector<TexturePlace>> texture_places(const tinygltf::Primitive& primitive,
                                                      const GltfPlacing& placing,
                                                      std::size_t points) {
@@ -364,7 +364,7 @@ private:
     const SceneBounds bounds_;
     std::size_t steps_ = 0;
     GltfNodePlaces places_;
-    std::map<int, std::vector<GltfMatrix>> joints_;  ///< Of skins.
+    std::map<int, std::vector<GltfMatrix>> joints_;  ///< The joints of each skin.
     PolygonSoup soup_;
     bool all_have_texture_ = true;
     bool any_colour_ = false;

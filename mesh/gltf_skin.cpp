@@ -1,5 +1,5 @@
-// A point's matrix is the mean of those of its joints: the place of the joint in the scene, after
-// the inverse of its place when the mesh was bound to it.
+// A point's matrix is the weighted mean over its joints: the inverse of the joint's matrix when the
+// mesh was bound to it, followed by the joint's matrix in the scene.
 #include "mesh/gltf_skin.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ GltfNodePlaces::GltfNodePlaces(const tinygltf::Model& model)
 }
 
 Result<GltfMatrix> GltfNodePlaces::of(int node) {
-    // Up to the first node whose place is known, and down again.
+    // Up to the first node whose matrix is known, and down again.
     std::vector<std::size_t> path;
     GltfMatrix place = gltf_identity;
     for (int at = node; at >= 0; at = parents_[static_cast<std::size_t>(at)]) {
@@ -55,7 +55,7 @@ Result<std::vector<GltfMatrix>> joints_of_skin(const tinygltf::Model& model, int
                                                GltfNodePlaces& places) {
     const tinygltf::Skin* const skin = part_of(model.skins, number);
     if (!skin) return failure(fmt::format("skin {} of the glTF file is not there", number));
-    std::optional<GltfNumbers> bound;  // None: the joints were where their own axes are.
+    std::optional<GltfNumbers> bound;  // None: identity matrices.
     if (skin->inverseBindMatrices >= 0) {
         bound = GltfNumbers::of(model, skin->inverseBindMatrices);
         if (!bound || bound->components() != 16 || bound->count() < skin->joints.size()) {

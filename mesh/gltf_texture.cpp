@@ -1,4 +1,4 @@
-// The extension's example shows the direction of its rotation: counterclockwise in the picture.
+// The direction of rotation, counterclockwise in the picture, is that of the extension's example.
 #include "mesh/gltf_texture.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ double number_or(const tinygltf::Value& list, std::size_t place, double otherwis
     return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
 }
 
-/// What the extension says of a texture.
+/// Applies the extension's transformation of a texture.
 void apply_transform(const tinygltf::Value& said, GltfTexture& texture, int& set) {
     if (!said.IsObject()) return;
     const tinygltf::Value &offset = said.Get("offset"), &scale = said.Get("scale"),
@@ -39,7 +39,7 @@ GltfTexture described_by(const Info& info) {
     return texture;
 }
 
-/// The texture of colours of older files, if the material has one.
+/// The texture of colours in older files, if the material has one.
 std::optional<GltfTexture> diffuse_texture(const tinygltf::Material& material) {
     const auto found = material.extensions.find("KHR_materials_pbrSpecularGlossiness");
     if (found == material.extensions.end() || !found->second.IsObject()) return {};

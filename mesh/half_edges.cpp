@@ -1,4 +1,4 @@
-// Conversion between SurfaceMesh, which is read, and half-edges, which are edited.
+// Conversion between SurfaceMesh, for reading, and half-edges, for editing.
 #include "mesh/half_edges.h"
 
 #include <fmt/format.h>
@@ -132,7 +132,7 @@ private:
     }
 
     const SurfaceMesh& mesh_;
-    std::vector<std::array<HalfedgeHandle, 3>> half_edges_;  ///< Of the edges of each triangle.
+    std::vector<std::array<HalfedgeHandle, 3>> half_edges_;  ///< Per triangle, by edge.
     std::size_t edges_ = 0;
 };
 
@@ -152,7 +152,7 @@ SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> v
         points[v] = static_cast<std::uint32_t>(result.points.size());
         result.points.push_back(position(mesh, vertex(v)));
     }
-    std::vector<TriangleEdge> places(mesh.n_halfedges());  // Of half-edges with a face.
+    std::vector<TriangleEdge> places(mesh.n_halfedges());  // By half-edge, if it has a face.
     const auto place = [&](HalfedgeHandle h) -> TriangleEdge& {
         return places[static_cast<std::size_t>(h.idx())];
     };

@@ -1,12 +1,12 @@
 // The editable mesh: OpenMesh's half-edges. Besides this file only simplify.cpp and subdivide.cpp,
-// which use its tools, include OpenMesh.
+// which use OpenMesh's tools, include it.
 #pragma once
 
 #include "core/result.h"
 #include "mesh/surface_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-// Needs what the kernel includes.
+// Relies on the includes of the kernel above.
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 
 #include <limits>
@@ -48,10 +48,10 @@ inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;
 /// than can be indexed. Throws std::bad_alloc.
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh);
 
-/// The mesh of `vertices`, in this order; they must include all that faces use. Triangles are in
-/// the order of faces. (OpenMesh's garbage_collection() fills gaps from the end.)
+/// The mesh of `vertices`, in this order, which must include the corners of all faces. Triangles
+/// are in the order of faces. (OpenMesh's garbage_collection() fills gaps from the end.)
 SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> vertices);
-/// The same with all vertices that are not deleted, in their order.
+/// The mesh of all vertices that are not deleted, in their order.
 SurfaceMesh surface_mesh(const HalfEdges& mesh);
 
 inline VertexHandle vertex(std::uint32_t point) { return VertexHandle(static_cast<int>(point)); }
@@ -62,7 +62,7 @@ inline Vector3d position(const HalfEdges& mesh, VertexHandle v) {
     return {p[0], p[1], p[2]};
 }
 
-/// The half-edges out of a vertex, counterclockwise; at a boundary only the last has no face.
+/// The half-edges out of a vertex, counterclockwise. At a boundary only the last has no face.
 void outgoing(const HalfEdges& mesh, VertexHandle v, std::vector<HalfedgeHandle>& spokes);
 
 /// Whether an edge joins two vertices. Takes time proportional to the smaller one-ring.

@@ -21,7 +21,7 @@ constexpr double least_part = 0.1;
 /// Search distances for the surface from a point, in edges, nearest first.
 constexpr std::array reaches = {0.05, 0.15, 0.4, 1.0};
 constexpr int most_halvings = 60;
-constexpr double accuracy = 1e-12;  ///< Of a corner's position, in edges.
+constexpr double accuracy = 1e-12;  ///< The error of a corner's position, in edges.
 
 std::string text_of(Vector3d p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
@@ -61,7 +61,7 @@ private:
     struct Bracket {
         std::size_t number = 0;
         Vector3d origin, direction;
-        double near = 0, far = 0;  ///< Distances; the function changes its sign between them.
+        double near = 0, far = 0;  ///< Distances between which the function changes its sign.
         double near_value = 0, far_value = 0;
     };
 
@@ -125,8 +125,8 @@ private:
         return {};
     }
 
-    /// Regula falsi with the Illinois rule, which halves the value at an end that stays; occasional
-    /// bisection bounds the number of steps.
+    /// Closes brackets by regula falsi with the Illinois rule, which halves the value at an end
+    /// that stays. Occasional bisection bounds the number of steps.
     Result<void> close_brackets(std::span<Vector3d> points) {
         std::vector<double> middles;
         for (int round = 0; round < most_halvings && !bracketed_.empty(); ++round) {

@@ -20,7 +20,7 @@ struct ImplicitRequest {
     double edge = 0.05;                       ///< Approximate length of the triangles' edges.
 };
 
-/// Limits of the number of lattice points and of triangles before remeshing.
+/// The largest numbers of lattice points and of triangles before remeshing.
 inline constexpr double most_lattice_points = 3e8;
 inline constexpr std::size_t most_cut_triangles = std::size_t{1} << 24;
 

@@ -1,4 +1,4 @@
-// A normal of a plane turns with it, and changes with the inverse of what stretches the plane.
+// A plane's normal rotates with it, and is scaled by the inverse of the plane's scale.
 #include "mesh/instances.h"
 
 #include "core/check.h"
@@ -25,7 +25,7 @@ PlacementMap::PlacementMap(const Placement& placement) {
     y_ = single(turned(placement.turn, {0, scale.y, 0}));
     z_ = single(turned(placement.turn, {0, 0, scale.z}));
     place_ = single(placement.place);
-    // Up to a common factor, which keeps them near 1.
+    // The common factor keeps normals near length 1.
     const double size = length(scale) * length(scale);
     factors_ = single(
         {size / (scale.x * scale.x), size / (scale.y * scale.y), size / (scale.z * scale.z)});

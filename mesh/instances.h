@@ -10,21 +10,21 @@
 
 namespace cascade {
 
-/// Where a copy stands, and its looks. A point p of the mesh comes to place + turn(scale · p).
+/// The position and appearance of a copy. A point p of the mesh moves to place + turn(scale · p).
 struct Placement {
-    std::uint32_t mesh = 0;  ///< Which of the meshes.
+    std::uint32_t mesh = 0;  ///< The index of the mesh.
     Vector3d place;
     Quaternion turn;          ///< Of length 1.
     Vector3d scale{1, 1, 1};  ///< Factors along the mesh's own axes, larger than 0.
     Colour colour{1, 1, 1};   ///< sRGB, 0 … 1.
 };
 
-/// The body that they stand on is no part of it: what draws or writes both takes it separately.
+/// The copies without the body below them, which is drawn and written separately.
 struct Instances {
-    std::vector<TriangleMesh> meshes;  ///< The variants; each has triangles.
+    std::vector<TriangleMesh> meshes;  ///< The variants. Each has triangles.
     std::vector<Placement> placements;
 
-    /// Of all copies together.
+    /// The triangles of all copies together.
     std::uint64_t triangle_count() const;
 };
 
@@ -37,7 +37,7 @@ public:
     explicit PlacementMap(const Placement& placement);
 
     Vector3 point(Vector3 p) const { return x_ * p.x + y_ * p.y + z_ * p.z + place_; }
-    /// Of length 1. Normals change with the inverse factors.
+    /// A normal of length 1. Normals are scaled by the inverse factors.
     Vector3 normal(Vector3 n) const {
         return unit(x_ * (n.x * factors_.x) + y_ * (n.y * factors_.y) + z_ * (n.z * factors_.z));
     }

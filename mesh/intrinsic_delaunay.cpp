@@ -1,4 +1,4 @@
-// Flips edges whose opposite cotangents have a negative sum; only needs the lengths of edges.
+// Flips edges whose opposite cotangents have a negative sum. Only needs the lengths of edges.
 #include "mesh/intrinsic_delaunay.h"
 
 #include "mesh/flat.h"
@@ -10,9 +10,9 @@ namespace cascade {
 
 namespace {
 
-/// Sums of cotangents above the negative of this are not flipped, because of rounding.
+/// Sums of cotangents above the negative of this count as 0 because of rounding.
 constexpr double tolerance = 1e-9;
-/// Limit of checks per edge, on average.
+/// The average limit of checks per edge.
 constexpr std::size_t most_looks = 100;
 
 class EdgeFlipper {

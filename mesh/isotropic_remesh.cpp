@@ -11,13 +11,13 @@ namespace cascade {
 
 namespace {
 
-constexpr double longest_edge_part = 4.0 / 3;  ///< Of the target edge length.
-/// The length below which edges are collapsed in each round: the shortest first.
+constexpr double longest_edge_part = 4.0 / 3;  ///< In target edge lengths.
+/// The length below which each round collapses edges, the shortest first.
 constexpr std::array shortest = {0.3, 0.5, 0.65, 0.8, 0.8, 0.0, 0.0, 0.0};
 constexpr int most_flip_passes = 6;
 constexpr double smoothing = 0.6;
-constexpr double angle_tolerance = 1e-6;  ///< Of a sum of angles.
-constexpr double flattest_fold = 0.7;     ///< Cosine between triangles whose edge may be flipped.
+constexpr double angle_tolerance = 1e-6;  ///< In a sum of angles.
+constexpr double flattest_fold = 0.7;     ///< The smallest cosine at an edge that may be flipped.
 
 /// The angle opposite a half-edge: its cosine and sine, times the lengths of its sides.
 struct FacingAngle {
@@ -96,7 +96,7 @@ std::vector<Vector3d> spread(const SurfaceMesh& mesh, std::span<const Vector3d> 
     return places;
 }
 
-/// Moves the points, except for those of triangles that would be turned over.
+/// Moves the points, except where that would turn a triangle over.
 void move_points(SurfaceMesh& mesh, std::vector<Vector3d> places) {
     for (bool is_fine = false; !is_fine;) {
         is_fine = true;

@@ -14,8 +14,8 @@ namespace cascade {
 /// The angle of a whole turn.
 inline constexpr double tau = 2 * std::numbers::pi;
 
-/// Rectangle (i, j) of a lattice as two triangles; adjacent rectangles are cut along different
-/// diagonals, which avoids a preferred direction.
+/// Cuts rectangle (i, j) of a lattice into two triangles. Adjacent rectangles are cut along
+/// different diagonals, which avoids a preferred direction.
 template <typename Corner>
 void cut_rectangle(std::size_t i, std::size_t j, const Corner& corner) {
     const std::array<std::pair<std::size_t, std::size_t>, 4> ring = {
@@ -40,7 +40,7 @@ struct TriangleList {
         texture.back()[count] = {static_cast<float>(u), static_cast<float>(v)};
         count = (count + 1) % 3;
     }
-    std::size_t count = 0;  ///< Corners of the current triangle.
+    std::size_t count = 0;  ///< The number of corners of the current triangle.
 };
 
 inline SurfaceMesh mesh_of(std::vector<Vector3d> points, TriangleList list) {
@@ -49,8 +49,8 @@ inline SurfaceMesh mesh_of(std::vector<Vector3d> points, TriangleList list) {
     return mesh;
 }
 
-/// A tube that closes on itself: n rings of m points each. `place(i, j)` is point j of ring i.
-/// Texture: along the tube, and around it.
+/// A closed tube: n rings of m points each. `place(i, j)` is point j of ring i. Texture: along the
+/// tube, and around it.
 template <typename Place>
 SurfaceMesh ring_lattice(std::uint32_t n, std::uint32_t m, const Place& place) {
     const double columns = n, rows = m;

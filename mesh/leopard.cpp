@@ -1,4 +1,4 @@
-// A leopard that walks: left front leg and right hind leg are ahead.
+// A walking leopard: its left front leg and right hind leg are ahead.
 #include "mesh/animals.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// Curves become short bones, cones with round ends; what is near several limbs is blended.
+// Curves become short bones, cones with round ends. Limbs near each other are blended.
 #include "mesh/limbs.h"
 
 #include "mesh/implicit_surface.h"
@@ -12,7 +12,7 @@ namespace cascade {
 namespace {
 
 constexpr int bones_of_span = 4;
-constexpr double steepest = 0.99;  ///< Growth of a radius with length.
+constexpr double steepest = 0.99;  ///< The largest growth of a radius with length.
 constexpr double softnesses_of_reach = 4;
 
 Joint operator+(const Joint& a, const Joint& b) {
@@ -24,7 +24,7 @@ Vector3d place_of(const Joint& joint) { return {joint.x, joint.y, joint.z}; }
 
 double chord(const Joint& a, const Joint& b) { return length(place_of(b) - place_of(a)); }
 
-/// The slope of the spline at a joint: of the parabola through it and its neighbours.
+/// The slope of the spline at a joint: the slope of the parabola through it and its neighbours.
 Joint slope_at(const std::vector<Joint>& joints, std::size_t k) {
     const auto slope = [&](std::size_t a) {
         return (joints[a + 1] + joints[a] * -1) * (1 / chord(joints[a], joints[a + 1]));
@@ -35,7 +35,7 @@ Joint slope_at(const std::vector<Joint>& joints, std::size_t k) {
     return (slope(k - 1) * after + slope(k) * before) * (1 / (before + after));
 }
 
-/// Points along the smooth curve, the joints among them.
+/// Points along the smooth curve, including the joints.
 std::vector<Joint> curve_through(const std::vector<Joint>& joints) {
     std::vector<Joint> points{joints[0]};
     for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
@@ -78,10 +78,10 @@ LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_
       direction(unit(to - start)),
       extent(length(to - start)),
       radius(from_radius),
-      // Where one ball contains the other there is no cone.
+      // Where one ball contains the other, there is no cone.
       growth(extent > 0 ? std::clamp((to_radius - from_radius) / extent, -steepest, steepest) : 0),
       lean(growth / std::sqrt(1 - growth * growth)),
-      // A little larger than it must be, for rounding.
+      // Slightly too large, for rounding.
       ball{start + direction * (extent / 2),
            1.000001 * (extent / 2 + std::max(radius, radius + growth * extent))} {}
 
@@ -92,7 +92,7 @@ WITH_WIDE_VECTORS void LimbBody::Bone::lower(Numbers& distances, const Block& po
         const double along = dot(away, direction);
         const double square = dot(away, away) - along * along;
         const double aside = std::sqrt(square > 0 ? square : 0);
-        // The ball whose flesh is nearest.
+        // The ball with the nearest flesh.
         const double nearest = along + lean * aside;
         const double place = nearest < 0 ? 0 : nearest > extent ? extent : nearest;
         const double rest = along - place;
@@ -152,7 +152,7 @@ void LimbBody::evaluate(std::span<const Vector3d> points, std::span<double> valu
     }
 }
 
-/// Adds the terms of a limb at the points, which are in the box.
+/// Adds the terms of a limb at the points, which lie in the box.
 void LimbBody::add_part(const Part& part, const Block& points, const SurfaceMesh::Box& box,
                         Numbers& sums) const {
     const double reach = softnesses_of_reach * part.softness;
@@ -170,7 +170,7 @@ void LimbBody::add_part(const Part& part, const Block& points, const SurfaceMesh
     distances.fill(reach);
     double largest = reach;
     for (std::size_t bone = part.first; bone < part.last; ++bone) {
-        // Bones too far away to be nearest to any point are not measured.
+        // Skips bones too far away to be nearest to any point.
         const Vector3d away = bones_[bone].ball.middle - ball.middle;
         const double most = std::max(largest + bones_[bone].ball.radius + ball.radius, 0.0);
         if (dot(away, away) > most * most) continue;

@@ -22,34 +22,33 @@ struct Joint {
 
 enum class Sides { one, both };  ///< Both: the limb has a mirror image, with x negated.
 
-/// Flesh around the smooth curve through its joints, at least one; it ends in half balls.
+/// Flesh around the smooth curve through its joints, at least one. It ends in half balls.
 struct Limb {
     std::vector<Joint> joints;
     double softness = 0;  ///< The length over which it blends with other limbs.
     Sides sides = Sides::one;
-    Vector3d flat{1, 1, 1};  ///< Its thickness along x, y and z as parts of the radius, at most 1.
+    Vector3d flat{1, 1, 1};  ///< The thickness along x, y and z as parts of the radius, at most 1.
 };
 
 /// An implicit body: the sum over the limbs of (1 − d / 4s)⁴ less 1, with the distance d from a
-/// limb's flesh, negative inside, and its softness s; limbs further away than 4s count for nothing.
+/// limb's flesh, negative inside, and its softness s. Limbs further away than 4s do not count.
 /// These are the soft objects of G. Wyvill, C. McPheeters, B. Wyvill, "Data Structure for Soft
-/// Objects", The Visual Computer 2, 1986, around cones in place of points. Curves are splines of
-/// Catmull and Rom whose parameter is the length of chords.
+/// Objects", The Visual Computer 2, 1986, around cones in place of points. Curves are Catmull–Rom
+/// splines parametrised by chord length.
 class LimbBody {
 public:
     explicit LimbBody(const std::vector<Limb>& limbs);
 
     /// Positive inside, −1 far outside.
     double operator()(Vector3d p) const;
-    /// The same at many points, faster where successive ones are near each other.
+    /// The values at many points. Faster where successive points are near each other.
     void evaluate(std::span<const Vector3d> points, std::span<double> values) const;
 
-    /// The surface, moved so that it stands on y = 0. `edge` and failures are those of
-    /// implicit_surface().
+    /// The surface, moved so that it stands on y = 0. `edge` and failures as in implicit_surface().
     Result<SurfaceMesh> mesh(double edge, const std::atomic<bool>& cancel) const;
 
 private:
-    /// Some points, side by side for vectors of numbers.
+    /// The number of points evaluated side by side in vectors.
     static constexpr std::size_t block_size = 8;
     using Numbers = std::array<double, block_size>;
     struct Block {
@@ -57,7 +56,7 @@ private:
 
         SurfaceMesh::Box box() const;
     };
-    /// A ball that contains something.
+    /// A bounding ball.
     struct Ball {
         Vector3d middle;
         double radius = 0;
@@ -67,18 +66,18 @@ private:
     struct Bone {
         Bone(Vector3d from, double from_radius, Vector3d to, double to_radius);
 
-        /// Lowers `distances` to those from its flesh to the points; negative inside.
+        /// Lowers `distances` to the points' distances from the bone's flesh, negative inside.
         WITH_WIDE_VECTORS void lower(Numbers& distances, const Block& points) const;
 
         Vector3d from, direction;
         double extent = 0;
-        double radius = 0, growth = 0;  ///< At its start; with each length along it.
-        double lean = 0;  ///< Of normals along the bone, for each length away from it.
+        double radius = 0, growth = 0;  ///< The radius at the start, and its growth per length.
+        double lean = 0;  ///< The shift of normals along the bone, per length away from it.
         Ball ball;        ///< Contains the flesh.
     };
     /// One limb on one side, with a box that contains its flesh.
     struct Part {
-        std::size_t first = 0, last = 0;  ///< Its bones.
+        std::size_t first = 0, last = 0;  ///< The range of its bones.
         double softness = 0;
         Vector3d flat;
         SurfaceMesh::Box box;

@@ -1,5 +1,5 @@
-// The repairs in order: points merged, polygons triangulated, duplicates removed, triangles paired
-// and oriented, fans separated, flat triangles removed.
+// Repairs in this order: merges points, triangulates polygons, removes duplicates, pairs and
+// orients triangles, separates fans, removes flat triangles.
 #include "mesh/make_mesh.h"
 
 #include "core/counted.h"
@@ -134,7 +134,7 @@ private:
         return {};
     }
 
-    /// Of triangles with the same three points the first is kept.
+    /// Keeps only the first of triangles with the same three points.
     void leave_out_doubles() {
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> keys;
         keys.reserve(corners_.size());
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    /// Gives each fan of triangles its own point; keeps the points in order.
+    /// Gives each fan of triangles its own point. Keeps the points in order.
     void split_fans() {
         const std::vector<std::uint32_t> sources = separate_fans(mesh());
         std::size_t doubled = 0;
@@ -246,8 +246,8 @@ private:
 
     PolygonSoup soup_;
     std::vector<bool> is_used_;
-    std::vector<std::uint32_t> joined_;  ///< The point that each point was merged into.
-    std::vector<std::array<std::uint32_t, 3>> corners_;  ///< Of triangles, as corners of the soup.
+    std::vector<std::uint32_t> joined_;                  ///< By point: the surviving point.
+    std::vector<std::array<std::uint32_t, 3>> corners_;  ///< Triangles as corners of the soup.
     MadeMesh made_;
 };
 

@@ -78,7 +78,7 @@ Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view en
                                      const GrantedFiles& files) {
     const Format* const format = format_of(ending);
     CHECK(format != nullptr, "the ending of a model is checked before its file is read");
-    // A binary STL file begins with anything.
+    // A binary STL file may begin with any bytes.
     if (ending != "stl" && is_utf16(bytes)) return utf16_failure();
     return format->read(bytes, files);
 }

@@ -18,16 +18,16 @@ inline constexpr std::uint64_t largest_model_file = std::uint64_t{4} << 30;
 /// truncated or malformed, and if there is no polygon. Throws std::bad_alloc.
 Result<PolygonSoup> read_model(const GrantedFiles& files, const std::string& name);
 
-/// The same for a file that the user has named, anywhere. Files that it refers to must be below its
-/// own folder or those of `access`.
+/// Reads a file named by the user, anywhere. Files that it refers to must be below its own folder
+/// or the folders of `access`.
 Result<PolygonSoup> read_model(const std::filesystem::path& path, const ReadAccess& access = {});
 
-/// The same from bytes in memory; `files` reads the files that they refer to. `ending` is the
+/// Reads a model from bytes in memory. `files` reads the files that it refers to. `ending` is the
 /// format in lower case: "ply", "obj", "off", "stl", "gltf", "glb". Does not fail without polygons.
 Result<PolygonSoup> read_model_bytes(std::string_view bytes, std::string_view ending,
                                      const GrantedFiles& files = GrantedFiles::none());
 
-// One format each; `bytes` is the whole file.
+// Each function below reads one format. `bytes` is the whole file.
 
 /// PLY, text or binary of either byte order, with polygons or triangle strips (mesh/ply_file.cpp).
 Result<PolygonSoup> read_ply(std::string_view bytes);
@@ -37,8 +37,8 @@ Result<PolygonSoup> read_off(std::string_view bytes);
 Result<PolygonSoup> read_obj(std::string_view bytes);
 /// STL, text or binary (mesh/stl_file.cpp).
 Result<PolygonSoup> read_stl(std::string_view bytes);
-/// glTF 2.0 as text or binary by tinygltf (mesh/gltf_file.cpp): all meshes of the scene as
-/// mesh/gltf_scene.h says. `files` reads external buffers.
+/// glTF 2.0 as text or binary, read by tinygltf (mesh/gltf_file.cpp): all meshes of the scene
+/// (mesh/gltf_scene.h). `files` reads external buffers.
 Result<PolygonSoup> read_gltf(std::string_view bytes,
                               const GrantedFiles& files = GrantedFiles::none());
 

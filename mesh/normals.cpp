@@ -1,4 +1,4 @@
-// Corners are merged across edges that are no creases; each group has one normal.
+// Merges corners across edges that are no creases. Each group has one normal.
 #include "mesh/normals.h"
 
 #include "mesh/disjoint_sets.h"

@@ -13,8 +13,8 @@ namespace cascade {
 /// area. (0, 0, 1) if they cancel out.
 std::vector<Vector3d> point_normals(const SurfaceMesh& mesh);
 
-/// The same at any place: the normals of the triangle's corners, interpolated and normalised; the
-/// normal of the triangle if they cancel out.
+/// The unit normal at any position: the interpolated normals of the triangle's corners, or the
+/// triangle's normal if they cancel out.
 Vector3d normal_at(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals,
                    const SurfacePlace& place);
 
@@ -25,7 +25,7 @@ struct CornerNormals {
     std::vector<std::uint32_t> points;  ///< The point of each normal, ascending.
     std::vector<std::array<std::uint32_t, 3>> numbers;  ///< Normal of each corner.
 
-    /// The corners' normals, interpolated and normalised; the triangle's normal if they cancel out.
+    /// The interpolated unit normal of the corners, or the triangle's normal if they cancel out.
     Vector3d at(const SurfaceMesh& mesh, const SurfacePlace& place) const;
 };
 CornerNormals corner_normals(const SurfaceMesh& mesh);

@@ -21,7 +21,7 @@ struct FaceCorner {
     std::optional<std::uint32_t> texture;
 };
 
-/// Joins lines that end in a backslash with the next one. Blanks replace it, so that offsets stay.
+/// Joins lines that end in a backslash with the next one. Blanks replace it to preserve offsets.
 std::string joined_lines(std::string_view bytes) {
     std::string text(bytes);
     for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
@@ -149,7 +149,7 @@ private:
                       {PointAttribute{"red", {}}, PointAttribute{"green", {}},
                        PointAttribute{"blue", {}}}};
     std::vector<TexturePlace> texture_;
-    std::vector<std::uint32_t> corner_texture_;  ///< Of each corner, as long as all have one.
+    std::vector<std::uint32_t> corner_texture_;  ///< By corner, as long as all have some.
     bool all_have_texture_ = true, all_have_colours_ = true;
 };
 

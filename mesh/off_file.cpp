@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t least_point = 6, least_face = 2;  ///< Bytes, with the end of the line.
+constexpr std::size_t least_point = 6, least_face = 2;  ///< In bytes, with the end of the line.
 
 /// The data of points besides positions, as declared by the first word.
 struct Extras {

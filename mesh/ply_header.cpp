@@ -1,4 +1,4 @@
-// Reads line by line; types have an original name and one with a size.
+// Reads line by line. Types have an original name and one with a size.
 #include "mesh/ply_header.h"
 
 #include "mesh/text_words.h"
@@ -37,7 +37,6 @@ std::optional<PlyNumber> type_called(std::string_view name) {
 
 using Words = std::vector<std::string_view>;
 
-/// Reads the lines of a header one by one.
 class HeaderReader {
 public:
     explicit HeaderReader(std::string_view bytes) : bytes_(bytes) {}

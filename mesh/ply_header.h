@@ -20,7 +20,7 @@ struct PlyProperty {
     std::string name;
     PlyNumber type = PlyNumber::float32;
     bool is_list = false;
-    PlyNumber count_type = PlyNumber::uint8;  ///< Type of a list's length.
+    PlyNumber count_type = PlyNumber::uint8;  ///< The type of a list's length.
 };
 
 struct PlyElement {

@@ -9,13 +9,13 @@
 
 namespace cascade {
 
-/// A hash table of points, stored elsewhere, by their coordinates. −0 differs from 0, so callers
-/// replace it by 0; NaN equals nothing.
+/// A hash table from coordinates to points, which are stored elsewhere. −0 differs from 0, so
+/// callers replace it by 0. NaN equals nothing.
 class PointTable {
 public:
     explicit PointTable(const std::vector<Vector3d>& points) : points_(points), slots_(64, empty) {}
 
-    /// The first point added with the position of point `number`, else `number`, which is added.
+    /// The first point added with the position of point `number`. Adds `number` if there is none.
     std::uint32_t find_or_add(std::uint32_t number) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         std::uint32_t& slot = slot_of(points_[number]);

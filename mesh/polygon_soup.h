@@ -1,5 +1,5 @@
-// The content of a model file: polygons over points, without adjacency. Only guarantees that every
-// corner is one of the points; mesh/surface_mesh.h is made from it.
+// The content of a model file: polygons over points, without adjacency. Guarantees only that every
+// corner is one of the points. mesh/surface_mesh.h is made from it.
 #pragma once
 
 #include "core/vector3.h"
@@ -16,11 +16,11 @@ namespace cascade {
 struct PointAttribute {
     std::string name;
     std::vector<float> values;  ///< One per point.
-    // Of colours, which files have in different ways:
-    float full = 1;         ///< The value of all light: 255 if the file has bytes.
-    bool is_light = false;  ///< In proportion to light, not sRGB.
+    // How the file represents colours:
+    float full = 1;         ///< The value of full light: 255 if the file has bytes.
+    bool is_light = false;  ///< Values are proportional to light, not sRGB.
 
-    /// The same without values.
+    /// A copy without values.
     PointAttribute without_values() const { return {name, {}, full, is_light}; }
 };
 

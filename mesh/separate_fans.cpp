@@ -1,4 +1,4 @@
-// Joins the corners of triangles across shared edges in disjoint sets: each set is a fan.
+// Joins the corners of triangles across shared edges in disjoint sets. Each set is a fan.
 #include "mesh/separate_fans.h"
 
 #include "mesh/disjoint_sets.h"

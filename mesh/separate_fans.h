@@ -9,8 +9,8 @@
 namespace cascade {
 
 /// Renumbers the corners of the triangles so that triangles share a point only if they are
-/// connected over edges at it. Keeps the order of points and drops unused ones. Returns for each
-/// new point its old index; the caller updates `points` and `attributes`.
+/// connected over edges at it. Leaves points in order and drops unused ones. Returns the old index
+/// of each new point. The caller updates `points` and `attributes`.
 std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Each part has as many facets as it needs itself.
+// Chooses the number of facets for each part separately.
 #include "mesh/shape_parts.h"
 
 namespace cascade {

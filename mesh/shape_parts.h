@@ -14,7 +14,7 @@ struct ShapePart {
     SweptNumber shade;  ///< May be empty.
 };
 
-/// The parts as one mesh, each with facets_for() the detail. Fails as that and swept_shape() do.
+/// Joins the parts, each with facets_for() the detail. Fails as facets_for() and swept_shape() do.
 Result<TriangleMesh> mesh_of(std::span<const ShapePart> parts, const SweptDetail& detail);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // The sphere is an icosahedron whose sides are cut along great circles, the torus a lattice of
-// angles, and the box six lattices; each with texture coordinates.
+// angles, and the box six lattices. Each has texture coordinates.
 #include "mesh/shapes.h"
 
 #include "mesh/edge_pairs.h"
@@ -35,7 +35,7 @@ Vector3d reflected(Vector3d v, Vector3d across) {
     return v - across * (2 * dot(across, v) / dot(across, across));
 }
 
-/// A unit normal of the curve at n places, and at the first one again after a turn.
+/// Unit normals of the curve at n points, and at the first point again after a whole turn.
 std::vector<Vector3d> normals_along(std::uint32_t n) {
     std::vector<Vector3d> normals{cross(tangent(0), Vector3d{0, 0, 1})};
     normals[0] = normals[0] * (1 / length(normals[0]));
@@ -114,7 +114,7 @@ private:
         return static_cast<std::uint32_t>(points_.size() - 1);
     }
 
-    /// Point `k` of an edge, counted from `from`; both sides of the edge share it.
+    /// Point `k` of an edge, counted from `from`. Both sides of the edge share it.
     std::uint32_t on_edge(std::uint32_t from, std::uint32_t to, std::uint32_t k) {
         if (k == 0) return from;
         if (k == cuts_) return to;
@@ -182,8 +182,8 @@ struct BoxSide {
     std::size_t across, up;  ///< The axes.
     bool is_backwards;       ///< `across` runs from the high to the low end,
     bool is_downwards;       ///< and `up` likewise.
-    std::array<int, 4> net;  ///< Position in the net of the box: the number of depths and widths to
-                             ///< its left, and of depths and heights below it.
+    std::array<int, 4> net;  ///< The position in the net of the box: the number of depths and
+                             ///< widths to its left, and of depths and heights below it.
 };
 
 // The axes are width (x), height (y) and depth (z).
@@ -257,7 +257,7 @@ private:
 
     std::array<double, 3> sides_;
     Step counts_;
-    std::vector<std::uint64_t> keys_;  ///< Of the points, in order.
+    std::vector<std::uint64_t> keys_;  ///< The keys of the points, in order.
 };
 
 }  // namespace

@@ -7,27 +7,27 @@
 
 namespace cascade {
 
-/// Tubes of this radius and more meet themselves.
+/// Tubes with at least this radius intersect themselves.
 inline constexpr double most_knot_radius = 0.6;
 
 /// A tube around the curve (sin φ + 2 sin 2φ, cos φ − 2 cos 2φ, −sin 3φ). Its rings do not twist
-/// against the curve, but for the turn that closes the tube, which is spread over its length.
-/// Texture: along the curve, and around the tube. `radius` is below `most_knot_radius`; `edge` as
-/// for the shapes (mesh/shapes.h). Fails on others.
+/// against the curve, except for the turn that closes the tube, which is spread over its length.
+/// Texture: along the curve, and around the tube. `radius` is below `most_knot_radius`. Fails on
+/// others. `edge` as for the other shapes.
 Result<SurfaceMesh> knot_mesh(double radius, double edge);
 
 /// The largest number of triangles of a shape.
 inline constexpr double most_shape_triangles = 1 << 24;
-/// The limits of its lengths.
+/// The limits of a shape's lengths.
 inline constexpr double least_shape_length = 1e-60, largest_shape_length = 1e60;
 
 // `edge` is the approximate length of the triangles' edges. All lengths are in 10⁻⁶⁰ … 10⁶⁰. Fails
 // on others, and if there were more than `most_shape_triangles`. Throws std::bad_alloc.
 
 /// An icosahedron with each side cut into n² triangles. A point with weights w of the side's
-/// corners is the normalised sum of the corners times the sines of w times the angle of an edge,
-/// which cuts edges evenly. Texture: longitude from the back via −x, and latitude. The longitude of
-/// a triangle that crosses the seam at the back continues beyond 1, and that of a pole is the
+/// corners is the normalised sum of the corners times sin(w × the angle of an edge), which cuts
+/// edges uniformly. Texture: longitude from the back via −x, and latitude. The longitude of a
+/// triangle that crosses the seam at the back continues beyond 1, and that of a pole is the
 /// longitude of the triangle's centre.
 Result<SurfaceMesh> sphere_mesh(double radius, double edge);
 
@@ -35,7 +35,7 @@ Result<SurfaceMesh> sphere_mesh(double radius, double edge);
 /// Texture: around the ring from the back via −x, and around the tube from inside via below.
 Result<SurfaceMesh> torus_mesh(double ring_radius, double tube_radius, double edge);
 
-/// A box with sharp edges; each side is a lattice of rectangles cut along alternating diagonals.
+/// A box with sharp edges. Each side is a lattice of rectangles cut along alternating diagonals.
 /// Texture: the net of the box, with left, front, right and back side by side, and top and bottom
 /// above and below the front, all at one scale.
 Result<SurfaceMesh> box_mesh(Vector3d sides, double edge);

@@ -1,4 +1,4 @@
-// A module of OpenMesh's decimater says what each collapse costs, and which ones are refused.
+// A module of OpenMesh's decimater computes the cost of each collapse and refuses some.
 #include "mesh/simplify.h"
 
 #include "core/check.h"
@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-// The error of a point that has taken the place of others, in its place and in its attributes.
+// The error of a point that replaces others, in its position and its attributes.
 
 /// A sum over triangles of their areas times the squared distance of a point from their planes,
 /// plus the squared differences of its attributes from the linear functions that attributes are
@@ -37,9 +37,9 @@ public:
                       const std::array<Attributes, 3>& values, std::size_t attributes);
     PointQuadric& operator+=(const PointQuadric& other);
 
-    /// Of a point here. Rounding may make it a little less than 0.
+    /// The error of a point at this position. Rounding may make it slightly negative.
     double error(Vector3d point, const Attributes& values, std::size_t attributes) const;
-    /// Of the triangles added.
+    /// The area of the triangles added.
     double area() const { return area_; }
 
 private:
@@ -117,7 +117,7 @@ using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdges>;
 constexpr unsigned most_edges_of_merged = 12;
 /// Where collapses cost nothing else, as in a flat part of one colour, short edges go first.
 constexpr double weight_of_length = 1e-5;
-/// The sides of a boundary, against its distance from the plane of the triangles.
+/// The cost of distance from a boundary's sides, relative to distance from the triangles' planes.
 constexpr double weight_of_boundary = 4;
 
 /// Priorities are the errors of the merged points. Lengths are relative to the surface's box, so
@@ -164,8 +164,8 @@ public:
         const Vector3d to = place(collapse.v1), way = to - place(collapse.v0);
         const double error = std::max(0.0, sum.error(to, values_of(collapse.v1), attributes_));
         const auto cost = static_cast<float>(error + weight_of_length * own_area * dot(way, way));
-        // The decimater asks about all edges of a vertex in turn, and takes the cheapest one. What
-        // costs more than one that is allowed need not be tested.
+        // The decimater asks about all edges of a vertex in turn, and takes the cheapest one. It
+        // skips tests of edges more expensive than one already allowed.
         if (collapse.v0 == asked_ && cost >= cheapest_) return cost;
         if (!is_allowed(collapse)) return ILLEGAL_COLLAPSE;
         asked_ = collapse.v0;
@@ -178,7 +178,7 @@ public:
         asked_ = VertexHandle();
     }
 
-    /// The vertex that is left where each one was.
+    /// The surviving vertex for each vertex.
     std::vector<std::uint32_t> left() const { return ends_of_chains(into_); }
 
 private:
@@ -219,7 +219,7 @@ private:
     }
 
     /// A point whose neighbour across the collapsed triangle has three triangles would leave two
-    /// there, which coincide.
+    /// coinciding ones there.
     bool keeps_triangles(VertexHandle across) {
         return !across.is_valid() ||
                mesh().valence(across) > (mesh().is_boundary(across) ? 2U : 3U);
@@ -239,9 +239,9 @@ private:
     std::size_t attributes_ = 0;
     std::vector<PointQuadric::Attributes> values_;
     std::vector<PointQuadric> quadrics_;
-    VertexHandle asked_;  ///< Of the last collapse that was allowed, until the surface changes,
-    float cheapest_ = 0;  ///< and what it costs.
-    std::vector<std::uint32_t> into_;  ///< The vertex into which each one has merged; itself.
+    VertexHandle asked_;  ///< The vertex of the last allowed collapse, until the surface changes,
+    float cheapest_ = 0;  ///< and the cost of this collapse.
+    std::vector<std::uint32_t> into_;  ///< The vertex into which each one has merged.
 };
 
 class StopWhenCancelled : public OpenMesh::Decimater::Observer {

@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// What simplify() keeps besides the shape: up to three numbers at each point, such as a colour.
+/// A pattern that simplify() preserves: up to three numbers at each point, such as a colour.
 struct KeptPattern {
     std::span<const std::array<float, 3>> values;  ///< One per point; empty if there is none.
     /// A difference of 1 in a number counts as much as a distance of this length.
@@ -23,16 +23,16 @@ struct Simplified {
     /// Its points are points of the original, in their order, with their attributes. Triangles have
     /// no texture coordinates and no faces.
     SurfaceMesh mesh;
-    std::vector<std::uint32_t> points;  ///< The original's point that each one is.
+    std::vector<std::uint32_t> points;  ///< The original's point for each point.
     /// For each point of the original, the point of the result into which it has merged.
     std::vector<std::uint32_t> merged;
 };
 
-/// The surface with about `triangles` triangles, at most one more: edges are collapsed into one of
-/// their ends, those first that change the surface and the pattern least.
-/// Components, handles and boundaries remain; corners of boundaries stay. More triangles are left
-/// where only these would be lost, or triangles would fold. The same result in every run. Values
-/// that are not finite count as 0.
+/// The surface with about `triangles` triangles, at most one more. Collapses edges into one of
+/// their ends, in order of least change to the surface and the pattern. Components, handles and
+/// boundaries remain, and corners of boundaries stay. More triangles are left where a collapse
+/// would change these or fold triangles. Values that are not finite count as 0. The result is the
+/// same in every run.
 ///
 /// Fails as half_edges() does. Throws std::bad_alloc. Meaningless if `cancel` became true.
 Result<Simplified> simplify(const SurfaceMesh& mesh, std::size_t triangles,

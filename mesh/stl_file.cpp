@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Bytes of a binary file.
+constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Sizes in bytes in a binary file.
 
 /// Triangles have separate points; those at the same position are merged.
 class MergedSoup {
@@ -77,7 +77,7 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
     for (;;) {
         const std::vector<std::string_view>& words = lines.next();
         if (words.empty()) break;
-        // Some programs write several facets in a line. What follows another word is a name or a
+        // Some programs write several facets in a line. Text after an unknown word is a name or a
         // remark.
         for (std::size_t at = 0; at < words.size(); ++at) {
             if (is_word(words[at], "outer")) {
@@ -119,11 +119,11 @@ Result<PolygonSoup> read_stl(std::string_view bytes) {
     const bool has_head = bytes.size() >= head_size;
     const std::size_t count = has_head ? word_at(bytes, head_size - 4) : 0;
     const std::size_t wanted = head_size + count * triangle_size;
-    // A text has no byte of 0, and a number of triangles has one.
+    // A text has no byte of 0, but the number of triangles in a binary file does.
     const bool has_number = has_head && bytes.substr(head_size - 4, 4).find('\0') != bytes.npos;
     if (has_head && bytes.size() == wanted) return read_binary(bytes, count);
-    // Some programs write something of their own after the triangles. As long as triangles, it
-    // rather means that the number is wrong.
+    // Some programs append data of their own after the triangles. If the rest is as long as the
+    // triangles, the number is probably wrong.
     const bool is_longer = bytes.size() > wanted;
     const bool has_more = is_longer && (bytes.size() - wanted) % triangle_size == 0;
     if (has_number && count > 0 && is_longer && !has_more) return read_binary(bytes, count);

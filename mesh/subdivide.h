@@ -6,13 +6,13 @@
 
 namespace cascade {
 
-/// The number of triangles that subdivide() makes at most.
+/// The largest number of triangles that subdivide() makes.
 inline constexpr std::size_t most_subdivided = std::size_t{1} << 24;
 
-/// The surface with four triangles for each one, `times` times over, whose points approach a smooth
-/// surface (C. Loop, "Smooth Subdivision Surfaces Based on Triangles", master's thesis, University
-/// of Utah, 1987). Boundaries become smooth curves; creases are rounded. The points of the surface
-/// come first. Attributes and texture coordinates of new points are those of the middles of edges.
+/// Cuts each triangle into four, `times` times over. The points approach a smooth surface (C. Loop,
+/// "Smooth Subdivision Surfaces Based on Triangles", master's thesis, University of Utah, 1987).
+/// Boundaries become smooth curves, and creases are rounded. The points of the surface come first.
+/// Attributes and texture coordinates of new points are interpolated at the middles of edges.
 ///
 /// Fails if there would be more than `most_subdivided` triangles, and as half_edges() does. Throws
 /// std::bad_alloc.

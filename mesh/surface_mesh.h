@@ -23,7 +23,7 @@ constexpr Index corner_before(Index k) {
     return k == 0 ? 2 : k - 1;
 }
 
-/// Edge k of a triangle goes from its corner k to corner k + 1 (of 0, 1, 2).
+/// Edge k of a triangle goes from corner k to corner k + 1 (modulo 3).
 struct TriangleEdge {
     static constexpr std::uint32_t none = 0xffffffff;
     std::uint32_t triangle = none;
@@ -40,14 +40,14 @@ struct SurfaceMesh {
     std::vector<std::array<TriangleEdge, 3>> across;
     std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty if there is none.
     std::vector<PointAttribute> attributes;
-    /// The face of the model from which each triangle was cut, from 0 (a merged triangle without
-    /// area counts to its neighbour's face); empty if the model has only triangles.
+    /// The face of the model that each triangle was cut from, counted from 0. A merged triangle
+    /// without area belongs to its neighbour's face. Empty if the model has only triangles.
     std::vector<std::uint32_t> faces;
 
     Vector3d corner(std::size_t triangle, std::size_t k) const {
         return points[triangles[triangle][k]];
     }
-    /// The outward normal of a triangle, with the length of twice its area.
+    /// The outward normal of a triangle, with twice its area as length.
     Vector3d double_area_normal(std::size_t triangle) const {
         const Vector3d a = corner(triangle, 0);
         return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
@@ -67,7 +67,7 @@ struct SurfaceMesh {
     Box box() const;
 };
 
-/// Properties of a mesh as numbers.
+/// Global properties of a mesh.
 struct MeshFacts {
     std::size_t points = 0, triangles = 0, edges = 0;
     std::size_t components = 0;  ///< Connected over edges.

@@ -17,11 +17,11 @@ namespace cascade {
 
 namespace {
 
-constexpr double step = 1e-5;            ///< Of differences in t and s.
-constexpr double pole_step = 1e-4;       ///< How far from a pole its normals are measured.
-constexpr double vanishing_part = 1e-9;  ///< What is smaller, relative to the shape, is a point.
+constexpr double step = 1e-5;            ///< For differences in t and s.
+constexpr double pole_step = 1e-4;       ///< Distance from a pole where normals are measured.
+constexpr double vanishing_part = 1e-9;  ///< Smaller parts, relative to the shape, are points.
 
-/// Evaluates a surface, and remembers the first place at which it is not finite.
+/// Evaluates a surface, and remembers the first parameters at which it is not finite.
 class Probe {
 public:
     explicit Probe(const SweptSurface& surface) : surface_(surface) {}
@@ -32,7 +32,7 @@ public:
         if (!is_finite(place)) note("the shape", t, s);
         return place;
     }
-    /// Perpendicular to the surface, with any length.
+    /// A vector perpendicular to the surface, of any length.
     Vector3d normal(double t, double s) {
         const double before = std::max(0.0, t - step), after = std::min(1.0, t + step);
         const Vector3d along = (at(after, s) - at(before, s)) * (1 / (after - before));
@@ -100,7 +100,7 @@ private:
 
     void add_ring(std::uint32_t ring) {
         const double t = t_of(ring);
-        // Places first: where one of them is not finite, it is named and not a place beside it.
+        // Positions come first, so that the message names the point that is not finite itself.
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
             const Vector3d place = probe_.at(t, s_of(j));
             if (places_.empty()) low_ = high_ = place;
@@ -110,7 +110,7 @@ private:
                      std::max(high_.z, place.z)};
             add(place, {}, shade_at(t, s_of(j)));
         }
-        // An end may be a pole, of whose vertices each belongs to the sector after it.
+        // An end may be a pole. Each of its vertices belongs to the sector after it.
         const bool is_end = ring == 0 || ring == facets_.along;
         const double inside = is_end ? std::clamp(t, pole_step, 1 - pole_step) : t;
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
@@ -133,8 +133,8 @@ private:
         }
     }
 
-    /// Closes an end, whose ring gets vertices of its own for the cap and normals of its own
-    /// places.
+    /// Closes an end with a cap. Its ring gets separate vertices, with the normals of its own
+    /// points.
     void add_cap(std::uint32_t ring) {
         const double t = t_of(ring);
         Vector3d middle;
@@ -142,7 +142,7 @@ private:
             middle = middle + places_[vertex(ring, j)] * (1.0 / facets_.around);
             normals_[vertex(ring, j)] = probe_.normal(t, s_of(j));
         }
-        // Zero: the normals are those of the triangles.
+        // Zero: set_normals() takes the triangles' normals.
         const std::uint32_t centre = add(middle, {}, shade_at(t, 0));
         const std::uint32_t first = centre + 1;
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
@@ -190,7 +190,7 @@ private:
         for (Vector3d& normal : normals_) normal = -normal;
     }
 
-    /// Takes the normals of the surface; those of the triangles where it has none.
+    /// Sets the normals of the surface, or of the triangles where it has none.
     void set_normals() {
         smooth_normals(mesh_);
         for (std::size_t k = 0; k < normals_.size(); ++k) {
@@ -205,10 +205,10 @@ private:
     TriangleMesh mesh_;
     std::vector<Vector3d> places_, normals_;  ///< Normals have any length.
     Vector3d low_, high_;
-    std::array<bool, 2> is_pole_{};  ///< The first ring and the last.
+    std::array<bool, 2> is_pole_{};  ///< For the first and the last ring.
 };
 
-constexpr std::uint32_t lines = 24;  ///< Along which a number of facets is tried.
+constexpr std::uint32_t lines = 24;  ///< Lines along which facets are tested.
 constexpr std::array<double, 3> between = {0.25, 0.5, 0.75};
 
 /// The distance of a point from the line through a and b.
@@ -216,8 +216,8 @@ double distance_from_line(Vector3d p, Vector3d a, Vector3d b) {
     return length(p - (a + (b - a) * nearest_fraction(a, b, p)));
 }
 
-/// Whether polygons of `count` edges along the lines that `place(line, part)` gives keep to a
-/// detail; `part` goes from 0 to 1.
+/// Whether polygons of `count` edges along the lines `place(line, part)` meet a detail. `part` goes
+/// from 0 to 1.
 template <typename Place>
 bool keeps_to(const SweptDetail& detail, std::uint32_t count, const Place& place) {
     for (std::uint32_t line = 0; line < lines; ++line) {
@@ -269,7 +269,7 @@ SweptSurface surface_of(Tube tube) {
         double t = -1;
         Vector3d middle, across, beside;
     };
-    // Many points follow each other with the same t.
+    // Successive points often have the same t.
     return [tube = std::move(tube), ring = Ring()](double t, double s) mutable {
         if (ring.t != t) {
             Vector3d along = unit(derivative(tube.middle, t));

@@ -1,4 +1,4 @@
-// Parses numbers by from_decimal(); those out of range become 0 or infinity.
+// Parses numbers by from_decimal(). Numbers out of range become 0 or infinity.
 #include "mesh/text_words.h"
 
 #include "core/decimal.h"
@@ -28,8 +28,8 @@ std::optional<double> number_in(std::string_view word) {
         return std::nullopt;
     }
     if (fault == std::errc()) return value;
-    // Out of range, and from_decimal() does not tell at which end: the sign of the exponent does,
-    // or, without one, whether there are digits before the point.
+    // Out of range: from_decimal() does not tell at which end. The sign of the exponent tells, or,
+    // without an exponent, whether there are digits before the point.
     const bool is_negative = word.starts_with('-');
     if (is_negative) word.remove_prefix(1);
     const std::size_t exponent = word.find_first_of("eE");

@@ -14,8 +14,8 @@ namespace cascade {
 /// The words between white space.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// A number with an optional sign, fraction and exponent; also "nan" and "inf". Numbers out of
-/// range become 0 or infinity. Nothing for any other word.
+/// A number with an optional sign, fraction and exponent, or "nan" or "inf". Numbers out of range
+/// become 0 or infinity. Empty for any other word.
 std::optional<double> number_in(std::string_view word);
 
 /// An integer that fits its type, with an optional sign.
@@ -28,20 +28,20 @@ std::optional<Integer> whole_number_in(std::string_view word) {
     return value;
 }
 
-/// Whether a text is UTF-16 of either byte order, in which all Latin letters have a byte of 0.
+/// Whether a text is UTF-16 of either byte order, where all Latin letters have a byte of 0.
 bool is_utf16(std::string_view text);
 
-/// Fails because a model file is text in UTF-16.
+/// The failure for a model file in UTF-16.
 tl::unexpected<Failure> utf16_failure();
 
 /// Iterates over the lines of a text that have words. A '#' starts a comment. Lines end with a line
 /// feed, a carriage return, or both.
 class LineReader {
 public:
-    /// A mark of UTF-8 at the beginning is skipped.
+    /// Skips a byte order mark of UTF-8.
     explicit LineReader(std::string_view text);
 
-    /// The words of the next line; none at the end.
+    /// The words of the next line. Empty at the end.
     const std::vector<std::string_view>& next();
     /// The number of the current line, from 1.
     std::size_t number() const { return number_; }

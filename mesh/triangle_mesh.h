@@ -1,4 +1,4 @@
-// Triangles with smooth normals in binary32: what is drawn, and what is copied.
+// Triangles with smooth normals in binary32, for drawing and copying.
 #pragma once
 
 #include "core/vector3.h"
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// A point or direction as these meshes have it.
+/// Rounds a point or direction to binary32.
 inline Vector3 single(const Vector3d& a) {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
@@ -18,7 +18,7 @@ struct TriangleMesh {
     std::vector<Vector3> positions;
     std::vector<Vector3> normals;                         ///< One per position, of length 1.
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise from outside.
-    /// The part of the colour's light, 0 … 1, that the surface reflects at each position; empty:
+    /// The part of the colour's light, 0 … 1, that the surface reflects at each position. Empty:
     /// all of it everywhere.
     std::vector<float> shades;
 };
@@ -26,7 +26,7 @@ struct TriangleMesh {
 /// Sets each position's normal to the direction of the area-weighted sum of its triangles' normals.
 void smooth_normals(TriangleMesh& mesh);
 
-/// Adds the triangles of a mesh to another. Positions without a shade have the shade 1.
+/// Appends a mesh to another. Positions without a shade have the shade 1.
 void append(const TriangleMesh& added, TriangleMesh& mesh);
 
 /// The bounding box of a mesh.
