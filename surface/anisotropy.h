@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// A symmetric matrix of determinant 1 that maps vectors of a plane to vectors with the length of
-/// the anisotropic metric. It preserves areas.
+/// A symmetric matrix of determinant 1. It maps vectors of a plane to vectors with the length of
+/// the anisotropic metric, and preserves areas.
 struct Stretch {
     double xx = 1, xy = 0, yy = 1;
 
@@ -20,7 +20,7 @@ struct Stretch {
     Stretch inverse() const { return {yy, -xy, xx}; }
     /// The length, at least 1, of the longest vector whose length in the metric is 1.
     double longest() const;
-    /// The same stretch in a frame whose x axis is `turn` (of length 1) in this one.
+    /// The same stretch in a frame whose x axis is the unit vector `turn` in this one.
     Stretch in_frame(Vector2d turn) const;
 };
 

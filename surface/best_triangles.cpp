@@ -9,10 +9,10 @@ namespace cascade {
 
 namespace {
 
-/// The best triangulation of the points of a ring from one to another.
+/// The best triangulation of a ring's points between two of them.
 struct Part {
-    double worst = std::numeric_limits<double>::infinity();  ///< The worth of its worst triangle.
-    std::uint32_t middle = 0;  ///< The third corner of the triangle on the line that joins the two.
+    double worst = std::numeric_limits<double>::infinity();  ///< The score of its worst triangle.
+    std::uint32_t middle = 0;  ///< The third corner of the triangle on the line between the two.
 };
 
 class BestFilling {

@@ -1,5 +1,5 @@
 // The exponential of the diffusion operator as a series of Chebyshev polynomials, which applies the
-// operator far less often than explicit steps would.
+// operator far less often than explicit steps.
 #include "surface/blur_cells.h"
 
 #include <algorithm>
@@ -10,16 +10,16 @@ namespace cascade {
 
 namespace {
 
-/// Limit of a Voronoi edge's length over distance: nearly coinciding cells would make steps short.
+/// The limit of a Voronoi edge's length over distance: close cells would make steps short.
 constexpr double most_flow = 4;
 constexpr double least_blurred_area = 0.2;  ///< As a fraction of the average.
-constexpr double precision = 1e-4;          ///< Sum of the omitted terms of the series.
+constexpr double precision = 1e-4;          ///< The sum of the omitted terms of the series.
 
 /// The coefficients of the flow between cells, in units of the average area.
 struct Flows {
     std::vector<float> inverse_areas;
     std::vector<float> edges;  ///< Length over distance, as in SurfaceCells::edges.
-    double fastest = 0;        ///< Upper bound of the decay rates of all waves.
+    double fastest = 0;        ///< An upper bound of the decay rates of all waves.
 };
 
 Flows flows_of(const SurfaceCells& cells) {
@@ -35,7 +35,7 @@ Flows flows_of(const SurfaceCells& cells) {
         flows.inverse_areas.push_back(static_cast<float>(1 / area));
         double sum = 0;
         for (; edge < cells.ends[cell]; ++edge) sum += static_cast<double>(flows.edges[edge]);
-        flows.fastest = std::max(flows.fastest, 2 * sum / area);  // Gershgorin's circles.
+        flows.fastest = std::max(flows.fastest, 2 * sum / area);  // Gershgorin circles.
     }
     return flows;
 }

@@ -14,13 +14,13 @@ double cell_spacing(const SurfaceCells& cells);
 
 /// Blurs `values` (`channels` numbers per cell, cell after cell) by a Gaussian with standard
 /// deviation `sigma`, 0 … 10⁴, in cell spacings. Preserves the sum of value times area up to
-/// rounding; values leave their original range by at most a thousandth of it. Cells much smaller
+/// rounding. Values leave their original range by at most a thousandth of it. Cells much smaller
 /// than the others count as a fifth of the average. The same on any number of threads.
 ///
 /// Computes the exponential of diffusion by Chebyshev polynomials of the flows between neighbours
 /// (H. Tal-Ezer and R. Kosloff, "An accurate and efficient scheme for propagating the time
-/// dependent Schrödinger equation", Journal of Chemical Physics 81, 1984, in imaginary time), in
-/// about 15 sigma sweeps.
+/// dependent Schrödinger equation", Journal of Chemical Physics 81, 1984, in imaginary time),
+/// applying the flows about 15 sigma times.
 void blur_cells(const SurfaceCells& cells, double sigma, int channels, std::vector<float>& values,
                 Team& team);
 

@@ -1,4 +1,4 @@
-// The key is two hashes of mesh and options; everything read is validated before use.
+// The key is two hashes of mesh and options. Everything read is validated before use.
 #include "surface/cell_file.h"
 
 #include "core/file.h"
@@ -118,7 +118,7 @@ bool is_sound(const SurfacePlace& place, const SurfaceMesh& mesh) {
                        [](double weight) { return weight >= 0 && weight <= 1; });
 }
 
-/// Whether a cell's Voronoi edges lead to other cells, in ascending order, that have them too.
+/// Whether a cell's Voronoi edges are in ascending order and appear in the neighbouring cells, too.
 bool are_sound(const SurfaceCells& cells, std::uint32_t cell) {
     const auto edges = cells.edges_of(cell);
     for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -252,7 +252,7 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
     const auto fails = [&](const Failure& why) {
         return failure(fmt::format("'{}' {}", path.string(), why.message));
     };
-    // The file may be of any size, and may be replaced after its header was read.
+    // The file may have any size, and may be replaced after its header was read.
     if (!size_of_file(path)) return fails({"is not there", ""});
     const Result<Header> header = parse_header(first_bytes(path, sizeof(Header)), key);
     if (!header) return fails(header.error());

@@ -1,8 +1,8 @@
 // Cells kept in a file for later runs.
 //
 // The file consists of, in the byte order of the machine that wrote it: the letters "CASCELLS", the
-// version, a byte order mark, the key, the numbers of cells and Voronoi edges, and the bare area;
-// then places, areas, ends and edges; then a checksum (FNV-1a, 64 bits) of everything before it.
+// version, a byte order mark, the key, the numbers of cells and Voronoi edges, the bare area, the
+// positions, areas, ends and edges, and a checksum (FNV-1a, 64 bits) of everything before it.
 #pragma once
 
 #include "core/result.h"
@@ -28,23 +28,23 @@ CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// The content of a file of cells.
 std::string print_cells(const SurfaceCells& cells, const CellKey& key);
-/// The cells of such a content, made with this key for this surface. Fails, with a clause such as
-/// "is no file of cells", as read_cells() does.
+/// Parses the cells made with this key for this surface. Fails as read_cells() does, with a clause
+/// such as "is no file of cells".
 Result<SurfaceCells> parse_cells(std::string_view bytes, const SurfaceMesh& mesh,
                                  const CellKey& key);
 
-/// Writes a temporary file and renames it, so that an incomplete file is never seen.
+/// Writes a temporary file and renames it, so that no reader sees an incomplete file.
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceCells& cells,
                          const CellKey& key);
 
-/// The cells of a file written with this key for this surface. Fails with the reason if the file is
+/// Reads the cells written with this key for this surface. Fails with the reason if the file is
 /// missing, is no file of cells, has another version, byte order or key, or is truncated or damaged
 /// in any bit. Allocates no more than the file's size allows. The returned cells are valid: indices
 /// are in range, edges are symmetric, lengths are finite and positive. Throws std::bad_alloc.
 Result<SurfaceCells> read_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                                 const CellKey& key);
 
-/// The cells from the file if it holds them; otherwise they are made and written there.
+/// Cells read from the file if it holds them, otherwise made and written there.
 struct KeptCells {
     SurfaceCells cells;
     bool were_kept = false;  ///< They were read from the file.

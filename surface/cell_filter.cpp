@@ -14,19 +14,19 @@ namespace cascade {
 
 namespace {
 
-/// With a smaller sum of weights, all cells are at the edge of their reach: no average is taken.
+/// Below this sum of weights, all cells are at the edge of their reach, and no average is taken.
 constexpr float least_sum = 1e-5F;
 
-/// More would take more memory than machines have.
+/// More boxes would need more memory than machines have.
 constexpr std::size_t most_boxes = 0xffffffff;
 
-/// In radii: images of one cell that are no farther apart are merged.
+/// In radii: nearer images of one cell are merged.
 constexpr float same_point_distance = 0.004F;
 
-/// The weight for the square of a distance, in radii.
+/// The weight at a squared distance, in radii.
 float weight_of(float square) { return std::max(0.0F, 1 + square * (2 * std::sqrt(square) - 3)); }
 
-/// For each of `others`, the nearest of the points in space.
+/// The nearest of the points in space for each of `others`.
 std::vector<std::uint32_t> nearest_points(std::span<const Vector3d> points,
                                           std::span<const Vector3d> others, double reach) {
     std::vector<std::uint32_t> nearest(others.size(), TriangleEdge::none);
@@ -152,7 +152,7 @@ template <typename Visit>
 void CellFilter::visit_boxes(const CellImage& image, const Visit& visit) const {
     const Patch& patch = patches_[image.triangle];
     if (patch.columns == 1 && patch.rows == 1) return visit(patch.first_box);
-    // A margin, because rounding decides in which box a place on a boundary falls.
+    // A margin, because rounding decides the box of a position on a boundary.
     const float reach = 1 + 1e-3F;
     const auto number = [](float at, std::uint32_t count) {
         return static_cast<std::uint32_t>(
@@ -200,7 +200,7 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
         const std::size_t count = end;
-        end = sum;  // The start of the box's list; filling moves it to the end.
+        end = sum;  // The start of the box's list. Filling moves it to the end.
         sum += count;
     }
     sightings_.resize(sum);
@@ -211,7 +211,7 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
 }
 
 /// Chooses substitutes for triangles without sightings: the cell of the triangle on the way to the
-/// nearest cell, or, in components without cells, that nearest in space to their first triangle.
+/// nearest cell. In components without cells, the cell nearest in space to their first triangle.
 void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     std::vector<std::uint32_t> waiting;
     std::vector<bool> is_found(patches_.size());
@@ -272,13 +272,13 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) cons
     return nearest;
 }
 
-/// Calls `visit(near)` once for each cell within the radius. On an edge the distance is that of the
-/// edge's own sighting, so that both triangles agree; inside a triangle it is interpolated.
+/// Calls `visit(near)` once for each cell within the radius. On an edge the distance is taken from
+/// the edge's own sighting, so that both triangles agree. Inside a triangle it is interpolated.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
     const auto [a, b, c] = place.edges;
-    // The weights of sets of edges, as branches on them would be unpredictable.
+    // A table of the weights of sets of edges, because branches would be unpredictable.
     const std::array<float, 8> parts{0, a, b, a + b, c, a + c, b + c, 1};
     const auto sightings = sightings_of(box_of(patch, place), 1);
     for (std::size_t k = 0; k < sightings.size();) {

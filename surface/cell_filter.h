@@ -1,12 +1,12 @@
 // Smooth interpolation of cell values on a surface.
 //
 // G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis, 1992), section 5.4.1: the value
-// at a place is the average of the values of the cells around it with the weights
+// at a position is the average of the values of the cells around it with the weights
 //
 //     w(d / s) = 2 (d / s)³ − 3 (d / s)² + 1    for d < s, and 0 beyond.
 //
-// Turk takes d in space and s = 2 r. Here d is the distance along the surface, where that is
-// longer, so that the two sides of a leaf do not mix; and s is the repulsion radius r = 2 √(area /
+// Turk measures d in space and uses s = 2 r. Here d is the distance along the surface, where it is
+// longer, so that the two sides of a leaf do not mix, and s is the repulsion radius r = 2 √(area /
 // cells), which includes about twelve cells.
 #pragma once
 
@@ -21,7 +21,7 @@
 
 namespace cascade {
 
-/// The weight of a cell at a place.
+/// The weight of a cell at a position.
 struct CellShare {
     std::uint32_t cell = 0;
     float weight = 0;
@@ -37,12 +37,12 @@ struct SlopedShare {
 /// Thread-safe. Keeps no reference to the cells or the mesh.
 class CellFilter {
 public:
-    /// Finds the triangles within each cell's reach. There must be a cell. The same on any number
-    /// of threads. Throws std::bad_alloc.
+    /// Finds the triangles within each cell's reach. There must be a cell. The result is the same
+    /// on any number of threads. Throws std::bad_alloc.
     CellFilter(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
 
-    /// The cells near a place, in ascending order, with weights ≥ 0 that sum to 1. If none is near,
-    /// the nearest one, along the surface if the place's component has cells. Replaces `out`.
+    /// The cells near a position, in ascending order, with weights ≥ 0 that sum to 1. If none is
+    /// near, the nearest one, along the surface if its component has cells. Replaces `out`.
     void shares(const SurfacePlace& place, std::vector<CellShare>& out) const;
 
     /// The same cells with gradients that sum to 0, exact to a few hundredths on curved surfaces.
@@ -53,12 +53,12 @@ public:
 
 private:
     /// A triangle laid flat, with its longest edge along the x axis from the origin. The unit of
-    /// length is the radius; boxes have side 1.
+    /// length is the radius. Boxes have side 1.
     struct Patch {
         Vector3 origin;
         Vector3 x_axis, y_axis;                        ///< In space, of length 1.
-        float second_x = 0, third_x = 0, third_y = 0;  ///< Of the second and third corner.
-        std::uint32_t first_corner = 0;                ///< The one at the origin.
+        float second_x = 0, third_x = 0, third_y = 0;  ///< The second and third corner.
+        std::uint32_t first_corner = 0;                ///< The corner at the origin.
         std::uint32_t columns = 1, rows = 1;
         std::uint32_t otherwise = 0;  ///< The cell to use if none is near.
         std::uint32_t first_box = 0;
@@ -66,14 +66,14 @@ private:
     /// The position of a cell unfolded into a triangle's plane, as seen near some of its edges.
     struct Sighting {
         std::uint32_t cell = 0;
-        std::uint32_t edges = 0;  ///< A bit for each of the three.
+        std::uint32_t edges = 0;  ///< One bit per edge.
         float x = 0, y = 0;
     };
     /// A cell within the radius.
     struct Near {
         std::uint32_t cell = 0;
-        float square = 0;    ///< Of its distance.
-        float x = 0, y = 0;  ///< From the cell to the place.
+        float square = 0;    ///< The squared distance.
+        float x = 0, y = 0;  ///< From the cell to the position.
     };
     struct FlatPoint {
         float x = 0, y = 0;
@@ -101,7 +101,7 @@ private:
     void find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
     double radius_ = 0;
-    std::vector<Vector3> positions_;     ///< Of the cells in space, relative to the first.
+    std::vector<Vector3> positions_;     ///< The cells' positions in space, relative to the first.
     std::vector<Patch> patches_;         ///< One per triangle.
     std::vector<std::size_t> box_ends_;  ///< Box b's sightings end before sightings_[box_ends_[b]].
     std::vector<Sighting> sightings_;    ///< In each box in the order of cells.

@@ -1,4 +1,4 @@
-// Unfolds around the place with a growing radius until the nearest cell is certain.
+// Unfolds around the position with a growing radius until the nearest cell is certain.
 #include "surface/cell_finder.h"
 
 #include "surface/relax.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The nearest cell; of equally near ones that with the lowest index.
+/// The nearest cell. The lowest index wins among equally near ones.
 struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     std::uint32_t cell = CellFinder::nothing;

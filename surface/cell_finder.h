@@ -1,4 +1,4 @@
-// Finding the cell whose region contains a place.
+// Finding the cell whose region contains a position.
 #pragma once
 
 #include "surface/unfolding.h"
@@ -10,15 +10,15 @@
 
 namespace cascade {
 
-/// The mesh and the places must outlive it unchanged. Not thread-safe.
+/// The mesh and the cells must outlive it unchanged. Not thread-safe.
 class CellFinder {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;
 
     CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells);
 
-    /// The nearest cell in the unfolded surface around the place, or in space if its component has
-    /// no cell; of equally near ones that with the lowest index. `nothing` if there are no cells.
+    /// The nearest cell in the unfolded surface around the position, or in space if its component
+    /// has no cell. The lowest index wins among equally near ones. `nothing` if there are no cells.
     std::uint32_t at(const SurfacePlace& place);
 
 private:

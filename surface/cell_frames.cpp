@@ -1,4 +1,4 @@
-// Frames are those of the upward axis; evenness is a sum over the links of each cell.
+// Frames are derived from the upward axis. Evenness is a sum over the links of each cell.
 #include "surface/cell_frames.h"
 
 #include "surface/cell_gradient.h"
@@ -11,13 +11,13 @@ namespace cascade {
 
 namespace {
 
-// Beyond this ratio of eigenvalues gradients have no component across the line of the neighbours
+// Above this ratio of eigenvalues gradients have no component across the line of the neighbours
 // (surface/cell_gradient.h), with a margin.
 constexpr double most_ratio = 500;
 
 /// Sums over the links of a cell, in its plane.
 struct Shape {
-    double xx = 0, xy = 0, yy = 0;  ///< M.
+    double xx = 0, xy = 0, yy = 0;  ///< The matrix M.
 
     void add(Vector2d r, double weight) {
         xx += weight * r.x * r.x;
@@ -33,8 +33,8 @@ struct Shape {
     }
 };
 
-/// A neighbour: where it appears in the cell's plane, the line to it, and what the fit of gradients
-/// and the link count it for.
+/// A neighbour: its position in the cell's plane, the line to it, and its weights in the fit of
+/// gradients and in the link.
 struct Neighbour {
     Vector2d unfolded, line;
     double in_fit = 0, flow = 0;

@@ -11,10 +11,10 @@ namespace cascade {
 
 namespace {
 
-/// Neighbours are collinear if the (squared) spread across a line over that along it is below this.
+/// Neighbours are collinear if the ratio of squared spreads across and along a line is below this.
 constexpr double on_a_line = 1e-3;
 
-/// Neighbours nearer than this fraction of the cell's extent coincide with the cell.
+/// Neighbours nearer than this fraction of the cell's extent coincide with it.
 constexpr double same_place = 1e-9;
 
 /// A symmetric 2 × 2 matrix [xx, xy; xy, yy].
@@ -54,7 +54,7 @@ public:
         const auto edges = cells_.edges_of(cell);
         double farthest = 0;
         for (const VoronoiEdge& edge : edges) farthest = std::max(farthest, edge.distance);
-        // The distance of a Voronoi edge is the mean of two values, one of which may be longer.
+        // A Voronoi edge's distance is the mean of two values, one of which may be longer.
         unfolding_.around(cells_.places[cell], 1.5 * farthest);
         found_.clear();
         for (const VoronoiEdge& edge : edges) found_.push_back(neighbour(cell, edge));

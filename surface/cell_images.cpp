@@ -1,6 +1,6 @@
-// From the triangle of a place its image is propagated over edges, the nearest first, over each
-// edge once. An unfolded strip of triangles may wind back to its start; it ends there because a
-// path along the surface that is shorter than the distance in space is rejected.
+// Propagates an image from its triangle over edges, the nearest first, over each edge once. An
+// unfolded strip of triangles may wind back to its start. It ends there because a path along the
+// surface that is shorter than the distance in space is rejected.
 #include "surface/cell_images.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Each triangle with the start of its longest edge at the origin and that edge along the x axis.
+/// Each triangle with its longest edge along the x axis from the origin.
 std::vector<FlatTriangle> longest_edge_frames(const SurfaceMesh& mesh);
 
 /// The corner of a triangle at the origin of its frame.
@@ -28,14 +28,14 @@ struct CellImage {
     std::array<Point, 3> from_edges;
 };
 
-/// Refers to its arguments, which must outlive it. For one thread.
+/// Refers to its arguments, which must outlive it. Not thread-safe.
 class ImageFinder {
 public:
     ImageFinder(const SurfaceMesh& mesh, std::span<const FlatTriangle> frames, double radius);
 
-    /// The images of a cell at this place in all triangles reached within the radius, along the
+    /// The images of a cell at this position in all triangles reached within the radius, along the
     /// surface and in space. An edge out of reach has the image of one that is reached, from which
-    /// the place is farther than the radius. They stay until the next call.
+    /// the position is farther than the radius. Valid until the next call.
     std::span<const CellImage> find(const SurfacePlace& place);
 
 private:
@@ -47,9 +47,9 @@ private:
         std::array<bool, 3> is_reached{};  ///< Edges crossed by an image.
         std::array<Vector2d, 3> from_edges;
     };
-    /// An edge of a visited triangle, as a number that sorts the nearest first: the square of the
-    /// distance (the bits of numbers ≥ 0 are in their order), then 4 times the index in seen_, plus
-    /// the edge's. Numbers of one word move faster than structures of two.
+    /// An edge of a visited triangle, as a number that sorts the nearest first: the bits of the
+    /// squared distance (which sort like the number if it is ≥ 0), then 4 times the index in seen_,
+    /// plus the edge's index. Numbers of one word move faster than structures of two.
     __extension__ using Front = unsigned __int128;
     static Front front_at(double square_distance, std::uint32_t seen, std::uint32_t edge) {
         return Front{std::bit_cast<std::uint64_t>(square_distance)} << 64 |
@@ -72,7 +72,7 @@ private:
     Vector3d position_;
     std::vector<LastSeen> last_seen_;  ///< Per triangle.
     std::vector<Seen> seen_;
-    std::vector<Front> fronts_;  ///< A heap; the nearest comes first.
+    std::vector<Front> fronts_;  ///< A heap with the nearest on top.
     std::vector<CellImage> images_;
 };
 

@@ -1,5 +1,5 @@
-// Orders cells by breadth-first levels along links (Cuthill and McKee). Within a window, cells with
-// equally many links are adjacent.
+// Orders cells by breadth-first distance along links (Cuthill and McKee). Within a window, cells
+// with equally many links are adjacent.
 #include "surface/cell_order.h"
 
 #include "core/check.h"
@@ -21,10 +21,10 @@ public:
         : links_(links), seen_(links.ends.size(), 0), is_ordered_(links.ends.size(), false) {}
 
     struct Reached {
-        /// Level by level; the neighbours of a cell in ascending order of their links.
+        /// Level by level, the neighbours of a cell in ascending order of their links.
         std::vector<std::uint32_t> cells;
         std::size_t levels = 0;
-        std::size_t last_level = 0;  ///< Index of its first cell.
+        std::size_t last_level = 0;  ///< The index of its first cell.
     };
     Reached from(std::uint32_t start) {
         ++round_;
@@ -40,7 +40,7 @@ public:
         return reached;
     }
 
-    /// The levels from a peripheral cell: each trial starts from one of the last one's farthest.
+    /// The levels from a peripheral cell. Each trial starts from a farthest cell of the last one.
     Reached from_rim(std::uint32_t start) {
         constexpr int most_trials = 8;  // Two or three suffice.
         Reached best = from(start);

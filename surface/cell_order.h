@@ -17,15 +17,15 @@ namespace cascade {
 /// Connected components follow each other. O(n).
 std::vector<std::uint32_t> order_by_levels(const LinkList& links);
 
-/// The order in which steps are fastest by measurement (docs/performance.md): by levels, grouped in
-/// windows of 64 cells. Only depends on the links.
+/// The fastest order for steps by measurement (docs/performance.md): by levels, grouped in windows
+/// of 64 cells. Depends only on the links.
 std::vector<std::uint32_t> order_for_steps(const LinkList& links);
 
-/// Sorts each window of `window` cells by their numbers of links, in ascending order and stably. A
+/// Sorts each window of `window` cells stably by their numbers of links, in ascending order. A
 /// slice is as long as its longest list, so this reduces padding.
 void group_by_links(std::vector<std::uint32_t>& order, const LinkList& links, std::size_t window);
 
-/// The same links with cells renumbered by an order; the links of a cell are sorted by neighbour.
+/// The same links with cells renumbered by an order. The links of a cell are sorted by neighbour.
 LinkList renumbered(const LinkList& links, std::span<const std::uint32_t> order);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// The copy's points are brought back to the original before places are spread over it, so that its
-// area does not shrink.
+// Brings the copy's points back to the original before spreading cells over it, so that its area
+// does not shrink.
 #include "surface/cells_by_copy.h"
 
 #include "mesh/coarse_copy.h"
@@ -16,16 +16,16 @@ namespace cascade {
 
 namespace {
 
-/// A surface with at least this many triangles per cell is fine: relaxation, which unfolds a patch
+/// A surface with at least this many triangles per cell is fine. Relaxation, which unfolds a patch
 /// of about twenty cells around each cell, would spend most of its time on triangles.
 constexpr std::size_t fine_triangles = 12;
-/// The copy has about this many triangles per cell.
+/// The copy's approximate number of triangles per cell.
 constexpr double coarse_triangles = 3;
-/// coarse_copy() makes triangles of about this mean area, for edges of length 1.
+/// The approximate mean area of coarse_copy()'s triangles for edges of length 1.
 constexpr double area_of_edge = 0.82;
 
-/// Brings places of a coarse copy to the original. Looks among the triangles whose points have
-/// merged into those of the copy's triangle, which no other sheet of the surface nearby has.
+/// Brings positions on a coarse copy to the original. Searches only the triangles whose points have
+/// merged into the copy's triangle, so it never finds another sheet of the surface.
 class WayBack {
 public:
     WayBack(const SurfaceMesh& mesh, const CoarseCopy& copy)
@@ -38,7 +38,7 @@ public:
         each_merged([&](std::uint32_t point, std::uint32_t t) { triangles_[ends_[point]++] = t; });
     }
 
-    /// The original's triangles of which corners have merged into a point of the copy.
+    /// The original's triangles with corners that have merged into a point of the copy.
     std::span<const std::uint32_t> triangles_of(std::uint32_t point) const {
         const std::size_t first = point == 0 ? 0 : ends_[point - 1];
         return {triangles_.data() + first, ends_[point] - first};
@@ -64,7 +64,7 @@ private:
         }
     }
 
-    /// The nearest place on triangles of these points that do not face the other way.
+    /// The nearest position on triangles of these points that do not face the other way.
     SurfacePlace nearest(Vector3d position, std::span<const std::uint32_t> points,
                          Vector3d normal) const {
         SurfacePlace best = {triangles_of(points[0])[0], {1, 0, 0}};
@@ -87,7 +87,7 @@ private:
     const SurfaceMesh& mesh_;
     const CoarseCopy& copy_;
     std::vector<std::size_t> ends_;  ///< Point p's triangles end before triangles_[ends_[p]].
-    std::vector<std::uint32_t> triangles_;  ///< Of the original, point after point of the copy.
+    std::vector<std::uint32_t> triangles_;  ///< By point of the copy.
 };
 
 class CellsByCopy {
@@ -121,7 +121,7 @@ public:
     }
 
 private:
-    /// The areas of the original's components, in the order of those of the copy.
+    /// The areas of the original's components, in the order of the copy's components.
     std::vector<double> areas_of_components() const {
         const std::vector<std::uint32_t> components = connected_components(mesh_);
         std::vector<double> areas(components_.size()), in_order;
@@ -172,7 +172,7 @@ private:
     Team& team_;
     const std::atomic<bool>& cancel_;
     WayBack back_;
-    std::vector<std::uint32_t> components_;  ///< Of the copy's triangles.
+    std::vector<std::uint32_t> components_;  ///< By triangle of the copy.
 };
 
 }  // namespace

@@ -10,14 +10,14 @@ namespace cascade {
 /// Directions whose sum is shorter than this fraction of the sum of their lengths cancel out.
 constexpr double cancelled_part = 1e-6;
 
-/// Directions in the frames of their planes. Those of lines have twice the angle, so that v and −v
-/// are equal and perpendicular lines cancel out.
+/// Directions in the frames of their planes. Lines have twice the angle, so that v and −v are equal
+/// and perpendicular lines cancel out.
 class CodedDirections {
 public:
     CodedDirections(const TangentPlanes& planes, DirectionKind kind)
         : planes_(planes), kind_(kind) {}
 
-    /// The code of a vector; it has the same length.
+    /// The code of a vector, with the same length.
     Vector2d of(std::size_t plane, Vector3d v) const {
         const Vector2d flat = planes_.frames[plane].in_plane(v);
         if (kind_ == DirectionKind::arrows) return flat;

@@ -1,4 +1,4 @@
-// Weights over area are compared with the mean area; the limit is a constant or a quantile.
+// Compares weights over area with the mean area. The limit is a constant or a quantile.
 #include "surface/conduction.h"
 
 #include <algorithm>
@@ -11,13 +11,12 @@ namespace cascade {
 
 namespace {
 
-// A cell smaller than this part of the mean counts as this large, because steps would have to be
-// just as short.
+// A cell smaller than this part of the mean counts as this large. Otherwise steps would be equally
+// short.
 constexpr double least_conducting_area = 1e-3;
-// The sum of a spread cell's weights is at most this over the mean area. Regular hexagons have
-// 3.46.
+// The largest sum of a spread cell's weights, over the mean area. Regular hexagons have 3.46.
 constexpr double most_weight = 7.5;
-// Of faces and points this part is loosened.
+// The part of faces and points that is loosened.
 constexpr double tightest_part = 1e-3;
 
 /// The largest number c for which the sum of min(w, c) over the weights is at most `sum`.
@@ -90,8 +89,8 @@ private:
         return *limit;
     }
 
-    /// Limits the flows of cells whose sum is more than `most` times their area, until it is that
-    /// or `most_weight`.
+    /// Limits the flows of cells whose sum is more than `most` times their area to that or to
+    /// `most_weight`.
     void cap_flows(double most) {
         std::vector<double> caps(count(), std::numeric_limits<double>::infinity());
         for (std::size_t cell = 0; cell < count(); ++cell) {
@@ -110,7 +109,7 @@ private:
 
     const SurfaceCells& cells_;
     Conduction made_;
-    std::vector<double> sums_;  ///< Of flows, by cell.
+    std::vector<double> sums_;  ///< The sums of flows, by cell.
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ class ConvexRegion {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;
     struct Edge {
-        Vector2d from;  ///< Ends where the next one begins, counterclockwise.
+        Vector2d from;  ///< The start. It ends where the next edge starts, counterclockwise.
         std::uint32_t beyond = nothing;
     };
 
@@ -23,14 +23,14 @@ public:
     bool empty() const { return edges_.empty(); }
     void clear() { edges_.clear(); }
     double area() const;
-    /// The mean of the corners; the origin if there are none.
+    /// The mean of the corners, or the origin if there are none.
     Vector2d middle() const;
     /// The distance of the farthest corner from the origin.
     double farthest() const;
 
-    /// Keeps the part to the left of the line from a to b; the new edge gets the label `beyond`.
+    /// Keeps the part to the left of the line from a to b. The new edge gets the label `beyond`.
     void cut(Vector2d a, Vector2d b, std::uint32_t beyond);
-    /// Keeps the part that is nearer to the origin than to `point`.
+    /// Keeps the part nearer to the origin than to `point`.
     void cut_halfway(Vector2d point, std::uint32_t beyond) {
         const Vector2d middle = point * 0.5;
         cut(middle, middle + Vector2d{-point.y, point.x}, beyond);

@@ -1,5 +1,5 @@
-// The second fundamental form of each triangle, by least squares from the normals at its corners,
-// is rotated into the tangent planes at the corners and averaged there.
+// Fits the second fundamental form of each triangle by least squares to the normals at its corners,
+// rotates it into the tangent planes at the corners, and averages it there.
 #include "surface/curvature.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ Axes turned(const Axes& axes, Vector3d from, Vector3d to) {
 }
 
 /// The form of one triangle: form · e is the change of the normal along e, by least squares over
-/// its edges e, each of which gives two equations for uu, uv and vv.
+/// its edges e. Each gives two equations for uu, uv and vv.
 struct TriangleForm {
     bool is_known = false;
     Axes axes;
@@ -106,7 +106,7 @@ TriangleForm form_of(const SurfaceMesh& mesh, const std::vector<Vector3d>& norma
         s += x * dy + y * dx;
         t += y * dy;
     }
-    // Solved for uv first; a c − b² measures the spread of the edges and is positive.
+    // Solves for uv first. a c − b² measures the spread of the edges and is positive.
     const double determinant = (a * c - b * b) * (a + c);
     const double uv = (a * c * s - b * c * r - a * b * t) / determinant;
     result.form = {(r - b * uv) / a / size, uv / size, (t - b * uv) / c / size};
@@ -159,7 +159,7 @@ std::vector<Vector3d> sphere_normals(const SurfaceMesh& mesh) {
         const double size = length(sums[p]);
         sums[p] = size > 0 && std::isfinite(size) ? sums[p] * (1 / size) : Vector3d{};
     }
-    // If the normals around a point cancel out, takes that of one of its triangles.
+    // If the normals around a point cancel out, uses the normal of one of its triangles.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (const std::uint32_t point : mesh.triangles[t]) {
             if (length(sums[point]) > 0.5) continue;

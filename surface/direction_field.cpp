@@ -1,5 +1,5 @@
-// Lines are added as vectors of twice their angle, because they have no sign; undetermined
-// directions are filled in layers from the known ones.
+// Adds lines as vectors of twice their angle, because they have no sign. Fills undetermined
+// directions in layers from the known ones.
 #include "surface/direction_field.h"
 
 #include "surface/coded_directions.h"
@@ -179,7 +179,7 @@ std::vector<Vector3d> curvature_lines(const SurfaceMesh& mesh, const TangentPlan
             sum = sum + coded.of(k, curvature.high_direction[point]) * (apart * place.weights[c]);
         }
         if (!(length(sum) > least_difference * size)) sum = {};
-        // The other direction is perpendicular, which is the negative of the doubled angle.
+        // The other direction is perpendicular: the doubled angle becomes its negative.
         if (which == Principal::low) sum = sum * -1.0;
         lines.push_back(coded.in_space(k, sum) * length(sum));
     }

@@ -19,13 +19,13 @@ namespace cascade {
 /// discrete surfaces", 2010).
 struct TangentLink {
     std::uint32_t neighbour = 0;
-    /// Direction φ in the neighbour's frame is φ + turn here; the other side has the negative turn.
+    /// Direction φ in the neighbour's frame is φ + turn here. The other side has the negative turn.
     double turn = 0;
-    double distance = 0;  ///< Between the places of the two, in units of the model.
-    double weight = 0;    ///< Length of the shared edge over the distance.
+    double distance = 0;  ///< Between the positions of the two, in units of the model.
+    double weight = 0;    ///< The length of the shared edge over the distance.
 };
 
-/// Nodes, each with a place and the frame of the place's triangle.
+/// Nodes, each with a position and the frame of its triangle.
 struct TangentPlanes {
     std::vector<SurfacePlace> places;
     std::vector<TangentFrame> frames;
@@ -40,10 +40,10 @@ struct TangentPlanes {
     }
 };
 
-/// One plane for each triangle, at its centroid; linked over its edges.
+/// One plane for each triangle, at its centroid, linked over its edges.
 TangentPlanes planes_of_triangles(const SurfaceMesh& mesh);
 
-/// Whether v and −v are different directions. For lines either of the two vectors is returned.
+/// Whether v and −v are different directions. Lines are returned as either of the two vectors.
 enum class DirectionKind { arrows, lines };
 
 /// Projects vectors, one per plane, into the planes. If a vector is not finite, or its projection
@@ -57,7 +57,7 @@ std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Ve
 std::vector<Vector3d> axis_directions(const TangentPlanes& planes, Vector3d axis,
                                       DirectionKind kind);
 
-/// The gradient, at each plane's place, of values at the points of the mesh, linear in each
+/// The gradient, at each plane's position, of values at the points of the mesh, linear in each
 /// triangle: vectors for `directions`, per unit of the model. For cells see
 /// surface/cell_gradient.h.
 std::vector<Vector3d> gradients_of_points(const SurfaceMesh& mesh, const TangentPlanes& planes,

@@ -19,7 +19,7 @@ constexpr Reach unreached = {infinity, SurfaceDistance::no_source};
 /// A point is visited again only if the relative gain of the new path exceeds this.
 constexpr double least_shortening = 1e-12;
 
-/// Limit of visits per point, which only slivers could exceed, and with little gain.
+/// The limit of visits per point. Only slivers could exceed it, with little gain.
 constexpr std::size_t most_visits = 60;
 
 bool is_shorter(const Reach& a, const Reach& b) {

@@ -18,8 +18,8 @@ struct DistanceOptions {
     std::size_t triangles = 30'000;
 };
 
-/// A mesh prepared for distances, from one set of places after the other: refined, and with the
-/// triangles around each point. The mesh must outlive it. Undefined if `cancel` became true.
+/// A mesh prepared for distances from several sets of sources: refined, with the triangles around
+/// each point. The mesh must outlive it. Undefined if `cancel` became true.
 class DistanceMesh {
 public:
     DistanceMesh(const SurfaceMesh& mesh, const std::atomic<bool>& cancel,
@@ -27,7 +27,7 @@ public:
 
     const SurfaceMesh& original() const { return original_; }
     const Refinement& refinement() const { return refinement_; }
-    /// Of the refined mesh.
+    /// The refined mesh.
     const SurfaceMesh& mesh() const { return refinement_.mesh(); }
     double longest_edge() const { return longest_edge_; }
     std::span<const std::uint32_t> triangles_around(std::uint32_t point) const {
@@ -42,22 +42,22 @@ private:
     std::vector<std::uint32_t> around_;
 };
 
-/// The shortest distance along the surface from the nearest of some places, the sources.
+/// The shortest distance along the surface from the nearest of some positions, the sources.
 ///
 /// A front propagates over the mesh as in Dijkstra's algorithm. The paths to an edge are taken to
-/// come from one point: the one in the plane of the next triangle that has the computed distances
+/// come from one point: the point in the plane of the next triangle that has the computed distances
 /// from the ends of the edge. From there they go straight to the third corner (M. Novotni and R.
 /// Klein, "Computing geodesic distances on triangular meshes", WSCG 2002). A point to which a
 /// shorter path is found later is visited again, so obtuse angles need no special case. The result
 /// is exact on planes and around the edges of convex bodies, where methods with plane fronts (R.
-/// Kimmel and J. Sethian, "Computing geodesic paths on manifolds", PNAS 95, 1998) never are; exact
+/// Kimmel and J. Sethian, "Computing geodesic paths on manifolds", PNAS 95, 1998) never are. Exact
 /// windows (J. Mitchell, D. Mount and C. Papadimitriou, "The discrete geodesic problem", 1987) take
 /// much longer. On curved surfaces the error is of the order of the triangles' size: on a sphere of
 /// 30 000 triangles 0.0021 radii on average, and ten times that where paths from all directions
 /// meet. Time is O(n log n), independent of the number of sources.
 ///
-/// Points that are not connected with a source are infinitely far. Places must be on the mesh.
-/// Undefined if `cancel` became true.
+/// Points not connected with a source are infinitely far. Sources must be on the mesh. Undefined if
+/// `cancel` became true.
 class SurfaceDistance {
 public:
     static constexpr std::uint32_t no_source = 0xffffffff;
@@ -71,14 +71,14 @@ public:
         : SurfaceDistance(std::make_shared<const DistanceMesh>(mesh, cancel, options), sources,
                           cancel) {}
 
-    /// Distances of up to `reach`, in units of the model; longer ones may be infinite or too long.
+    /// Distances of up to `reach`, in units of the model. Longer ones may be infinite or too long.
     SurfaceDistance(std::shared_ptr<const DistanceMesh> mesh, std::span<const SurfacePlace> sources,
                     const std::atomic<bool>& cancel,
                     double reach = std::numeric_limits<double>::infinity());
 
     /// The distance of a point of the mesh.
     Reach at_point(std::uint32_t point) const { return reached_[point]; }
-    /// The distance of any place of the mesh.
+    /// The distance of any position on the mesh.
     Reach at(const SurfacePlace& place) const;
 
 private:
@@ -92,10 +92,10 @@ private:
 
     std::shared_ptr<const DistanceMesh> mesh_;
     std::vector<LocalSource> sources_;  ///< By triangle of the refined mesh.
-    std::vector<Reach> reached_;        ///< Of the points of the refined mesh.
+    std::vector<Reach> reached_;        ///< By point of the refined mesh.
 };
 
-/// The distance of each cell's place.
+/// The distance of each cell.
 std::vector<double> distances_of_cells(const SurfaceDistance& distance, const SurfaceCells& cells);
 
 }  // namespace cascade

@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// A vertex that may be cut off; `age` counts the changes around it up to computing `reach`.
+/// A vertex that may be cut off. `age` counts the changes around it up to computing `reach`.
 struct Ear {
     double reach = 0;
     std::uint32_t tip = 0, age = 0;

@@ -1,4 +1,4 @@
-// Triangulation of the hole that a removed point leaves.
+// Triangulation of the hole left by a removed point.
 #pragma once
 
 #include "mesh/flat.h"
@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// Maps the one-ring of a point to a plane with the point at the origin. Distances are kept; the
-/// angles between consecutive neighbours are scaled to a full turn, or to half a turn for a point
+/// Maps the one-ring of a point to a plane with the point at the origin. Preserves distances and
+/// scales the angles between consecutive neighbours to a full turn, or to half a turn for a point
 /// at a boundary (with one angle less than distances): the geodesic polar map of W. Welch and A.
 /// Witkin, "Free-Form Shape Design Using Triangulated Surfaces", SIGGRAPH 1994. Unlike in a
 /// projection to the tangent plane, the triangles never overlap.
@@ -22,11 +22,11 @@ using RingTriangle = std::array<std::uint32_t, 3>;
 /// Whether a triangle is allowed. Its first and third corner get a new edge unless adjacent.
 using MayMake = std::function<bool(const RingTriangle& corners)>;
 
-/// Cuts ears off a ring around the origin until a triangle is left, always the one whose
+/// Cuts ears off a ring around the origin until a triangle is left, always the ear whose
 /// circumcircle reaches least far beyond the origin. For a convex ring this gives the Delaunay
 /// triangulation (O. Devillers, "On deletion in Delaunay triangulations", SoCG 1999). An ear that
 /// is not allowed waits until a neighbouring ear changes it. The first and the last point of an
-/// open ring are no ears. Returns the triangles in order, with the remaining one last; nothing if
+/// open ring are no ears. Returns the triangles in order, with the remaining one last, or none if
 /// it gets stuck. O(n log n), except for ears that are not allowed.
 std::vector<RingTriangle> cut_ears(std::span<const Vector2d> ring, bool is_closed,
                                    const MayMake& may_make);
@@ -36,7 +36,7 @@ using Worth = std::function<double(const RingTriangle& corners)>;
 
 /// The triangulation of a ring of `count` points whose worst triangle is best, by the dynamic
 /// programming of G. T. Klincsek ("Minimal triangulations of polygonal domains", 1980), in O(n³).
-/// Returns the triangles in the order of cut_ears(); nothing if there is no triangulation.
+/// Returns the triangles in the order of cut_ears(), or none if there is no triangulation.
 std::vector<RingTriangle> best_triangles(std::uint32_t count, const Worth& worth);
 
 }  // namespace cascade

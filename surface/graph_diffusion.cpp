@@ -28,7 +28,7 @@ double inner(Vector2d a, Vector2d b) { return dot(a, b); }
 template <typename Number>
 class ImplicitStep {
 public:
-    /// `unit` is the mean mass; masses are relative to it.
+    /// `unit` is the mean mass. Masses are relative to it.
     ImplicitStep(const DiffusionGraph<Number>& graph, double time, double unit, Team& team)
         : graph_(graph),
           time_(time / unit),

@@ -15,13 +15,13 @@ namespace cascade {
 template <typename Number>
 struct GraphLink {
     std::uint32_t neighbour = 0;
-    double weight = 0;  ///< Not negative; the same on both sides.
-    Number coupling{};  ///< Its magnitude is the weight; the two sides have opposite rotations.
+    double weight = 0;  ///< Not negative. The same on both sides.
+    Number coupling{};  ///< Its magnitude is the weight. The two sides have opposite rotations.
 };
 
 template <typename Number>
 struct DiffusionGraph {
-    std::vector<double> masses;     ///< Of the nodes; positive for nodes with links.
+    std::vector<double> masses;     ///< The nodes' masses. Positive for nodes with links.
     std::vector<std::size_t> ends;  ///< Node k's links end before links[ends[k]].
     std::vector<GraphLink<Number>> links;
 };
@@ -29,8 +29,8 @@ struct DiffusionGraph {
 /// The solution of mass_i dv_i/dt = Σ coupling v_j − weight v_i after `time`, by four implicit
 /// Euler steps, each solved by conjugate gradients until the relative residual is 10⁻⁶ (J.
 /// Shewchuk, "An introduction to the conjugate gradient method without the agonizing pain", 1994,
-/// appendix B3; diagonal preconditioner). Stable for any time; times are limited to 100 total
-/// masses. Non-finite numbers spread. The same on any number of threads; undefined if `cancel`
+/// appendix B3; diagonal preconditioner). Stable for any time. Times are limited to 100 total
+/// masses. Non-finite numbers spread. The same on any number of threads. Undefined if `cancel`
 /// became true.
 std::vector<double> diffused(const DiffusionGraph<double>& graph, std::vector<double> values,
                              double time, Team& team, const std::atomic<bool>& cancel);

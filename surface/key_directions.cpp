@@ -1,4 +1,4 @@
-// Dijkstra's algorithm propagates each key's direction to the nearest planes; smoothing is
+// Dijkstra's algorithm propagates each key's direction to the nearest planes. Smoothing is
 // diffusion of the directions (surface/graph_diffusion).
 #include "surface/key_directions.h"
 
@@ -18,7 +18,7 @@ namespace cascade {
 
 namespace {
 
-/// A vector scaled to length 1 without overflow; 0 if it is not finite.
+/// A vector scaled to length 1 without overflow. 0 if it is not finite.
 Vector3d safe_unit(Vector3d v) {
     const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(size > 0) || !is_finite(v)) return {};
@@ -71,7 +71,7 @@ private:
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;
 };
 
-/// The code of a key's direction in a plane; 0 if it is perpendicular to it.
+/// The code of a key's direction in a plane. 0 if it is perpendicular to the plane.
 Vector2d code_of(const CodedDirections& coded, std::uint32_t plane, const KeyDirection& key) {
     const Vector2d code = coded.of(plane, safe_unit(key.direction));
     return length(code) > cancelled_part ? unit_of(code) : Vector2d{};

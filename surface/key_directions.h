@@ -1,4 +1,4 @@
-// Direction fields from directions at a few places, and their smoothing.
+// Direction fields from directions at a few positions, and their smoothing.
 #pragma once
 
 #include "core/parallel.h"
@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// A vector at the place of the surface that is nearest to a point in space.
+/// A vector at the surface position nearest to a point in space.
 struct KeyDirection {
     Vector3d position;
     Vector3d direction;
@@ -27,9 +27,9 @@ std::vector<Vector3d> key_directions(const SurfaceMesh& mesh, const TangentPlane
                                      const std::atomic<bool>& cancel);
 
 /// Diffuses directions over the surface, transported into their neighbours' planes, as if convolved
-/// with a Gaussian of standard deviation `length`, in units of the model, and normalises them; 0
-/// changes nothing. Lines are added with doubled angles. Directions that cancel out keep their
-/// original value. The same on any number of threads; undefined if `cancel` became true.
+/// with a Gaussian of standard deviation `length`, in units of the model, and normalises them. 0
+/// changes nothing. Lines are added with doubled angles. Directions that cancel out remain. The
+/// same on any number of threads. Undefined if `cancel` became true.
 std::vector<Vector3d> smoothed_directions(const TangentPlanes& planes,
                                           std::span<const Vector3d> field, DirectionKind kind,
                                           double length, Team& team,

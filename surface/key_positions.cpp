@@ -1,4 +1,4 @@
-// Each cell takes the value of the nearest key; diffusion then smooths the borders.
+// Each cell takes the value of the nearest key. Diffusion then smooths the borders.
 #include "surface/key_positions.h"
 
 #include "surface/distance.h"

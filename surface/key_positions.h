@@ -1,4 +1,4 @@
-// Values on a surface interpolated from a few places: G. Turk's "Parameter specification using
+// Values on a surface interpolated from a few positions: G. Turk's "Parameter specification using
 // diffusion" (thesis, 1992, section 4.6.2).
 #pragma once
 
@@ -11,24 +11,24 @@
 
 namespace cascade {
 
-/// A value at the place of the surface that is nearest to a point in space.
+/// A value at the surface position nearest to a point in space.
 struct KeyValue {
     Vector3d position;
     double value = 0;
 };
 
 /// For each cell, the value of the nearest key along the surface, or in space in components without
-/// a key. Ignores keys with non-finite positions; 0 without keys. Undefined if `cancel` became
+/// a key. Ignores keys with non-finite positions. 0 without keys. Undefined if `cancel` became
 /// true.
 std::vector<double> nearest_key_values(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                        std::span<const KeyValue> keys,
                                        const std::atomic<bool>& cancel);
 
 /// Diffuses cell values over the surface, as if convolved with a Gaussian of standard deviation
-/// `length`, in units of the model; 0 changes nothing, infinity leaves the mean of each component.
+/// `length`, in units of the model. 0 changes nothing, infinity leaves the mean of each component.
 /// Values stay within their original range. Turk's n steps, each exchanging a fraction k of the
 /// difference with every neighbour, correspond to a length of √(3 k n) neighbour distances on a
-/// hexagonal mesh. Values must be finite. The same on any number of threads; undefined on `cancel`.
+/// hexagonal mesh. Values must be finite. The same on any number of threads. Undefined on `cancel`.
 std::vector<double> smoothed(const SurfaceCells& cells, std::vector<double> values, double length,
                              Team& team, const std::atomic<bool>& cancel);
 

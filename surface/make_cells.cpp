@@ -1,5 +1,5 @@
 // Cells of vertices and of faces follow the mesh. Cells of positions are Voronoi cells, with
-// options that are checked.
+// checked options.
 #include "surface/make_cells.h"
 
 #include "core/counted.h"
@@ -26,7 +26,7 @@ namespace {
 constexpr double rounding_of_weights = 1e-9;
 
 /// Distributes the area of a triangle to its corners: by Voronoi regions, or, if an angle is
-/// obtuse, one half to it and a quarter each to the others (Meyer et al., figure 4).
+/// obtuse, one half to its corner and a quarter each to the others (Meyer et al., figure 4).
 void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>& areas) {
     const double area = mesh.area(t);
     std::array<double, 3> cotangents;
@@ -39,7 +39,7 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
             areas[corners[j]] += area * (j == obtuse ? 0.5 : 0.25);
         return;
     }
-    std::array<double, 3> parts;  // Of edge k: a² cot / 8 for each of its ends.
+    std::array<double, 3> parts;  // a² cot / 8 of edge k, for each of its ends.
     double sum = 0;
     for (std::uint32_t k = 0; k < 3; ++k) {
         parts[k] = mesh.lengths[t][k] * mesh.lengths[t][k] * cotangents[k];
@@ -52,7 +52,7 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
     }
 }
 
-/// The smallest weight of a corner in a triangle's centre; in the centroid it is 1/3.
+/// The smallest weight of a corner in a triangle's centre. In the centroid it is 1/3.
 constexpr double least_weight = 1.0 / 9;
 
 /// Sums over a face.
@@ -63,7 +63,7 @@ struct Face {
     double nearest = std::numeric_limits<double>::infinity();  ///< Squared, to the centroid.
 };
 
-/// The place of a triangle nearest to a point, or approximately so if that is at its border.
+/// The position on a triangle nearest to a point, or approximately so if it is at its border.
 SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point) {
     const Vector3d origin = mesh.corner(t, 0);
     const Vector3d x = unit(mesh.corner(t, 1) - origin);
@@ -171,7 +171,7 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh) {
 std::vector<std::uint32_t> cells_of_triangles(const SurfaceMesh& mesh) {
     std::vector<std::uint32_t> cells;
     cells.reserve(mesh.triangles.size());
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers;  // Of faces; only looked up.
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers;  // By face. Used for look-up only.
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t face = mesh.faces.empty() ? t : mesh.faces[t];
         const auto next = static_cast<std::uint32_t>(numbers.size());
@@ -257,7 +257,7 @@ Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& opti
     if (Result<void> fine = check_cells(mesh, options); !fine) return tl::unexpected(fine.error());
     if (options.kind == CellKind::faces) return face_cells(mesh);
     if (options.kind == CellKind::vertices) return vertex_cells(mesh);
-    // A surface that cannot be copied may still be unfolded as it is.
+    // A surface that cannot be copied may still be unfolded.
     if (is_fine(mesh, options)) {
         Result<SurfaceCells> cells = cells_by_copy(mesh, options, team, cancel);
         if (cells) return cells;

@@ -19,9 +19,9 @@ namespace cascade {
 /// linear finite elements with lumped masses.
 ///
 /// Obtuse angles could give negative weights, which let diffusion run uphill. So areas and weights
-/// are those of the intrinsic Delaunay triangulation of the surface (mesh/intrinsic_delaunay.h),
+/// are taken from the intrinsic Delaunay triangulation of the surface (mesh/intrinsic_delaunay.h),
 /// which is the same if no two opposite angles exceed 180° together. A boundary edge opposite an
-/// obtuse angle has no Voronoi edge. The areas sum to that of the surface.
+/// obtuse angle has no Voronoi edge. The areas sum to the area of the surface.
 SurfaceCells vertex_cells(const SurfaceMesh& mesh);
 
 /// One cell for each face of the model, in the order of their first triangles. A face is a
@@ -30,48 +30,48 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh);
 /// Generation for 3D Models" (University of Southampton, 2005), give each triangle of a model three
 /// neighbours and weight diffusion by the edges' lengths.
 ///
-/// The place of a triangle is its circumcentre, that of another polygon its centroid; the distance
-/// across an edge is the sum of the two places' distances from its line. Without obtuse angles the
-/// cells therefore form a Voronoi diagram and diffusion is consistent (R. Eymard, T. Gallouët and
-/// R. Herbin, "Finite Volume Methods", 2000, section 9). The circumcentre of an obtuse triangle is
-/// outside of it, and that of a right-angled one is on an edge; such a centre is moved inside until
-/// every corner has a weight of 1/9, which bounds the weights. Diffusion then has an error, of up
-/// to a tenth on squares cut in two.
+/// A triangle's cell is at its circumcentre, another polygon's at its centroid. The distance across
+/// an edge is the sum of the two cells' distances from its line. Without obtuse angles the cells
+/// therefore form a Voronoi diagram and diffusion is consistent (R. Eymard, T. Gallouët and R.
+/// Herbin, "Finite Volume Methods", 2000, section 9). The circumcentre of an obtuse triangle is
+/// outside, and that of a right-angled one is on an edge. Such a centre is moved inside until every
+/// corner has a weight of 1/9, which bounds the weights. Diffusion then has an error, of up to a
+/// tenth on squares cut in two.
 SurfaceCells face_cells(const SurfaceMesh& mesh);
 
-/// For each triangle, the index of its face's cell.
+/// The cell of each triangle's face.
 std::vector<std::uint32_t> cells_of_triangles(const SurfaceMesh& mesh);
 
 enum class CellKind : std::uint32_t {
-    places = 0,    ///< Regions around evenly spread places (surface/voronoi_cells.h).
+    places = 0,    ///< Regions around uniformly spread positions (surface/voronoi_cells.h).
     faces = 1,     ///< The faces of the model.
     vertices = 2,  ///< Its points.
 };
 
 struct CellOptions {
     CellKind kind = CellKind::places;
-    // The following members are for places only.
+    // The following members are for `places` only.
     std::uint64_t count = 0;  ///< 1 … 2³² − 2.
     std::uint32_t seed = 1;
-    int rounds = relaxing_rounds;  ///< Of relaxation.
+    int rounds = relaxing_rounds;  ///< Rounds of relaxation.
     /// Null for an isotropic metric. It must exist while cells are made.
     const Anisotropy* anisotropy = nullptr;
 };
 
-/// The number of cells that make_cells() would make.
+/// The number of cells that make_cells() will make.
 std::uint64_t count_cells(const SurfaceMesh& mesh, const CellOptions& options);
 
-/// An upper estimate, from measurements, of the bytes that making the cells takes besides the mesh,
-/// to refuse impossible requests in advance.
+/// An upper estimate, from measurements, of the bytes needed to make the cells besides the mesh.
+/// Serves to refuse impossible requests in advance.
 double memory_of_cells(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// Fails where make_cells() would.
 Result<void> check_cells(const SurfaceMesh& mesh, const CellOptions& options);
 
-/// The cells. Fails if the number of cells is out of range, if there are fewer places than
-/// components of the surface (each needs one to be covered), and if the anisotropy is not one
-/// direction and ratio ≥ 1 for each triangle. Throws std::bad_alloc. Undefined if `cancel` became
-/// true. The same on any number of threads.
+/// Makes the cells. Fails if the number of cells is out of range, if the surface has more
+/// components than cells (each needs one to be covered), and if the anisotropy is not one direction
+/// and ratio ≥ 1 for each triangle. Throws std::bad_alloc. Undefined if `cancel` became true. The
+/// same on any number of threads.
 Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& options, Team& team,
                                 const std::atomic<bool>& cancel);
 

@@ -1,5 +1,5 @@
-// Inserts places one by one, in random rounds along a curve, and flips edges until the triangles
-// within each old one are Delaunay. Places are located by walking over edges.
+// Inserts positions one by one, in random rounds along a curve, and flips edges until the triangles
+// within each old one are Delaunay. Locates positions by walking over edges.
 #include "surface/mutual_tessellation.h"
 
 #include "core/hash.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// Interleaves the bits of two numbers: the position on a curve along which near places are near.
+/// Interleaves the bits of two numbers: the position on a curve that keeps near points near.
 std::uint64_t along_curve(const Steps& steps) {
     std::uint64_t key = 0;
     for (int bit = 24; bit >= 0; --bit) {
@@ -24,8 +24,8 @@ std::uint64_t along_curve(const Steps& steps) {
     return key;
 }
 
-/// The order by triangle; within a triangle in random rounds, each of twice as many places as the
-/// one before, and within a round along a curve.
+/// The order by triangle. Within a triangle in random rounds, each of twice as many positions as
+/// the one before, and within a round along a curve.
 std::vector<std::uint32_t> insertion_order(const std::vector<LatticePlace>& places) {
     using Entry = std::tuple<std::uint32_t, int, std::uint64_t, std::uint32_t>;
     std::vector<Entry> entries;
@@ -86,7 +86,7 @@ private:
     std::uint32_t& origin(FaceHandle f) { return mesh_.property(origin_, f); }
     std::uint32_t origin(FaceHandle f) const { return mesh_.property(origin_, f); }
 
-    /// The area-weighted normals of the old points.
+    /// Sets the area-weighted normals of the old points.
     void take_normals() {
         made_.normals.resize(old_.points.size());
         for (std::size_t t = 0; t < old_.triangles.size(); ++t) {
@@ -97,7 +97,7 @@ private:
         for (Vector3d& normal : made_.normals) normal = unit(normal);
     }
 
-    /// In the order of places, so that indices do not depend on the order of insertion.
+    /// Adds points in the order of positions: indices do not depend on the order of insertion.
     void add_points() {
         for (std::size_t k = 0; k < places_.size(); ++k) {
             const LatticePlace& place = places_[k];
@@ -213,9 +213,9 @@ private:
     const std::vector<LatticePlace>& places_;
     MutualTessellation made_;
     OpenMesh::FPropHandleT<std::uint32_t> origin_;
-    std::vector<std::uint32_t> place_of_point_;  ///< Of points that are not old.
+    std::vector<std::uint32_t> place_of_point_;  ///< By new point.
     std::uint32_t framed_ = TriangleEdge::none;
-    FlatTriangle frame_;  ///< Of the old triangle `framed_`.
+    FlatTriangle frame_;  ///< The frame of the old triangle `framed_`.
     std::vector<HalfedgeHandle> suspects_;
 };
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t most_in_leaf = 4;
 
-/// Points farther away, in sizes of the model, are moved nearer along a straight line. This keeps
-/// the nearest place and lets distances differ despite rounding.
+/// Points farther away, in sizes of the model, are moved nearer along a straight line. This
+/// preserves the nearest position and lets distances differ despite rounding.
 constexpr double farthest_kept = 1e5;
 
 double square_distance(Vector3d a, Vector3d b) { return dot(a - b, a - b); }
@@ -80,7 +80,7 @@ NearestPlace::NearestPlace(const SurfaceMesh& mesh) : mesh_(mesh), order_(mesh.t
         middles.push_back((a + b + c) * (1.0 / 3));
     }
     boxes_.push_back({{}, {}, 0, static_cast<std::uint32_t>(order_.size()), 0});
-    // The list grows during the loop to fewer boxes than triangles.
+    // The list grows during the loop, to fewer boxes than triangles.
     for (std::uint32_t box = 0; box < boxes_.size(); ++box) {
         fit(boxes_[box]);
         if (boxes_[box].count > most_in_leaf) split(box, middles);
@@ -124,7 +124,7 @@ void NearestPlace::search(const Box& box, Vector3d point, Best& best) const {
             std::swap(near, far);
             std::swap(to_near, to_far);
         }
-        // A box at equal distance may have a triangle of lower index, so it is searched too.
+        // A box at equal distance may have a triangle of lower index, so it is searched, too.
         if (to_near <= best.distance) search(*near, point, best);
         if (to_far <= best.distance) search(*far, point, best);
         return;

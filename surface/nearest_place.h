@@ -1,4 +1,4 @@
-// The place of a surface that is nearest to a point in space.
+// The nearest position on a surface to a point in space.
 #pragma once
 
 #include "mesh/flat.h"
@@ -11,20 +11,20 @@ namespace cascade {
 
 /// The triangles of a mesh in a tree of bounding boxes, each split along its longest side at the
 /// median triangle. A search takes O(log n) if the point is near the surface. Of equally near
-/// places it finds the one on the triangle with the lowest index. The mesh must outlive it
-/// unchanged; searches are thread-safe.
+/// positions it finds the one on the triangle with the lowest index. The mesh must outlive it
+/// unchanged. Searches are thread-safe.
 class NearestPlace {
 public:
     explicit NearestPlace(const SurfaceMesh& mesh);
 
-    /// Nothing if the mesh has no triangles or the point is not finite.
+    /// Empty if the mesh has no triangles or the point is not finite.
     std::optional<SurfacePlace> find(Vector3d point) const;
 
 private:
     struct Box {
         Vector3d low, high;
-        std::uint32_t first = 0, count = 0;  ///< Of `order_`; count 0 if it has two parts.
-        std::uint32_t part = 0;              ///< The first part; the second one follows it.
+        std::uint32_t first = 0, count = 0;  ///< In `order_`. count is 0 if it has two parts.
+        std::uint32_t part = 0;              ///< The first part. The second one follows it.
     };
     struct Best;
     void split(std::uint32_t box, std::span<const Vector3d> middles);
@@ -32,7 +32,7 @@ private:
     void search(const Box& box, Vector3d point, Best& best) const;
 
     const SurfaceMesh& mesh_;
-    std::vector<std::uint32_t> order_;  ///< Triangles, those of a box together.
+    std::vector<std::uint32_t> order_;  ///< Triangles, grouped by box.
     std::vector<Box> boxes_;            ///< The first is the root.
 };
 

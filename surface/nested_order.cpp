@@ -1,5 +1,5 @@
-// Farthest-first traversal. Each cell that is taken shortens distances around it, in a search that
-// ends where another one is nearer, so the searches become smaller and smaller.
+// Farthest-first traversal. Each cell taken shortens distances around it, in a search that ends
+// where another one is nearer, so searches become smaller and smaller.
 #include "surface/nested_order.h"
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// A cell at a distance; among equal ones the first cell counts.
+/// A cell at a distance. Among equal ones the first cell counts.
 using Distance = std::pair<double, std::int64_t>;
 
 class FarthestFirst {
@@ -27,7 +27,7 @@ public:
             const auto [distance, negative] = farthest_.top();
             farthest_.pop();
             const auto cell = static_cast<std::size_t>(-negative);
-            // Noted again since, nearer.
+            // Outdated by a nearer entry.
             if (distance != distances_[cell]) continue;
             order.push_back(static_cast<std::uint32_t>(cell));
             take(cell);
@@ -60,8 +60,8 @@ private:
     }
 
     const SurfaceCells& cells_;
-    std::vector<double> distances_;           ///< From the nearest cell that has been taken.
-    std::priority_queue<Distance> farthest_;  ///< Of the others; some entries are out of date.
+    std::vector<double> distances_;           ///< To the nearest cell taken so far.
+    std::priority_queue<Distance> farthest_;  ///< Cells not taken yet. Some entries are outdated.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Nested sets of cells, each spread evenly over the surface.
+// Nested sets of cells, each spread uniformly over the surface.
 #pragma once
 
 #include "surface/surface_cells.h"
@@ -8,12 +8,11 @@
 
 namespace cascade {
 
-/// All cells in an order of which each beginning is spread evenly: a cell is as far as possible
-/// from those before it, along the edges between cells (T. F. Gonzalez, "Clustering to Minimize
-/// the Maximum Intercluster Distance", 1985). So no two of the first n are nearer to each other
-/// than the next cell is to the nearest of them. Begins with cell 0 and, where the surface falls
-/// into components, has a cell of each before others. Takes O(n log² n) for n cells. Throws
-/// std::bad_alloc.
+/// Orders all cells so that each beginning is spread uniformly: a cell is as far as possible from
+/// those before it, along the edges between cells (T. F. Gonzalez, "Clustering to Minimize the
+/// Maximum Intercluster Distance", 1985). So no two of the first n are nearer to each other than
+/// the next cell is to the nearest of them. Begins with cell 0, followed by one cell of each other
+/// component of the surface. Takes O(n log² n) for n cells. Throws std::bad_alloc.
 std::vector<std::uint32_t> nested_order(const SurfaceCells& cells);
 
 }  // namespace cascade

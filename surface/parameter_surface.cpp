@@ -1,4 +1,4 @@
-// The metric tensor by central differences of the function, and the planes that operators read.
+// The metric tensor by central differences of the function, and the planes for operators.
 #include "surface/parameter_surface.h"
 
 #include <fmt/format.h>
@@ -84,7 +84,7 @@ Result<SurfaceMetric> measure_surface(const SurfaceFunction& surface, const Grid
         for (std::int64_t i = 0; i < grid.width; ++i) {
             const MetricTensor& tensor = tensors[static_cast<std::size_t>(j * grid.width + i)];
             const double area = tensor.area();
-            // Also true if all areas are 0, and if two directions are nearly parallel.
+            // Also true if all areas are 0 or two directions are nearly parallel.
             if (!(area > degenerate_area * mean) ||
                 !(area > degenerate_area * std::sqrt(tensor.m11 * tensor.m22))) {
                 return failure("the surface has no area " + place_of(grid, i, j),

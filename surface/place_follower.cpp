@@ -1,4 +1,4 @@
-// Goes downhill over the triangles around the last place.
+// Descends over the triangles around the last position.
 #include "surface/place_follower.h"
 
 #include "core/check.h"
@@ -82,9 +82,9 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
 
 /// The largest ratio, for points of the triangles around, of the height over the plane of this one,
 /// on either side of it, to the distance from it in that plane. Almost all triangles are beyond the
-/// line of an edge or beyond a corner; heights and the distance from there are linear, so their
-/// corners decide. At most 1, by which no triangle that is bent by less than 90° comes nearer to a
-/// point whose height is less than its distance from the edges; infinite if one is bent by more.
+/// line of an edge or beyond a corner. Heights and the distance from there are linear, so their
+/// corners decide. At most 1: then no triangle bent by less than 90° comes nearer to a point whose
+/// height is less than its distance from the edges. Infinite if one is bent by more.
 std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
                                                      std::uint32_t triangle,
                                                      std::span<const std::uint32_t> around) const {
@@ -127,7 +127,7 @@ std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
     return {static_cast<float>(most[0] * rounding), static_cast<float>(most[1] * rounding)};
 }
 
-/// A place whose distance has a square above `most` may be given as infinitely far.
+/// A position whose squared distance exceeds `most` may be returned as infinitely far.
 PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point,
                                             double most) const {
     const Inside& inside = insides_.data()[number];

@@ -1,4 +1,4 @@
-// Weights are rounded to integral steps; coinciding places move to the next free ones of a spiral.
+// Rounds weights to integral steps. Coinciding positions move to the next free ones of a spiral.
 #include "surface/place_lattice.h"
 
 #include <fmt/format.h>
@@ -12,8 +12,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double weight_tolerance = 1e-6;  ///< Of weights.
-constexpr std::int64_t stride = 1 << 6;    ///< Steps between separated places.
+constexpr double weight_tolerance = 1e-6;  ///< Tolerance of weights.
+constexpr std::int64_t stride = 1 << 6;    ///< Steps between separated positions.
 
 bool is_on(const SurfaceMesh& mesh, const SurfacePlace& place) {
     double sum = 0;
@@ -35,7 +35,7 @@ LatticePlace nearest(const SurfacePlace& place) {
     return {place.triangle, {first, second, lattice_steps - first - second}};
 }
 
-/// A key that is equal for all representations of one place: a point, an edge and the position
+/// A key that is equal for all representations of one position: a point, an edge and the position
 /// along it, or a triangle and the steps in it.
 struct Key {
     int kind = 0;
@@ -61,7 +61,7 @@ Key key_of(const SurfaceMesh& mesh, const LatticePlace& place) {
 
 /// Point k = 1, 2, … of a spiral around (0, 0) through all points with integer coordinates.
 std::array<std::int64_t, 2> on_spiral(std::int64_t k) {
-    // The larger coordinate; (2 ring − 1)² points come before.
+    // The larger coordinate. (2 ring − 1)² points come before.
     const auto ring = static_cast<std::int64_t>((std::sqrt(static_cast<double>(k)) + 1) / 2);
     const std::int64_t along = k - (2 * ring - 1) * (2 * ring - 1), side = 2 * ring;
     const std::int64_t part = along % side;
@@ -73,7 +73,7 @@ std::array<std::int64_t, 2> on_spiral(std::int64_t k) {
     }
 }
 
-/// Separates coinciding places.
+/// Separates coinciding positions.
 class Separation {
 public:
     Separation(const SurfaceMesh& mesh, std::vector<LatticePlace>& places)
@@ -85,7 +85,7 @@ public:
     }
 
     void separate() {
-        std::int64_t tried = 0;  // Index on the spiral; a place continues after the one before.
+        std::int64_t tried = 0;  // Index on the spiral. A position continues after the one before.
         for (std::size_t k = 1; k < order_.size(); ++k) {
             if (order_[k].first != order_[k - 1].first) tried = 0;
             else move_away(places_[order_[k].second], tried);

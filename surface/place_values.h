@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// Linear interpolation in the place's triangle of one value per point of the mesh.
+/// Interpolates one value per point of the mesh linearly in the position's triangle.
 template <typename Number>
 double value_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values,
                 const SurfacePlace& place) {
@@ -21,7 +21,7 @@ double value_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values
     return value;
 }
 
-/// value_at() for many places, such as those of cells.
+/// value_at() for many positions, such as those of cells.
 template <typename Number>
 std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values,
                               std::span<const SurfacePlace> places) {
@@ -31,9 +31,9 @@ std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>
     return values;
 }
 
-/// The texture coordinates of a place, (0, 0) at the lower left and (1, 1) at the upper right of
+/// The texture coordinates at a position, (0, 0) at the lower left and (1, 1) at the upper right of
 /// the image, which repeats beyond. Linear in each triangle, whose corners have their own
-/// coordinates, so that seams are possible. Nothing if the model has no texture coordinates.
+/// coordinates, so that seams are possible. Empty if the model has no texture coordinates.
 inline std::optional<std::array<double, 2>> texture_place_at(const SurfaceMesh& mesh,
                                                              const SurfacePlace& place) {
     if (mesh.texture.empty()) return std::nullopt;

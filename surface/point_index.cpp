@@ -1,4 +1,4 @@
-// A hash table whose slots represent boxes; points are sorted by slot.
+// A hash table whose slots represent boxes. Points are sorted by slot.
 #include "surface/point_index.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-// Box coordinates are clamped to this range; points beyond share the outermost boxes.
+// Box coordinates are clamped to this range. Points beyond share the outermost boxes.
 constexpr double farthest_box = 1 << 30;
 
 std::int32_t number_of(double place) {

@@ -18,7 +18,7 @@ public:
     PointIndex(std::span<const Vector3d> points, double reach);
 
     /// Calls `visit(number, square)`, with the square of its distance, for all points at most
-    /// `radius` from `centre`, one at `centre` included, in an order that only depends on the
+    /// `radius` from `centre`, including one at `centre`, in an order that depends only on the
     /// points. A radius of many times `reach` searches many boxes, but never more than there are
     /// points.
     template <typename Visit>
@@ -64,8 +64,8 @@ private:
         Vector3d point;
     };
     Box box_of(Vector3d p) const;
-    /// Boxes of a block of 4 × 4 × 4 have adjacent slots, those along x in order, so that a search
-    /// reads few cache lines.
+    /// Boxes of a block of 4 × 4 × 4 have adjacent slots, in order along x, so that a search reads
+    /// few cache lines.
     std::size_t slot_of(const Box& box) const {
         std::uint32_t hash = static_cast<std::uint32_t>(box.x >> 2) * 0x9e3779b1u;
         hash = (hash ^ static_cast<std::uint32_t>(box.y >> 2)) * 0x85ebca77u;
@@ -78,7 +78,7 @@ private:
     Vector3d low_;
     double reach_;
     std::size_t mask_ = 0;
-    std::vector<std::uint32_t> starts_;  ///< Of each slot in `entries_`, and one more.
+    std::vector<std::uint32_t> starts_;  ///< The start of each slot in `entries_`, and the end.
     std::vector<Entry> entries_;
 };
 

@@ -1,5 +1,5 @@
 // Cuts the longest edge first, from a priority queue, and records the cuts of each triangle, so
-// that places of the old mesh can be found in the new one.
+// that positions of the old mesh can be found in the new one.
 #include "surface/refinement.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct LongEdge {
     }
 };
 
-/// A queue of edges, the longest first; of equal ones that of the triangle with the lowest index.
+/// A queue of edges, the longest first. Of equal ones, the triangle with the lowest index is first.
 class LongEdges {
 public:
     LongEdges(const SurfaceMesh& mesh, double longest) : mesh_(mesh), longest_(longest) {

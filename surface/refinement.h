@@ -12,22 +12,22 @@ namespace cascade {
 /// The same surface with more triangles. Halves the longest edge, and with it the triangles on both
 /// sides, until no edge is longer than `longest_edge` or `most_cuts` were made (M.-C. Rivara,
 /// "Algorithms for refining triangular grids suitable for adaptive and multigrid techniques", 1984,
-/// explains why this keeps triangles well shaped). The points of the mesh keep their indices.
-/// Texture coordinates and attributes are left out.
+/// explains why triangles stay well shaped). The points of the mesh keep their indices. Texture
+/// coordinates and attributes are left out.
 class Refinement {
 public:
     Refinement(const SurfaceMesh& mesh, double longest_edge, std::size_t most_cuts,
                const std::atomic<bool>& cancel);
 
     const SurfaceMesh& mesh() const { return mesh_; }
-    /// The place in this mesh of a place in the original one.
+    /// Converts a position on the original mesh to this mesh.
     SurfacePlace refined(SurfacePlace place) const;
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
 
     /// A triangle was cut from the middle of its edge `edge` to the opposite corner. It kept its
-    /// index and the edge's first half; `second` is the index of the other half.
+    /// index and the edge's first half. `second` is the index of the other half.
     struct Cut {
         std::uint32_t edge = 0;
         std::uint32_t second = 0;
@@ -43,7 +43,7 @@ private:
 
     SurfaceMesh mesh_;
     std::vector<Cut> cuts_;
-    std::vector<Cuts> cuts_of_;  ///< Of each triangle, since it exists.
+    std::vector<Cuts> cuts_of_;  ///< By triangle, since it exists.
 };
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // Rounds of repulsion on neighbour lists with a skin (Verlet lists, as in molecular dynamics),
-// rebuilt when places have moved too far.
+// rebuilt when positions have moved too far.
 #include "surface/relax.h"
 
 #include "core/hash.h"
@@ -19,19 +19,19 @@ namespace cascade {
 
 namespace {
 
-// The force between places that spread over a surface.
+// The force that spreads positions over a surface.
 
-/// Two places nearer than this, in radii, are pushed apart harder, with a force that grows linearly
-/// towards 0; otherwise other places could press them together for good. Even places are 0.54
-/// apart.
+/// Two positions nearer than this, in radii, are pushed apart harder, with a force that grows
+/// linearly towards 0. Otherwise others could press them together for good. Uniformly spread
+/// positions are 0.54 apart.
 inline constexpr float repulsion_core = 0.35F;
 
 struct Vector2f {
     float x = 0, y = 0;
 };
 
-/// Neighbours of places: their numbers, their positions when the list was made, in radii and in the
-/// frame of the place at that time, and the rotations of their own frames relative to that.
+/// Neighbours of positions: their numbers, their positions when the list was made, in radii and in
+/// the frame of the position at that time, and the rotations of their own frames relative to that.
 class NeighbourList {
 public:
     /// Forces are computed for this many neighbours at a time, so a list has memory for as many
@@ -52,7 +52,7 @@ private:
 /// Sums forces; one per thread.
 class Repulsion {
 public:
-    /// A place: the metric at it and its movement since the list was made, in radii.
+    /// The metric at a position and its movement since the list was made, in radii.
     struct Pushed {
         std::uint32_t number = 0;
         float xx = 1, xy = 0, yy = 1;
@@ -60,7 +60,7 @@ public:
     };
 
     /// The sum of the forces 1 - d of neighbours `first` … `end` - 1 at distances d < 1 in the
-    /// metric, in order. `moved` has the movement of every place.
+    /// metric, in order. `moved` has the movement of every position.
     Vector2f push_on(const Pushed& place, const NeighbourList& neighbours, std::size_t first,
                      std::size_t end, const std::vector<Vector2f>& moved);
 
@@ -69,18 +69,17 @@ private:
 };
 
 constexpr float core_strength = 4;
-/// Places at a smaller squared distance, in radii, coincide.
+/// Positions at a smaller squared distance, in radii, coincide.
 constexpr float least_square = 1e-14F;
 
-/// The direction in which a place is pushed apart from one that coincides with it.
+/// The direction in which a position is pushed apart from one that coincides with it.
 Vector2f own_direction(std::uint32_t number) {
     const double angle = 2 * std::numbers::pi / 4294967296.0 * pcg4d({number, 0, 0, 0})[0];
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-/// Replaces the movements of `count` neighbours from `first` on by their forces on a place. A
-/// neighbour that coincides with the place pushes in the direction `apart`. Returns the number of
-/// those.
+/// Replaces the movements of `count` neighbours from `first` on by their forces on a position. A
+/// coinciding neighbour pushes in the direction `apart`. Returns the number of coinciding ones.
 WITH_WIDE_VECTORS std::uint32_t find_forces(const NeighbourList& neighbours, std::size_t first,
                                             std::size_t count, const Repulsion::Pushed place,
                                             Vector2f apart, float* __restrict by_x,
@@ -123,7 +122,7 @@ void NeighbourList::add(std::uint32_t number, Vector2d stood, Vector2d turn) {
 
 Vector2f Repulsion::push_on(const Pushed& place, const NeighbourList& neighbours, std::size_t first,
                             std::size_t end, const std::vector<Vector2f>& moved) {
-    // Those after the last neighbour, of the next place, only fill the last vector.
+    // Neighbours after the last, of the next position, only fill the last vector.
     constexpr std::size_t together = NeighbourList::together;
     const std::size_t count = end - first, filled = (count + together - 1) / together * together;
     if (x_.size() < filled) {
@@ -150,15 +149,15 @@ Vector2f Repulsion::push_on(const Pushed& place, const NeighbourList& neighbours
 constexpr double strength = 0.15;
 /// The neighbour lists reach this much farther than the force, in radii.
 constexpr double skin = 0.25;
-/// The longest move of a place in a round, in radii. On folded surfaces, places have many
+/// The longest move of a position in a round, in radii. On folded surfaces, positions have many
 /// neighbours and would oscillate without this limit.
 constexpr double longest_step = 0.06;
-/// Lists are rebuilt when more than one in this many places has moved half the skin. A few places
-/// always move far, and exact lists for them do not improve evenness.
+/// Lists are rebuilt when more than one in this many positions has moved half the skin. A few
+/// positions always move far, and exact lists for them do not make the result more uniform.
 constexpr std::size_t places_per_far_one = 100;
-/// A list serves one in this many of the rounds done or more: the first ones move places farthest.
+/// A list serves one in this many of the rounds done, or more: the first ones move farthest.
 constexpr int rounds_per_age = 4;
-/// At the end, places with another one nearer than `crowd` radii are pushed in separate rounds.
+/// At the end, positions with another one nearer than `crowd` radii are pushed in separate rounds.
 constexpr int settling_rounds = 12;
 constexpr double crowd = 0.4;
 
@@ -206,10 +205,10 @@ public:
 private:
     /// The data of one thread.
     struct Part {
-        RowRange range;            ///< In `active_`.
-        NeighbourList neighbours;  ///< Place after place.
+        RowRange range;            ///< A range of `active_`.
+        NeighbourList neighbours;  ///< Position after position.
         Repulsion repulsion;
-        std::size_t far_moved = 0;  ///< Places that have moved half the skin or more since.
+        std::size_t far_moved = 0;  ///< Positions that have moved half the skin or more since.
         std::vector<std::uint32_t> crowded;  ///< Unsorted, with repetitions.
     };
 
@@ -224,7 +223,7 @@ private:
         return is_anisotropic() ? stretches_[place.triangle] : Stretch{};
     }
 
-    /// Separates places that outdated lists let collide; the others stay.
+    /// Separates positions that outdated lists let collide. The others stay.
     void settle() {
         // Lists are new in each round, so nothing has moved since they were made.
         std::fill(moved_.begin(), moved_.end(), Vector2f{});
@@ -237,8 +236,8 @@ private:
         }
     }
 
-    /// All places nearer to another one than evenly spread places ever are, in ascending order, if
-    /// only active places may have moved since the last call.
+    /// All positions nearer to another one than uniformly spread positions ever are, in ascending
+    /// order, if only active positions may have moved since the last call.
     std::vector<std::uint32_t> crowded_places(const PointIndex& index) {
         team_.run([&](int thread) {
             Part& part = part_of(thread);
@@ -259,11 +258,11 @@ private:
         return crowded;
     }
 
-    /// The lists of all places reach this far, in the metric of each.
+    /// The reach of all lists, each in its own metric.
     double reach() const { return (1 + skin) * radius_; }
 
-    /// Updates the positions of the active places and sorts all of them, into boxes of the usual
-    /// reach on the surface.
+    /// Updates the active positions and sorts all of them into boxes of the usual reach on the
+    /// surface.
     PointIndex index_places() {
         for (const std::uint32_t k : active_) positions_[k] = position_of(mesh_, places_[k]);
         double side = reach();
@@ -275,7 +274,7 @@ private:
         return {positions_, side};
     }
 
-    /// Rebuilds the lists of the active places.
+    /// Rebuilds the lists of the active positions.
     void find_others(const PointIndex& index) {
         team_.run([&](int thread) {
             Part& part = part_of(thread);
@@ -354,15 +353,15 @@ private:
     const std::atomic<bool>& cancel_;
     double radius_;
     EdgeShapes shapes_;
-    std::vector<Stretch> stretches_;  ///< By triangle; empty without an anisotropy.
+    std::vector<Stretch> stretches_;  ///< By triangle. Empty without an anisotropy.
     /// Since the lists were made, in the frame of that time: the rotation of the frame of each
-    /// place's triangle, and the movement of the place (in radii). A round reads `moved_`, writes
-    /// `moving_`.
+    /// position's triangle, and the movement of the position (in radii). A round reads `moved_`,
+    /// writes `moving_`.
     std::vector<Vector2d> turns_;
     std::vector<Vector2f> moved_, moving_;
     std::vector<Vector3d> positions_;    ///< When the lists were made.
-    std::vector<std::uint32_t> active_;  ///< The places that move, in ascending order.
-    std::vector<std::size_t> ends_;      ///< Of the active places' lists in those of their threads.
+    std::vector<std::uint32_t> active_;  ///< The positions that move, in ascending order.
+    std::vector<std::size_t> ends_;      ///< The ends of the active lists in their threads' lists.
     std::vector<Part> parts_;
 };
 

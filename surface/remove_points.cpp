@@ -1,4 +1,4 @@
-// Decides which points may be removed and how holes are filled; OpenMesh flips and collapses.
+// Decides which points may be removed and how holes are filled. OpenMesh flips and collapses.
 #include "surface/remove_points.h"
 
 #include <algorithm>
@@ -7,10 +7,10 @@ namespace cascade {
 
 namespace {
 
-constexpr double boundary_may_move = 0.1;            ///< Spacings.
-constexpr double longest_boundary_edge = 2;          ///< Spacings.
+constexpr double boundary_may_move = 0.1;            ///< In spacings.
+constexpr double longest_boundary_edge = 2;          ///< In spacings.
 constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
-constexpr std::size_t most_tried = 24;  ///< Largest ring of which all triangulations are tried.
+constexpr std::size_t most_tried = 24;  ///< Above this ring size, not all triangulations are tried.
 constexpr double least_sine = 1e-9;
 
 bool is_fine(const TriangleQuality& quality, Care care) {
@@ -116,8 +116,8 @@ std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Car
     });
 }
 
-/// Cuts off each ear by flipping the edge from the point to its tip. The point then has three
-/// triangles left, which become one, or one at the boundary.
+/// Cuts off each ear by flipping the edge from the point to its tip. The three triangles left at
+/// the point, or one at the boundary, then become one.
 void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     changed_.clear();
     for (const HalfedgeHandle spoke : spokes_) {

@@ -16,22 +16,21 @@ enum class Care {
     low,   ///< Within 85° of the mean of these normals.
 };
 
-/// Removes points of one mesh.
 class PointRemoval {
 public:
-    /// `normals` are the surface's unit normals at the points, `spacing` is the distance of places.
+    /// `normals` are the surface's unit normals at the points, `spacing` is the distance of cells.
     PointRemoval(HalfEdges& mesh, const std::vector<Vector3d>& normals, double spacing)
         : mesh_(mesh), normals_(normals), spacing_(spacing), moved_(mesh.n_vertices()) {}
 
     /// Removes a point and triangulates the hole over its one-ring such that the worst triangle has
-    /// the best score. Turk projects the ring to a tangent plane, where it may overlap itself; this
-    /// needs no plane. A ring of more than 24 points, for which that would take long, is unrolled
-    /// into a plane and its ears are cut off. If the point must stay, changes nothing and returns
-    /// the reason. A point at a boundary is removed only if the boundary moves by at most 1/10 of
-    /// the spacing and the new edge is no longer than twice the spacing.
+    /// the best score. Turk projects the ring to a tangent plane, where it may overlap itself. This
+    /// needs no plane. A ring of more than 24 points, which would take long, is unrolled into a
+    /// plane and its ears are cut off. If the point must stay, changes nothing and returns the
+    /// reason. A point at a boundary is removed only if the boundary moves by at most 1/10 of the
+    /// spacing and the new edge is no longer than twice the spacing.
     std::optional<WhyKept> remove(std::uint32_t point, Care care);
 
-    /// The faces that were around the last removed point; those not deleted fill its hole.
+    /// The faces around the last removed point. Those not deleted fill its hole.
     const std::vector<FaceHandle>& changed() const { return changed_; }
 
 private:
@@ -51,7 +50,7 @@ private:
     HalfEdges& mesh_;
     const std::vector<Vector3d>& normals_;
     double spacing_;
-    std::vector<double> moved_;  ///< Largest movement of the boundary edge that begins at a point.
+    std::vector<double> moved_;  ///< The boundary edge's largest movement, by its first point.
     std::vector<HalfedgeHandle> spokes_;  ///< From the point to be removed, counterclockwise.
     std::vector<std::uint32_t> ring_;     ///< Their ends.
     bool is_closed_ = false;              ///< The point is not at a boundary.

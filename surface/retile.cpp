@@ -1,5 +1,5 @@
-// Old points are removed in rounds, with edges improved after each, first under strict and then
-// under weaker tests of the new triangles.
+// Removes old points in rounds, with edges improved after each, first under strict and then under
+// weaker tests of the new triangles.
 #include "surface/retile.h"
 
 #include "mesh/half_edges.h"
@@ -19,14 +19,14 @@ namespace {
 
 // Improvement of triangles by flipping edges.
 
-/// Flips edges of a mesh if that improves the worst of what changes: the two triangles
+/// Flips edges of a mesh if that improves the worst rating among the two triangles
 /// (TriangleQuality::score()) and the folds at the edge and at the four sides. On a plane this is
 /// Lawson's algorithm for the Delaunay triangulation, which maximises the smallest angle (R.
 /// Sibson, "Locally equiangular triangulations", 1978). It turns no triangle upside down and
 /// creates no second edge between two points.
 class EdgeFlipper {
 public:
-    /// `normals` are those of the surface at the points. Queues the edges of all faces.
+    /// `normals` are the surface's normals at the points. Queues the edges of all faces.
     EdgeFlipper(HalfEdges& mesh, std::span<const Vector3d> normals);
 
     /// Queues the edges of a changed face, unless it is deleted.
@@ -42,7 +42,7 @@ private:
     struct Face {
         double score = 0;
         bool is_upright = true;
-        Vector3d direction;  ///< Of its normal.
+        Vector3d direction;  ///< The direction of its normal.
     };
     Face face(VertexHandle a, VertexHandle b, VertexHandle c) const;
     Face& at(FaceHandle f) { return faces_[static_cast<std::size_t>(f.idx())]; }
@@ -56,7 +56,7 @@ private:
     std::vector<EdgeHandle> suspects_;
 };
 
-constexpr double least_gain = 1e-9;   ///< Of a score; above rounding errors.
+constexpr double least_gain = 1e-9;   ///< In a score. Above rounding errors.
 constexpr double upside_down = 0.05;  ///< A mean cosine.
 
 /// Rates the fold at an edge between triangles: 1 up to a right angle, 0 if they lie on each other.
@@ -67,7 +67,7 @@ EdgeFlipper::EdgeFlipper(HalfEdges& mesh, std::span<const Vector3d> normals)
     for (const FaceHandle f : mesh.faces()) look_at(f);
 }
 
-/// Queues an edge once; its tag marks it as queued.
+/// Queues an edge once. Its tag marks it as queued.
 void EdgeFlipper::suspect(HalfedgeHandle h) {
     const EdgeHandle e = mesh_.edge_handle(h);
     if (mesh_.status(e).tagged()) return;
@@ -109,8 +109,8 @@ double EdgeFlipper::openness(const Face& one, HalfedgeHandle side) {
     return other.is_valid() ? openness_between(one.direction, at(other).direction) : 1;
 }
 
-/// Flips an edge if that improves the worst of its triangles and of the folds at it and their
-/// sides.
+/// Flips an edge if that improves the worst rating of its triangles and of the folds at it and
+/// their sides.
 void EdgeFlipper::flip_if_better(EdgeHandle e) {
     const HalfedgeHandle h = mesh_.halfedge_handle(e, 0), o = mesh_.halfedge_handle(e, 1);
     const VertexHandle c = mesh_.opposite_vh(h), d = mesh_.opposite_vh(o);
@@ -170,7 +170,7 @@ public:
     }
 
 private:
-    /// The side of a square with a place's share of the area.
+    /// The side of a square with one position's share of the area.
     static double spacing(const SurfaceMesh& mesh, std::size_t places) {
         return std::sqrt(mesh.total_area() / static_cast<double>(std::max<std::size_t>(places, 1)));
     }

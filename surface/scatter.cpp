@@ -1,4 +1,4 @@
-// Stratified sampling along a Morton curve: within a connected component each place has an equal
+// Stratified sampling along a Morton curve: within a connected component each position has an equal
 // share of the area and is random within it.
 #include "surface/scatter.h"
 
@@ -41,13 +41,13 @@ std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
     return order;
 }
 
-/// The number of places of each component: by area, and at least 1 if there are enough.
+/// The number of positions on each component: by area, and at least 1 if there are enough.
 std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_t count) {
     std::vector<std::size_t> shares(areas.size(), 0);
     double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::size_t left = count;
-    // Components whose share is below 1 get one place, and the others share the rest, which may
-    // make more of them too small.
+    // Components whose share is below 1 get one position, and the others share the rest, which may
+    // push more of them below 1.
     for (bool is_found = count >= areas.size(); is_found;) {
         is_found = false;
         const double each = area / static_cast<double>(left);
@@ -87,7 +87,7 @@ std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, st
     const std::vector<std::uint32_t> components = connected_components(mesh);
     const std::vector<std::uint32_t> order = in_order(mesh, components);
     std::vector<double> sums;       // Running sums of areas in that order, within each component.
-    std::vector<std::size_t> ends;  // Of components in it.
+    std::vector<std::size_t> ends;  // The ends of components in it.
     for (std::size_t k = 0; k < order.size(); ++k) {
         const bool is_first = k == 0 || components[order[k]] != components[order[k - 1]];
         if (is_first && k > 0) ends.push_back(k);

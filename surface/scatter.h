@@ -1,4 +1,4 @@
-// Random places on a surface with uniform density: G. Turk, "Texturing Surfaces Using
+// Random positions on a surface with uniform density: G. Turk, "Texturing Surfaces Using
 // Reaction-Diffusion" (thesis, 1992), section 4.3.1.
 #pragma once
 
@@ -9,15 +9,15 @@
 
 namespace cascade {
 
-/// The weights of a random place in a triangle, from two random numbers in [0, 1] (G. Turk,
+/// The weights of a random position in a triangle, from two random numbers in [0, 1] (G. Turk,
 /// "Generating random points in triangles", Graphics Gems, 1990).
 std::array<double, 3> place_in_triangle(double s, double t);
 
-/// Random places, in numbers proportional to area, with at least one in each component of the
-/// surface if there are as many places as components. Each component is divided into strips of
-/// equal area, one for each of its places, in the order of its triangles along a Morton curve, so
-/// that places with near indices are near each other. Components share places by
-/// `component_areas`, or by their own if it is empty. A pure function of its arguments.
+/// Random positions, in numbers proportional to area, with at least one in each component of the
+/// surface if there are as many positions as components. Divides each component into strips of
+/// equal area, one for each position, in the order of its triangles along a Morton curve, so that
+/// positions with near indices are near each other. Components share positions by
+/// `component_areas`, or by their own areas if it is empty. A pure function of its arguments.
 std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, std::uint32_t seed,
                                   const std::vector<double>& component_areas = {});
 

@@ -12,21 +12,21 @@ namespace cascade {
 struct VoronoiEdge {
     std::uint32_t neighbour = 0;
     double length = 0;    ///< Positive.
-    double distance = 0;  ///< Between the places of the two cells along the surface; positive.
-    /// The flow per difference of concentrations; dimensionless.
+    double distance = 0;  ///< Between the positions of the two cells along the surface. Positive.
+    /// The flow per difference of concentrations. Dimensionless.
     double weight() const { return length / distance; }
 };
 
-/// Edges are symmetric: the edge from cell i to j has the same length and distance as that from j
-/// to i. Boundaries of the surface have no edges. For all kinds of cells diffusion is dc_i/dt = Σ_j
-/// w_ij (c_j − c_i) / A_i with weights w = length / distance ≥ 0 and areas A (G. Turk, "Texturing
-/// Surfaces Using Reaction-Diffusion", thesis, 1992, section 4.4).
+/// Edges are symmetric: the edge from cell i to j has the same length and distance as the edge from
+/// j to i. Boundaries of the surface have no edges. For all kinds of cells diffusion is dc_i/dt =
+/// Σ_j w_ij (c_j − c_i) / A_i with weights w = length / distance ≥ 0 and areas A (G. Turk,
+/// "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 4.4).
 struct SurfaceCells {
     std::vector<SurfacePlace> places;
     std::vector<double> areas;
     std::vector<std::size_t> ends;   ///< Cell i's edges end before edges[ends[i]].
     std::vector<VoronoiEdge> edges;  ///< Cell after cell, in ascending order of neighbours.
-    double bare_area = 0;            ///< Area of the components of the surface without cells.
+    double bare_area = 0;            ///< The area of the surface's components without cells.
 
     std::span<const VoronoiEdge> edges_of(std::size_t cell) const {
         const std::size_t first = cell == 0 ? 0 : ends[cell - 1];

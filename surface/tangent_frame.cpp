@@ -5,7 +5,7 @@ namespace cascade {
 
 namespace {
 
-/// Some unit vector perpendicular to a unit vector.
+/// Any unit vector perpendicular to a unit vector.
 Vector3d any_normal_to(Vector3d v) {
     const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
     const Vector3d least = x <= y && x <= z ? Vector3d{1, 0, 0}

@@ -6,10 +6,10 @@
 namespace cascade {
 
 /// Three perpendicular unit vectors: the axes of a triangle's own frame (mesh/flat.h) and its
-/// outward normal. For a triangle without area, some such frame that contains its longest edge.
+/// outward normal. For a triangle without area, any such frame that contains its longest edge.
 struct TangentFrame {
     Vector3d along;   ///< The x axis: from corner 0 to corner 1.
-    Vector3d across;  ///< The y axis, to the left of it.
+    Vector3d across;  ///< The y axis, to the left of `along`.
     Vector3d normal;
 
     Vector3d in_space(Vector2d v) const { return along * v.x + across * v.y; }

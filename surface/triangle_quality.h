@@ -10,9 +10,9 @@
 namespace cascade {
 
 struct TriangleQuality {
-    double least_sine = 0;    ///< Of its smallest angle; 0 if its corners are collinear.
-    double least_cosine = 0;  ///< Between its normal and those of the surface at its corners.
-    double mean_cosine = 0;  ///< Between its normal and the mean of those; negative if upside down.
+    double least_sine = 0;    ///< The sine of its smallest angle. 0 if its corners are collinear.
+    double least_cosine = 0;  ///< Between its normal and the surface's at its corners.
+    double mean_cosine = 0;   ///< Between its normal and their mean. Negative if upside down.
 
     /// The score that flips maximise: the smallest angle, reduced for deviation from the surface.
     double score() const { return least_sine * std::clamp(least_cosine / 0.9, 0.01, 1.0); }

@@ -1,4 +1,4 @@
-// Spreads over edges from the place's triangle, rotating each next one into the plane, until all
+// Spreads over edges from the position's triangle, rotating each next one into the plane, until all
 // edges of the front are out of reach.
 #include "surface/unfolding.h"
 
@@ -51,7 +51,7 @@ void Unfolding::add(std::uint32_t triangle, const FlatTriangle& flat, std::uint3
     }
 }
 
-/// The square of the distance in space from the place to an edge.
+/// The square of the distance in space from the position to an edge.
 double Unfolding::square_in_space(std::uint32_t triangle, std::uint32_t edge) const {
     const Vector3d a = mesh_.corner(triangle, edge) - position_;
     const Vector3d b = mesh_.corner(triangle, corner_after(edge)) - position_;

@@ -1,4 +1,4 @@
-// Unfolding of the surface around a place into the plane of its triangle.
+// Unfolding of the surface around a position into the plane of its triangle.
 #pragma once
 
 #include "mesh/flat.h"
@@ -11,8 +11,8 @@
 namespace cascade {
 
 /// The shape of every triangle relative to each of its edges: the position of the third corner
-/// along the edge and to its left, in units of the edge's length. 48 bytes per triangle;
-/// thread-safe.
+/// along the edge and to its left, in units of the edge's length. 48 bytes per triangle.
+/// Thread-safe.
 class EdgeShapes {
 public:
     explicit EdgeShapes(const SurfaceMesh& mesh);
@@ -29,12 +29,12 @@ private:
 };
 
 /// Unfolds patches of one surface, nearest edges first, and each triangle once. Where the surface
-/// is curved, triangles may overlap or leave gaps in the plane; G. Turk, "Texturing Surfaces Using
+/// is curved, triangles may overlap or leave gaps in the plane. G. Turk, "Texturing Surfaces Using
 /// Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons exactly and others
-/// approximately. Not thread-safe; takes four bytes per triangle.
+/// approximately. Not thread-safe. Takes four bytes per triangle.
 ///
 /// A path along a surface is at least as long as the straight line in space. An image in the plane
-/// may be nearer if the straight line to it leaves the unfolded triangles; `is_image` rejects
+/// may be nearer if the straight line to it leaves the unfolded triangles. `is_image` rejects
 /// those. Triangles out of reach in space are not unfolded.
 class Unfolding {
 public:
@@ -47,33 +47,33 @@ public:
         FlatTriangle flat;
     };
 
-    /// Whether a point in the plane, at this squared distance from the place, can be the image of
-    /// one at that squared distance in space, with a margin of a tenth, as unfolding is not exact.
+    /// Whether a point in the plane, at this squared distance from the position, can be the image
+    /// of one at that squared distance in space. The margin is a tenth, as unfolding is not exact.
     static bool is_image(double square_in_plane, double square_in_space) {
         return square_in_plane >= 0.81 * square_in_space;
     }
 
-    /// All triangles reached by a path of at most `radius` from the place, which is the origin, in
-    /// the frame of the place's triangle. Valid until the next call.
+    /// All triangles reached by a path of at most `radius` from the position, which is the origin,
+    /// in the frame of its triangle. Valid until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
-    /// The same with distances from the place in a metric of that frame.
+    /// The same with distances in a metric of that frame.
     std::span<const Piece> around(const SurfacePlace& place, double radius, const Stretch& metric);
 
-    /// Whether the last patch contains all triangles connected with the place.
+    /// Whether the last patch contains all triangles connected with the position.
     bool is_everything() const { return is_everything_; }
 
-    /// The triangle in the last patch; null if it is not in it.
+    /// The triangle in the last patch. Null if it is not in it.
     const FlatTriangle* flat_of(std::uint32_t triangle) const {
         const std::uint32_t mark = marks_[triangle];
         return mark > first_mark_ ? &pieces_[mark - first_mark_ - 1].flat : nullptr;
     }
 
 private:
-    /// An edge to a triangle that has not been visited, in a heap with the nearest on top. Edges
-    /// that meet in the corner nearest to the place are equally near; of those, the one found
-    /// first is on top. The order is total, so that it does not depend on the library's heap.
+    /// An edge to a triangle not visited yet, in a heap with the nearest on top. Edges that meet in
+    /// the nearest corner are equally near; of those, the one found first is on top. The order is
+    /// total, so that it does not depend on the library's heap.
     struct Front {
-        double square = 0;  ///< Of its distance.
+        double square = 0;  ///< The squared distance.
         std::uint32_t piece = 0, edge = 0;
         friend bool operator<(const Front& a, const Front& b) {
             return std::tie(b.square, b.piece, b.edge) < std::tie(a.square, a.piece, a.edge);
@@ -91,7 +91,7 @@ private:
     const EdgeShapes& shapes_;
     std::vector<Piece> pieces_;
     std::vector<Front> fronts_;
-    Vector3d position_;                 ///< Of the place.
+    Vector3d position_;                 ///< In space.
     std::vector<std::uint32_t> marks_;  ///< Per triangle: first_mark_ + 1 + index of its piece.
     std::uint32_t first_mark_ = 0;
     bool is_everything_ = false;

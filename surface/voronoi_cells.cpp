@@ -1,4 +1,4 @@
-// Each cell unfolds its surroundings and cuts the triangles by the bisectors to its neighbours; the
+// Each cell unfolds its surroundings and cuts the triangles by the bisectors to its neighbours. The
 // results of the two cells of a Voronoi edge are averaged afterwards.
 #include "surface/voronoi_cells.h"
 
@@ -104,7 +104,7 @@ private:
                   });
     }
 
-    /// Claims all points nearer to the cell than to its neighbours; returns the largest distance.
+    /// Claims all points nearer to the cell than to its neighbours. Returns the largest distance.
     double claim_all(std::uint32_t cell, std::span<const Unfolding::Piece> pieces, double reach,
                      Found& found) {
         ConvexRegion region = ConvexRegion::square(reach);
@@ -164,10 +164,10 @@ private:
     const PointIndex& index_;
     const Anisotropy* anisotropy_;
     Unfolding unfolding_;
-    Vector3d position_;  ///< Of the cell.
-    Stretch stretch_;    ///< At the cell.
+    Vector3d position_;  ///< The cell's position.
+    Stretch stretch_;    ///< The stretch at the cell.
     std::vector<Neighbour> neighbours_;
-    std::vector<double> lengths_;  ///< Of the edges to the neighbours.
+    std::vector<double> lengths_;  ///< Lengths of the edges to the neighbours.
     ConvexRegion part_;
 };
 
@@ -221,7 +221,7 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
     }
 }
 
-/// The edge to a neighbour in a sorted list; null if there is none.
+/// The edge to a neighbour in a sorted list. Null if there is none.
 const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge> edges) {
     const auto found = std::lower_bound(edges.begin(), edges.end(), neighbour,
                                         [](const VoronoiEdge& edge, std::uint32_t number) {
@@ -230,8 +230,8 @@ const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge>
     return found != edges.end() && found->neighbour == neighbour ? &*found : nullptr;
 }
 
-/// Averages the values that the two cells of an edge see; an edge that only one cell sees has half
-/// its length. The edges of `cells` are those seen by each cell.
+/// Averages the values of the two cells of an edge. An edge that only one cell sees has half its
+/// length. The edges of `cells` are those seen by each cell.
 void match_edges(SurfaceCells& cells) {
     SurfaceCells matched;
     // Edges that the neighbour sees, but the cell does not.

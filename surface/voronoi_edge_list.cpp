@@ -1,4 +1,4 @@
-// Sorts the Voronoi edges by cells and merges those of the same pair.
+// Sorts the Voronoi edges by cells and merges edges of the same pair.
 #include "surface/voronoi_edge_list.h"
 
 #include <algorithm>

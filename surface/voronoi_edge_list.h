@@ -1,4 +1,4 @@
-// Assembles Voronoi edges, added in any order, into those of cells.
+// Assembles Voronoi edges, added in any order, into the edges of cells.
 #pragma once
 
 #include "surface/surface_cells.h"
@@ -9,8 +9,8 @@ namespace cascade {
 
 class VoronoiEdgeList {
 public:
-    /// Adds an edge between two cells; edges of the same pair are merged. Ignores edges from a cell
-    /// to itself and edges without length. `distance` is positive.
+    /// Adds an edge between two cells. Merges edges of the same pair. Ignores edges from a cell to
+    /// itself and edges without length. `distance` is positive.
     void add(std::uint32_t a, std::uint32_t b, double length, double distance);
 
     /// Sets the edges of cells 0 … count − 1. Merged edges have the sum of the lengths, and the
