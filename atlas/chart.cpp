@@ -1,4 +1,4 @@
-// Corners become places by union-find; stretches are singular values in closed form.
+// Corners become positions by union-find. Stretches are singular values in closed form.
 #include "atlas/chart.h"
 
 #include "mesh/disjoint_sets.h"

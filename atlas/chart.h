@@ -1,4 +1,4 @@
-// Charts: parts of a surface that are laid flat, and the seams between them.
+// Charts, the flattened parts of a surface, and the seams between them.
 #pragma once
 
 #include "core/vector2.h"
@@ -14,20 +14,20 @@
 
 namespace cascade {
 
-/// For each edge of each triangle, whether the surface is cut there; on both sides alike, and at
+/// For each edge of each triangle, whether the surface is cut there: on both sides alike, and at
 /// each boundary.
 using Seams = std::vector<std::array<bool, 3>>;
 
-/// Triangles that are connected over edges without a seam. A point of the surface that seams divide
-/// has several places in it.
+/// Triangles connected over edges without a seam. A point of the surface divided by seams has
+/// several positions in the chart.
 struct Chart {
-    std::vector<std::uint32_t> triangles;               ///< Of the surface.
-    std::vector<std::array<std::uint32_t, 3>> corners;  ///< Places, for each of the triangles.
-    std::vector<Vector2d> places;                       ///< In the plane.
+    std::vector<std::uint32_t> triangles;               ///< Triangles of the surface.
+    std::vector<std::array<std::uint32_t, 3>> corners;  ///< Per triangle, in indices of positions.
+    std::vector<Vector2d> places;                       ///< Positions in the plane.
     /// The x axis of each triangle's own frame (shape_of) in the plane, of length 1.
     std::vector<Vector2d> turns;
 
-    /// Turns all places about the origin.
+    /// Rotates all positions about the origin.
     void turn(Vector2d by) {
         for (Vector2d& place : places) place = product(by, place);
     }
@@ -37,8 +37,8 @@ struct Chart {
     }
 };
 
-/// A triangle in a frame of its own, as in own_frame(), but with edges and heights of at least
-/// 10⁻⁴ of its longest edge, so that one without area can be laid flat as well.
+/// A triangle in its own frame, as in own_frame(), but with edges and heights of at least 10⁻⁴ of
+/// its longest edge, so that a triangle without area can be laid flat, too.
 FlatTriangle shape_of(const SurfaceMesh& mesh, std::uint32_t triangle);
 
 /// Twice the area, positive if the corners are counterclockwise.
@@ -46,17 +46,17 @@ inline double double_area(const FlatTriangle& flat) {
     return cross(flat[1] - flat[0], flat[2] - flat[0]);
 }
 
-/// Joins triangles at all edges without a seam; their places are still to be found. `numbers` has
-/// an element for each triangle of the surface; those of these triangles are overwritten.
+/// Joins triangles at all edges without a seam, without computing positions. `numbers` has an
+/// element for each triangle of the surface. The elements of these triangles are overwritten.
 Chart chart_of(const SurfaceMesh& mesh, const Seams& seams, std::vector<std::uint32_t> triangles,
                std::span<std::uint32_t> numbers);
 
-/// The two factors by which a triangle's flat image lengthens directions, the larger first. The
-/// second one is negative if the image is mirrored.
+/// The factors by which a triangle's flat image lengthens directions, the larger first. The second
+/// one is negative if the image is mirrored.
 std::array<double, 2> stretches(const FlatTriangle& shape, const FlatTriangle& image);
 
-/// How much lengths change, or a number that says so: the larger of the larger stretch and the
-/// inverse of the smaller one, ≥ 1; infinite if the image has no area or is mirrored.
+/// The largest factor of a change of lengths: the larger of the larger stretch and the inverse of
+/// the smaller one, ≥ 1. Infinite if the image has no area or is mirrored.
 inline double distortion(const std::array<double, 2>& stretches) {
     if (!(stretches[1] > 0)) return std::numeric_limits<double>::infinity();
     return std::max(stretches[0], 1 / stretches[1]);

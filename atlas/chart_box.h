@@ -1,4 +1,4 @@
-// The rectangle that a flat chart takes.
+// The bounding rectangle of a flat chart.
 #pragma once
 
 #include "atlas/chart.h"
@@ -22,8 +22,8 @@ struct FlatBox {
 
 /// The smallest rectangle around a chart in any direction.
 struct TurnedBox {
-    Vector2d turn{1, 0};  ///< Brings its sides to the axes; of length 1.
-    Vector2d size;        ///< Then.
+    Vector2d turn{1, 0};  ///< The rotation of its sides to the axes, of length 1.
+    Vector2d size;        ///< The size after rotation.
 };
 TurnedBox smallest_box(const Chart& chart);
 

@@ -1,4 +1,4 @@
-// The outline's edges are compared with those whose spans along x overlap theirs.
+// Compares the outline's edges with all edges whose spans along x overlap theirs.
 #include "atlas/chart_check.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 /// An edge of the outline, with the chart on its left.
 struct Side {
-    std::uint32_t from = 0, to = 0;  ///< Places.
+    std::uint32_t from = 0, to = 0;  ///< Indices of positions.
     double low = 0, high = 0;        ///< Its span along x.
 };
 
@@ -59,11 +59,11 @@ bool has_crossing(const Chart& chart, std::vector<Side> sides) {
     return false;
 }
 
-/// The number of loops that are counterclockwise.
+/// The number of counterclockwise loops.
 std::size_t count_outer(const Chart& chart, const std::vector<Side>& sides) {
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> next(chart.places.size(), none);
-    for (const Side& side : sides) next[side.from] = side.to;  // A place has one fan of triangles.
+    for (const Side& side : sides) next[side.from] = side.to;  // One fan of triangles.
     std::size_t outer = 0;
     for (const Side& side : sides) {
         double area = 0;
@@ -83,7 +83,7 @@ std::size_t count_outer(const Chart& chart, const std::vector<Side>& sides) {
 
 bool is_injective(const Seams& seams, const Chart& chart) {
     for (std::size_t n = 0; n < chart.triangles.size(); ++n) {
-        if (!(double_area(chart.flat(n)) > 0)) return false;  // Nor if it is not finite.
+        if (!(double_area(chart.flat(n)) > 0)) return false;  // Also false if it is not finite.
     }
     std::vector<Side> sides = outline_of(seams, chart);
     return count_outer(chart, sides) == 1 && !has_crossing(chart, std::move(sides));

@@ -27,7 +27,7 @@ Rigid rigid_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
     return rigid;
 }
 
-/// The turn for which a triangle's edges are nearest to those of its image.
+/// The rotation that brings a triangle's edges nearest to the edges of its image.
 Vector2d best_turn(const Rigid& rigid, const FlatTriangle& image) {
     Vector2d sum{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ public:
         }
     }
 
-    /// Returns the mean square of their changes.
+    /// Sets the rotations and returns the mean square of their changes.
     double find_turns() {
         double sum = 0;
         for (std::size_t n = 0; n < rigid_.size(); ++n) {
@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    /// Place 0 is the origin; the others are unknown.
+    /// Position 0 is the origin. The others are unknown.
     static Eigen::Index row(std::uint32_t place) { return static_cast<Eigen::Index>(place) - 1; }
 
     void factorise() {

@@ -1,5 +1,5 @@
-// In each round, pairs are taken in the order of the part of their outlines that would disappear,
-// each chart in at most one pair, and tried side by side.
+// Each round takes pairs in the order of the part of their outlines that would disappear, each
+// chart in at most one pair, and tries them side by side.
 #include "atlas/join_charts.h"
 
 #include "atlas/chart_box.h"
@@ -24,13 +24,13 @@ constexpr double least_gain = 0.12;  ///< Narrower bridges are not built.
 // A chart must have room beside others in a square of area 1.
 constexpr double longest_side = 1.5, longest_joined_side = 1.1;
 constexpr double least_filled = 0.55, small_joined_area = 1.0 / 64;
-constexpr std::size_t most_triangles = 250'000;  ///< Of a joined chart, for the time it takes.
+constexpr std::size_t most_triangles = 250'000;  ///< For a joined chart, to limit time.
 constexpr int rounds_of_trial = 8;
 
 /// Two charts with a common border.
 struct Pair {
     std::uint32_t one = 0, other = 0;
-    double gain = 0;                  ///< The border, as a part of the shorter outline.
+    double gain = 0;                  ///< The border as a part of the shorter outline.
     std::vector<TriangleEdge> edges;  ///< The border, seen from `one`.
 };
 
@@ -80,7 +80,7 @@ private:
                       mesh_.corner(e.triangle, e.edge));
     }
 
-    /// Notes where the triangles of a chart are.
+    /// Records the chart of its triangles.
     void note(std::uint32_t chart) {
         for (const std::uint32_t t : charts_[chart].triangles) chart_of_[t] = chart;
     }
@@ -161,11 +161,11 @@ private:
         }
     }
 
-    /// The longest part of a border along which both charts go on without a cut.
+    /// The longest part of a border along which both charts continue without a cut.
     std::vector<TriangleEdge> longest_run(const Pair& pair) const {
         const std::vector<TriangleEdge>& border = pair.edges;
         struct End {
-            std::uint32_t here, there, edge;  ///< Places in both charts; the number of an edge.
+            std::uint32_t here, there, edge;  ///< Positions in both charts. The number of an edge.
         };
         std::vector<End> ends;
         for (std::uint32_t e = 0; e < border.size(); ++e) {
@@ -197,8 +197,8 @@ private:
         return run;
     }
 
-    /// Joins along the whole border, or else along its longest run, so that a tube can be closed to
-    /// a sheet.
+    /// Joins along the whole border, or otherwise along its longest run, so that a tube can be
+    /// closed to a sheet.
     std::optional<Chart> try_to_join(const Pair& pair) {
         if (auto joined = try_edges(pair, pair.edges)) return joined;
         number(charts_[pair.one]);
@@ -234,7 +234,7 @@ private:
                (area <= small_joined_area || area >= least_filled * box.x * box.y);
     }
 
-    /// The turn that brings the edges of `other` to those of `one`.
+    /// The rotation that brings the edges of `other` to those of `one`.
     Vector2d turn_between(const Chart& one, const Chart& other,
                           std::span<const TriangleEdge> edges) const {
         const auto along = [&](const Chart& chart, TriangleEdge e) {

@@ -26,7 +26,7 @@ void in_turn(Team& team, std::size_t count, const std::atomic<bool>& cancel, con
     if (lacks_memory) throw std::bad_alloc();
 }
 
-/// Whether a chart of a surface of area 1 has no overlaps, is not longer than 1.5 and, unless it is
+/// Whether a chart of a surface of area 1 has no overlaps, is at most 1.5 long and, unless it is
 /// small, has little distortion.
 bool is_good(const SurfaceMesh& mesh, const Seams& seams, const Chart& chart);
 

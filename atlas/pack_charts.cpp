@@ -18,7 +18,7 @@ namespace cascade {
 
 namespace {
 
-// Which cells of a grid are taken, and where a shape has room (internal to atlas/).
+// The occupied cells of a grid, and the search for room (internal to atlas/).
 
 /// Cells first … end − 1 of a row.
 struct CellSpan {
@@ -40,11 +40,11 @@ public:
     /// A square of free cells.
     explicit CellRows(int side);
 
-    /// The place for a shape with the smallest y, and of these the smallest x, whose upper end,
-    /// y + height, is below `limit`, and y at least `lowest`: one where none of its cells is taken.
+    /// A free position for a shape with the smallest y, and then the smallest x, whose upper end, y
+    /// + height, is below `limit`, and y at least `lowest`.
     std::optional<CellPlace> find_room(const CellShape& shape, int lowest, int limit) const;
 
-    /// Takes the cells of a shape and the eight around each of them.
+    /// Occupies the cells of a shape and the eight around each of them.
     void take(const CellShape& shape, CellPlace place);
 
 private:
@@ -54,8 +54,8 @@ private:
     void mark_blocked(const CellSpan& span, int y, std::vector<Word>& blocked,
                       std::vector<Word>& some) const;
 
-    int side_, stride_;        ///< Cells, words.
-    std::vector<Word> words_;  ///< A bit for each cell: 1 if it is taken. One more word in a row.
+    int side_, stride_;        ///< In cells, in words.
+    std::vector<Word> words_;  ///< One bit per cell: 1 if it is occupied. One extra word per row.
 };
 
 CellRows::CellRows(int side)
@@ -63,7 +63,7 @@ CellRows::CellRows(int side)
       stride_((side + bits - 1) / bits + 1),
       words_(static_cast<std::size_t>(side * stride_)) {}
 
-/// ORs bits moved down by `by` into those that are there. What is moved in is 0.
+/// ORs bits moved down by `by` into `to`. Moves in zeros.
 void add_moved(const std::vector<std::uint64_t>& from, int by, std::vector<std::uint64_t>& to) {
     const std::size_t whole = static_cast<std::size_t>(by / 64);
     const int rest = by % 64;
@@ -74,15 +74,15 @@ void add_moved(const std::vector<std::uint64_t>& from, int by, std::vector<std::
     }
 }
 
-/// Marks those x for which a cell x + first … x + end − 1 of a row is taken.
+/// Marks each x for which a cell x + first … x + end − 1 of a row is occupied.
 void CellRows::mark_blocked(const CellSpan& span, int y, std::vector<Word>& blocked,
                             std::vector<Word>& some) const {
     some.assign(row(y), row(y) + stride_);
-    // After each round bit x stands for `count` cells from x on.
+    // After each round bit x covers `count` cells from x on.
     const int length = span.end - span.first;
     for (int count = 1; count < length;) {
         const int more = std::min(count, length - count);
-        // In place: words are read before those that they are added to are changed.
+        // In place: words are read before the words that add them change.
         add_moved(some, more, some);
         count += more;
     }
@@ -128,7 +128,7 @@ void CellRows::take(const CellShape& shape, CellPlace place) {
 
 constexpr double step_of_scale = 0.98;
 constexpr int most_steps = 700;  ///< 0.98⁷⁰⁰ is 10⁻⁶.
-constexpr int small_shape = 12;  ///< Cells; of smaller shapes one orientation is tried.
+constexpr int small_shape = 12;  ///< In cells. Smaller shapes are tried in one orientation.
 
 Vector2d quarter_turned(Vector2d v, int quarters) {
     const std::array<Vector2d, 4> turned = {v, Vector2d{-v.y, v.x}, Vector2d{-v.x, -v.y},
@@ -136,7 +136,7 @@ Vector2d quarter_turned(Vector2d v, int quarters) {
     return turned[static_cast<std::size_t>(quarters)];
 }
 
-/// The cells that a scaled chart touches, with its bounds' lower corner at a cell's.
+/// The cells touched by a scaled chart whose bounds have their lower corner at a cell's.
 CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
     FlatBox bounds;
     for (const Vector2d p : chart.places) bounds.add(quarter_turned(p, quarters) * scale);
@@ -181,7 +181,7 @@ CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
             shape.spans.push_back(span);
         }
     }
-    // The longest first: they rule most places out.
+    // The longest first, because they rule out most positions.
     std::stable_sort(shape.spans.begin(), shape.spans.end(),
                      [](const CellSpan& a, const CellSpan& b) {
                          return a.end - a.first > b.end - b.first;
@@ -226,7 +226,7 @@ public:
             // Another order is worth a search only if it is better by a step.
             if (fitting_ <= most_steps && !fits(fitting_ - 1, order, cancel)) continue;
             search(order, cancel);
-            if (fitting_ > most_steps) break;  // Nor do other orders help then.
+            if (fitting_ > most_steps) break;  // Other orders do not help either.
         }
         if (fitting_ > most_steps || cancel) return 0;
         return move_charts(best_, scale_of(fitting_));
@@ -235,14 +235,14 @@ public:
 private:
     using Order = std::vector<std::size_t>;
 
-    /// Cells per length: at the first step the charts' area is the square's.
+    /// Cells per length. At the first step the charts' area is the square's.
     double scale_of(int step) const {
         double scale = cells_ / std::sqrt(area_);
         for (int k = 0; k < step; ++k) scale *= step_of_scale;
         return scale;
     }
 
-    /// Finds the first step at which charts fit in an order, below that known before.
+    /// Finds the first step at which charts fit in an order, below the best one so far.
     void search(const Order& order, const std::atomic<bool>& cancel) {
         // Most fit at three quarters of the square's area or less.
         int too_large = -1;
@@ -253,7 +253,7 @@ private:
         }
     }
 
-    /// Keeps the places if they fit.
+    /// Stores the positions if they fit.
     bool fits(int step, const Order& order, const std::atomic<bool>& cancel) {
         auto placed = place_all(scale_of(step), order, cancel);
         if (!placed) return false;
@@ -264,7 +264,7 @@ private:
 
     std::optional<std::vector<Placed>> place_all(double scale, const Order& order,
                                                  const std::atomic<bool>& cancel) {
-        // A cell at the upper sides stays free, half of which is moved to the lower ones.
+        // A cell at the upper sides stays free. Half of it is moved to the lower sides.
         CellRows rows(cells_ - 1);
         std::vector<Placed> placed(charts_.size());
         std::map<std::pair<int, int>, int> full_below;
@@ -292,7 +292,7 @@ private:
         return placed;
     }
 
-    /// Returns the factor.
+    /// Moves the charts and returns the factor.
     double move_charts(const std::vector<Placed>& placed, double scale) {
         for (std::size_t c = 0; c < charts_.size(); ++c) {
             FlatBox bounds;
@@ -313,7 +313,7 @@ private:
     double area_ = 0;
     std::array<Order, 3> orders_;   ///< The largest first, by several measures.
     int fitting_ = most_steps + 1;  ///< The best step so far,
-    std::vector<Placed> best_;      ///< and the places then.
+    std::vector<Placed> best_;      ///< and its positions.
 };
 
 }  // namespace

@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffff;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double flat_cost = 0.2;       ///< Of a unit of length where nothing bends.
-constexpr double crease_cost = 0.5;     ///< Of crossing an edge at a right angle, in lengths.
+constexpr double flat_cost = 0.2;       ///< The cost of a unit of length on flat parts.
+constexpr double crease_cost = 0.5;     ///< At a right angle to an edge, in lengths.
 constexpr double least_crease = 0.13;   ///< One minus the cosine of 30°.
 constexpr double most_bent = 0.64;      ///< The cosine of 50°.
-constexpr double bent_share = 0.05;     ///< Of a patch's area may be beyond it.
-constexpr double least_divided = 5e-4;  ///< Smaller patches are left as they are.
+constexpr double bent_share = 0.05;     ///< The part of a patch's area that may be beyond it.
+constexpr double least_divided = 5e-4;  ///< Smaller patches are not divided.
 constexpr int most_rounds = 40, settling_rounds = 3, most_passes = 8;
 constexpr std::ptrdiff_t enough = 10;  ///< At most one patch in ten may stay bent.
 
@@ -114,9 +114,9 @@ public:
 private:
     struct Patch {
         double area = 0, bent = 0;
-        Vector3d sum, axis;  ///< Of normals times areas; its direction.
+        Vector3d sum, axis;  ///< The sum of normals times areas, and its direction.
         Vector3d centre;
-        std::uint32_t middle = none, farthest = none;  ///< Nodes.
+        std::uint32_t middle = none, farthest = none;  ///< Indices of nodes.
     };
 
     void measure() {
@@ -227,7 +227,7 @@ std::array<std::vector<std::uint32_t>, 2> halves(const SurfaceMesh& mesh, const 
     const Seed start = seed(0);
     const Seed one = seed(farthest_of(grow(nodes, {&start, 1}, neighbour)));
     std::array<Seed, 2> ends = {one, seed(farthest_of(grow(nodes, {&one, 1}, neighbour)))};
-    // Where all costs are alike any other triangle is an end.
+    // Where all costs are equal, any other triangle is an end.
     if (ends[1].node == ends[0].node) ends[1] = seed(ends[0].node == 0 ? 1 : 0);
     const Growth growth = grow(nodes, ends, neighbour);
     std::array<std::vector<std::uint32_t>, 2> parts;

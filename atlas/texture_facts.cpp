@@ -1,4 +1,4 @@
-// Covered and shared parts are counted in samples; the rest is exact.
+// Counts covered and shared parts in samples. The rest is exact.
 #include "atlas/texture_facts.h"
 
 #include "atlas/chart.h"

@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// Positive if `point` is to the left of the line from a to b; exactly negated by swapping a and b.
+/// Positive if `point` is to the left of the line from a to b. Exactly negated by swapping a and b.
 double side_of(Vector2d a, Vector2d b, Vector2d point) {
     if (b.x < a.x || (b.x == a.x && b.y < a.y)) return -cross(a - b, point - b);
     return cross(b - a, point - a);
@@ -102,7 +102,7 @@ void TextureLayout::visit_columns(const Drawn& triangle, std::int64_t row, const
         high = std::max(high, x);
     }
     if (!(low <= high)) return;
-    // One more at either end, to be safe against rounding.
+    // One more at either end, as a margin for rounding.
     std::array<double, 3> inside{};
     for (std::int64_t column = first_from(low) - 1; column <= last_to(high) + 1; ++column) {
         if (holds(triangle, middle_of(column, row), inside)) visit(column);

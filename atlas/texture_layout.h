@@ -1,4 +1,4 @@
-// The mapping from a texture to places on the surface: triangles rasterised in texture coordinates.
+// The mapping from a texture to surface positions: triangles rasterised in texture coordinates.
 #pragma once
 
 #include "mesh/flat.h"
@@ -24,9 +24,9 @@ public:
         std::size_t without_place = 0;  ///< Not finite, or beyond ±largest_place.
     };
     const Skipped& skipped() const { return skipped_; }
-    /// The total area of all triangles, in areas of the texture; above 1 they must overlap.
+    /// The total area of all triangles, in areas of the texture. Above 1 they must overlap.
     double covered_area() const { return covered_area_; }
-    /// The part of that area that belongs to triangles whose picture is mirrored.
+    /// The part of that area in triangles whose picture is mirrored.
     double mirrored_part() const { return covered_area_ > 0 ? mirrored_area_ / covered_area_ : 0; }
     /// Whether a triangle has samples beyond 0 … 1, where the texture repeats.
     bool repeats() const { return repeats_; }
@@ -43,14 +43,14 @@ public:
                         std::span<std::uint32_t> owners) const;
     static constexpr std::uint32_t nothing = 0xffffffff;
 
-    /// The place in a triangle at the centre of a sample for which find_owners found it.
+    /// The surface position at the centre of a sample, in the triangle found by find_owners().
     SurfacePlace place_at(std::uint32_t triangle, std::int64_t column, std::int64_t row) const;
 
 private:
     /// A triangle in units of samples, with y down.
     struct Drawn {
         FlatTriangle corners;
-        double sign = 0;                   ///< Of its area; 0 if it is not drawn.
+        double sign = 0;                   ///< The sign of its area. 0 if it is not drawn.
         std::int64_t first = 0, last = 0;  ///< Its rows, without wrapping.
         /// The repetitions of the texture that it touches.
         std::int64_t top = 0, bottom = 0, left = 0, right = 0;

@@ -21,7 +21,7 @@ namespace cascade {
 
 namespace {
 
-// From a surface to charts that lie flat.
+// From a surface to flat charts.
 
 constexpr int first_rounds = 12, last_rounds = 30;
 
@@ -57,7 +57,7 @@ Vector3d mean_normal(const SurfaceMesh& mesh, std::span<const std::uint32_t> tri
     return unit(sum);
 }
 
-/// Lays a patch flat, in as many parts as it takes.
+/// Flattens a patch, in as many parts as necessary.
 std::vector<Chart> flat_parts(const SurfaceMesh& mesh, std::vector<std::uint32_t> patch,
                               std::span<std::uint32_t> numbers, Seams& seams) {
     std::vector<Chart> done;
@@ -87,9 +87,9 @@ std::vector<Chart> flat_parts(const SurfaceMesh& mesh, std::vector<std::uint32_t
 
 /// Divides a surface of area 1 into flat charts without overlaps (is_injective). In a chart of more
 /// than 1/512 of the area the mean distortion is at most 1.1, and above 1.5 in at most 1 % of its
-/// area. Patches that bend little (bend_patches) are halved until they are so, and then joined
-/// again along common edges, the longest ones first, as long as they stay so. Incomplete if
-/// `cancel` became true. The same on any number of threads.
+/// area. Patches that bend little (bend_patches) are halved until they meet this, and then joined
+/// again along common edges, the longest first, as long as they still do. Incomplete if `cancel`
+/// became true. The same on any number of threads.
 std::vector<Chart> make_charts(const SurfaceMesh& mesh, Team& team,
                                const std::atomic<bool>& cancel) {
     std::vector<std::vector<std::uint32_t>> patches;
