@@ -8,7 +8,7 @@
 namespace cascade {
 namespace {
 
-/// Up to this number, comparing all pairs is faster than to sort: it takes no branches.
+/// Below this count, comparing all pairs beats sorting because it is branch-free.
 constexpr std::size_t most_compared = 48;
 
 }  // namespace
@@ -41,7 +41,7 @@ CellBoxes::CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& r
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    // A little more than the widest distance covers the rounding of box numbers.
+    // Slightly more than the widest distance covers the rounding of box numbers.
     lay_out({low.x, low.y, low.z}, {high.x, high.y, high.z}, 2 * widest * (1 + 1e-9), cells.size());
     fill(cells);
 }

@@ -12,14 +12,14 @@
 
 namespace cascade {
 
-/// A cell as a search sees it.
+/// The data of a cell for a search.
 struct BoxedCell {
     Vector3d place;
     double reach = 0, slack = 0;  ///< Its part of the distance at which cells are neighbours.
     std::uint32_t cell = 0, rank = 0;
 };
 
-/// A cell with this skin.
+/// A cell with the given skin.
 inline BoxedCell boxed(const CellPlaces& cells, std::uint32_t cell, const NeighbourRule& rule,
                        double skin) {
     const double radius = cells.radii[cell];
@@ -34,7 +34,7 @@ inline double width_of(const BoxedCell& cell, const NeighbourRule& rule) {
 inline double nearest_image(double difference, double period) {
     return period > 0 ? difference - period * std::nearbyint(difference / period) : difference;
 }
-/// Are two cells neighbours? The same for both, to the last bit.
+/// Whether two cells are neighbours. Gives the same for both, to the last bit.
 template <bool is_periodic>
 bool are_near(const BoxedCell& own, const BoxedCell& other, const NeighbourRule& rule) {
     Vector3d apart = other.place - own.place;
@@ -51,7 +51,7 @@ inline bool repeats(const NeighbourRule& rule) { return rule.period != std::arra
 /// The neighbours found for a cell.
 class NeighbourKeys {
 public:
-    /// Where the next cells and their ranks are written, with room for some more.
+    /// Room for the next cells and their ranks, with some to spare.
     struct Room {
         std::uint32_t* cells;
         std::int32_t* ranks;
@@ -71,7 +71,7 @@ public:
         ++count_;
     }
     void clear() { count_ = 0; }
-    /// Leaves out the cells for which `is_out` is true.
+    /// Removes the cells for which `is_out` is true.
     void leave_out(const auto& is_out) {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < count_; ++k) {
@@ -81,7 +81,7 @@ public:
         }
         count_ = kept;
     }
-    /// Cells may have other ranks now.
+    /// Updates the cells' ranks.
     void rank(std::span<const std::uint32_t> ranks) {
         for (std::size_t k = 0; k < count_; ++k) {
             ranks_[k] = static_cast<std::int32_t>(ranks[cells_[k]]);
@@ -90,7 +90,7 @@ public:
     std::span<const std::uint32_t> cells() const { return {cells_.data(), count_}; }
     std::size_t count() const { return count_; }
 
-    /// The cells in ascending order of their ranks, until the next change.
+    /// The cells in ascending order of their ranks, valid until the next change.
     std::span<const std::uint32_t> sorted();
 
 private:
@@ -123,7 +123,7 @@ struct BoxAxis {
     }
 };
 
-/// Cells of similar radii in boxes that are as wide as the distance of neighbours.
+/// Cells of similar radii in boxes as wide as the distance of neighbours.
 class CellBoxes {
 public:
     /// There must be a cell.
@@ -147,7 +147,7 @@ private:
 
     NeighbourRule rule_;
     std::array<BoxAxis, 3> axes_;
-    std::vector<std::uint32_t> starts_;  ///< Of each box in `cells_`, and one more.
+    std::vector<std::uint32_t> starts_;  ///< The start of each box in `cells_`, and the end.
     std::vector<BoxedCell> cells_;
 };
 

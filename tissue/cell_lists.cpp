@@ -1,4 +1,4 @@
-// Reads places, finds neighbours, and makes the table of links that kernels read.
+// Reads positions, finds neighbours, and makes the table of links for kernels.
 #include "tissue/cell_lists.h"
 
 #include <algorithm>
@@ -7,15 +7,15 @@
 namespace cascade {
 namespace {
 
-/// Cells are put in order again when this part of the links more than then has become far.
+/// Cells are reordered when the part of far links has grown by more than this.
 constexpr double far_part_to_order = 0.1;
-/// Lists last for this number of steps in which cells move as in the last one.
+/// The number of steps like the last one for which lists last.
 constexpr double steps_of_lists = 6;
 constexpr double most_skin = 1;
-/// What a step is expected to take of a skin, in steps like the last one, and the part of the skin
-/// that this may be at most.
+/// The expected use of a skin by a step, in steps like the last one, and its largest part of the
+/// skin.
 constexpr double expected_steps = 1.5, part_of_skin = 0.8;
-/// The rest is left for rounding.
+/// The rest is a margin for rounding.
 constexpr double part_of_room = 1 - 1e-6;
 /// Fewer cells are all near in memory.
 constexpr std::size_t least_cells_to_order = 4096;
@@ -93,13 +93,13 @@ void CellLists::end_step(Tissue& tissue) {
                });
 }
 
-/// A skin that lasts for some steps like the last one.
+/// A skin that lasts for a few steps like the last one.
 double CellLists::skin_of(const Tissue& tissue, std::size_t cell, double least) const {
     const double wanted = steps_of_lists * double{tissue.restlessness[cell]};
     return std::max(least, std::min(most_skin, wanted));
 }
 
-/// In the list and in the table, where a few places are padding.
+/// In the list and in the table, whose padding takes a few entries.
 double CellLists::most_links() const {
     return most_bytes_ / (sizeof(std::uint32_t) + 2 * sizeof(std::int16_t));
 }
@@ -152,7 +152,7 @@ Result<void> CellLists::renew_restless(const Tissue& tissue) {
     std::vector<std::uint32_t> restless;
     each_place(tissue, species_, tissue.species,
                [&](std::size_t cell, Vector3d place, double radius) {
-                   // A new list at this place would last no longer than its skin.
+                   // A new list at this position would last no longer than its skin.
                    const double way = std::min(expected_steps * double{tissue.restlessness[cell]},
                                                part_of_skin * double{skins_[cell]});
                    if (watch_->reaches(cell, place, radius, slack_of(rule_, way, radius))) return;
@@ -162,7 +162,7 @@ Result<void> CellLists::renew_restless(const Tissue& tissue) {
     return renew(tissue, restless);
 }
 
-/// Makes the table of links that kernels read. `changed`: see Links::assign().
+/// Makes the table of links for kernels. `changed`: see Links::assign().
 void CellLists::take(const Tissue& tissue, const std::vector<bool>& changed) {
     const NeighbourLists& lists = kept_.lists();
     const double far_part = static_cast<double>(lists.far_links) /

@@ -1,4 +1,4 @@
-// Keeps the neighbours of a tissue's cells up to date, and the cells in an order that memory likes.
+// Keeps the neighbours of a tissue's cells up to date, and the cells in a cache-friendly order.
 #pragma once
 
 #include "core/links.h"
@@ -17,38 +17,38 @@ namespace cascade {
 
 class CellLists {
 public:
-    /// Lists are built with `skin`, with a wider one for cells that move fast, and refused if they
-    /// would take more than `most_bytes`.
+    /// Builds lists with `skin`, with a wider one for fast cells, and refuses lists of more than
+    /// `most_bytes`.
     CellLists(const NeighbourRule& rule, double skin, double most_bytes,
               const TissueSpecies& species, Team& team);
 
-    /// Builds the lists for cells at the places of this state, which must be finite. `is_full`: so
-    /// that they last for every step that is not too long. Throws std::bad_alloc.
+    /// Builds the lists for this state, whose positions must be finite. `is_full`: lists that last
+    /// for every step that is not too long. Throws std::bad_alloc.
     Result<void> build(const Tissue& tissue, const std::vector<Field>& state, bool is_full);
-    /// Finds the lists of these cells anew, which are new or elsewhere. No other cell has moved in
-    /// memory or changed from outside since lists were found, but cells may have gone of which none
-    /// of the others has the place. Throws std::bad_alloc.
+    /// Finds the lists of these cells, which are new or have moved in memory. Since the last
+    /// search, no other cell may have moved in memory or changed from outside. Cells may have been
+    /// removed if no remaining cell has their index. Throws std::bad_alloc.
     Result<void> renew(const Tissue& tissue, std::span<const std::uint32_t> cells);
-    /// The same for cells that will leave their lists in the next step if they go on as in the last
-    /// one.
+    /// Renews the lists of cells that will outrun them in the next step if they go on as in the
+    /// last one.
     Result<void> renew_restless(const Tissue& tissue);
-    /// Do the lists hold for all cells in this state, and for some way around their places?
+    /// Whether the lists are valid for all cells in this state, and `around` their positions.
     bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
-    /// Do they hold for these cells at the present?
+    /// Whether they are valid for these cells now.
     bool reach(const Tissue& tissue, std::span<const std::uint32_t> cells) const;
-    /// Do enough links lead far away in memory for another order to save time? True before
-    /// the first lists of a large tissue.
+    /// Whether enough links lead far away in memory for another order to save time. True before the
+    /// first lists of a large tissue.
     bool wants_order(const Tissue& tissue) const;
-    /// Puts the cells in a better order, after which lists must be built. Throws std::bad_alloc.
+    /// Reorders the cells, after which lists must be built. Throws std::bad_alloc.
     void put_in_order(Tissue& tissue);
-    /// A step begins at the present places,
+    /// Begins a step at the present positions.
     void begin_step(const Tissue& tissue);
-    /// and leads to the present ones. Notes how restless the cells are.
+    /// Ends a step at the present positions and records how restless the cells are.
     void end_step(Tissue& tissue);
 
     const Links& links() const { return links_; }
     const std::shared_ptr<MovementWatch>& watch() const { return watch_; }
-    /// The mean radius of the cells when the last step began.
+    /// The cells' mean radius at the beginning of the last step.
     double mean_radius() const { return mean_radius_; }
     std::int64_t builds() const { return builds_; }
 
@@ -67,9 +67,9 @@ private:
     std::vector<float> skins_;
     KeptLists kept_;
     Links links_;
-    PlaneLayout layout_;  ///< Of the links.
+    PlaneLayout layout_;  ///< The links' layout.
     std::shared_ptr<MovementWatch> watch_ = std::make_shared<MovementWatch>();
-    double far_part_ = 0;  ///< Of the links, when cells were last put in order.
+    double far_part_ = 0;  ///< The part of far links when cells were last reordered.
     bool is_disordered_ = true, is_just_ordered_ = false;
     std::int64_t builds_ = 0;
 };

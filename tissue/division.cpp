@@ -1,4 +1,4 @@
-// Rearranges the tissue once for all events of a moment, then sets the new places.
+// Rearranges the tissue once for all simultaneous events, then sets the new positions.
 #include "tissue/division.h"
 
 #include "tissue/part_cells.h"
@@ -19,8 +19,8 @@ void put(Tissue& tissue, const DivisionPlaces& places, std::size_t cell, Vector3
     tissue.set(places.species.place + 2, cell, held.z);
 }
 
-/// Where cells are in memory after some have divided and others have died. New cells and the last
-/// ones take the places of those that have died, so that few cells are elsewhere.
+/// The order of cells in memory after some have divided and others have died. New cells and the
+/// last ones fill the gaps, so that few cells move.
 struct NewPlaces {
     NewPlaces(std::size_t count, std::span<const CellEvent> events) : places(count) {
         std::iota(places.begin(), places.end(), std::uint32_t{0});
@@ -55,11 +55,11 @@ struct NewPlaces {
         }
     }
 
-    std::vector<std::uint32_t> places;    ///< By old place, of cells that have not died.
-    std::vector<std::uint32_t> sources;   ///< By new place: the old one, of new cells the mother's.
-    std::vector<std::uint32_t> dividing;  ///< Old places, in the order of the events.
-    std::vector<std::uint32_t> children;  ///< New places in this order.
-    std::vector<std::uint32_t> moved;     ///< New places of other cells.
+    std::vector<std::uint32_t> places;    ///< By old index, of surviving cells.
+    std::vector<std::uint32_t> sources;   ///< By new index: the old or the mother's.
+    std::vector<std::uint32_t> dividing;  ///< Old indices, in the order of the events.
+    std::vector<std::uint32_t> children;  ///< New indices in this order.
+    std::vector<std::uint32_t> moved;     ///< New indices of other cells.
 };
 
 }  // namespace

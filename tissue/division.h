@@ -1,4 +1,4 @@
-// Divides cells and removes others.
+// Divides and removes cells.
 #pragma once
 
 #include "tissue/random_direction.h"
@@ -12,17 +12,17 @@
 
 namespace cascade {
 
-/// A cell divides or dies.
+/// The division or death of a cell.
 struct CellEvent {
-    std::uint32_t cell = 0;  ///< By place in memory.
-    bool dies = false;       ///< Else it divides.
-    double part = 1;         ///< Of the step, after which that happens.
-    double left = 0;         ///< The time from then to the end of the step.
-    /// If that is above 0: the cell's species then, and their mean rates up to the end.
+    std::uint32_t cell = 0;  ///< Its index in memory.
+    bool dies = false;       ///< False: it divides.
+    double part = 1;         ///< The part of the step before the event.
+    double left = 0;         ///< The time from the event to the end of the step.
+    /// If `left` > 0: the cell's species at the event, and their mean rates from then to the end.
     std::vector<double> values = {}, mean_rates = {};
 };
 
-/// What decides where new cells are.
+/// The parameters of new cells' positions.
 struct DivisionPlaces {
     const Surroundings& surroundings;
     TissueSpecies species;
@@ -32,16 +32,15 @@ struct DivisionPlaces {
 /// The cells after a division.
 struct Divided {
     bool has_moved = false;               ///< The layout of the planes has changed.
-    std::vector<std::uint32_t> children;  ///< In the order of their mothers' numbers,
-    std::vector<std::uint32_t> mothers;   ///< which are these.
-    std::vector<std::uint32_t> moved;     ///< Others that are elsewhere in memory.
+    std::vector<std::uint32_t> children;  ///< In the order of their mothers' numbers.
+    std::vector<std::uint32_t> mothers;   ///< The mothers of these.
+    std::vector<std::uint32_t> moved;     ///< Other cells that have moved in memory.
 };
 
-/// Lets cells divide and die, which are given in the order of their numbers. A new cell has all
-/// values of its mother; the two are half her radius on either side of her place, along
-/// `directions` (one for each cell that divides, in their order; where it is 0 or missing, at
-/// random). New cells get their numbers in the order of their mothers' numbers. Throws
-/// std::bad_alloc.
+/// Divides and removes cells, given in the order of their numbers. A new cell has all values of its
+/// mother. The two are half her radius on either side of her position, along `directions` (one for
+/// each dividing cell, in their order; random where it is 0 or missing). New cells get their
+/// numbers in the order of their mothers' numbers. Throws std::bad_alloc.
 Divided divide(Tissue& tissue, std::span<const CellEvent> events,
                std::span<const Vector3d> directions, const DivisionPlaces& places);
 

@@ -1,4 +1,4 @@
-// Each round divides and removes cells, builds their lists and gives them their new values.
+// Each round divides and removes cells, builds their lists and sets their new values.
 #include "tissue/event_rounds.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-/// A cell that would divide more often at one moment would never stop.
+/// A cell that divides more often at one moment would never stop.
 constexpr int most_divisions_at_once = 10;
 
 }  // namespace
@@ -109,7 +109,7 @@ std::vector<Vector3d> EventRounds::directions(std::span<const CellEvent> events)
     return result;
 }
 
-/// New values are computed from those of the moment of division.
+/// Computes new values from the values at the moment of division.
 void EventRounds::restart(std::span<const CellEvent> dividing, const Divided& divided) {
     const TissueRules::Restarts restarts = rules_.restarts();
     if (restarts.values.problem == nullptr) return;
@@ -148,9 +148,9 @@ void EventRounds::restart(std::span<const CellEvent> dividing, const Divided& di
     tissue_.pad();
 }
 
-/// Both cells of a division go on from its moment to the end of the step by Heun's method. They
-/// begin with what their mother is at the end; so their rates are counted from hers, but for values
-/// that have started again. The other cells are where they are at the end.
+/// Carries both cells of a division from its moment to the end of the step by Heun's method. They
+/// begin with their mother's values at the end, so their rates are counted from hers, except for
+/// restarted values. All other cells have their positions at the end.
 Result<void> EventRounds::carry(std::span<const CellEvent> dividing, const Divided& divided) {
     std::vector<std::uint32_t> cells;
     struct Value {

@@ -1,4 +1,4 @@
-// Lets cells divide and die until no condition holds (internal to tissue/).
+// Divides and removes cells until no condition holds (internal to tissue/).
 #pragma once
 
 #include "tissue/event_search.h"
@@ -25,11 +25,11 @@ public:
           schedule_(schedule),
           stepper_(stepper) {}
 
-    /// Lets the events of a step happen and carries their cells to its end, which is now; then all
-    /// those whose conditions hold now, again and again until there are none. `are_all`: none holds
+    /// Applies the events of a step and carries their cells to its end, which is now. Then applies
+    /// all events whose conditions hold now, repeatedly until there are none. `are_all`: none holds
     /// now for any other cell. Returns the failure that ends the stage, if there is one.
     std::optional<TissueFailure> happen(std::vector<CellEvent> events, bool are_all);
-    /// Has any cell divided or died?
+    /// Whether any cell has divided or died.
     bool has_changed() const { return has_changed_; }
 
 private:

@@ -1,5 +1,5 @@
-// Looks for roots of margins on the cubic through a step. Conditions of a cell alone are evaluated
-// for all cells in question at once, each at a moment of its own.
+// Searches for roots of margins on the cubic through a step. Evaluates conditions of a cell alone
+// for all its candidates at once, each at its own moment.
 #include "tissue/event_search.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Weights {
     double of_old, of_new, of_old_rate, of_new_rate;
 };
 
-/// The part of a step to which moments are found: 2 to this power. In single precision species
+/// The power of 2 of the part of a step to which moments are found. In single precision, species
 /// change by less than their rounding in shorter ones.
 int power_of(Precision precision) { return precision == Precision::single ? -16 : -20; }
 /// Conditions without slopes take a few probes more than bisection, smooth ones a fifth of them.
@@ -83,11 +83,11 @@ double root_of(double first, double last, double width, double other, double els
     return b > 0 ? -2 * first / (b + size) : (size - b) / (2 * bend);
 }
 
-/// A part of the step at whose beginning no condition of some cells holds and at whose end one
-/// does. It is narrowed from estimates, alternately from both sides, so that it becomes as short as
-/// asked soon after they are good; where that is slower than bisection, by bisection (as in the ITP
-/// method: I. Oliveira, R. Takahashi, "An Enhancement of the Bisection Method Average Performance
-/// Preserving Minmax Optimality", ACM Trans. Math. Software 47(1), 2020).
+/// A part of the step. At its beginning no condition of some cells holds, and at its end one does.
+/// Estimates narrow it alternately from both sides, so that it becomes short enough soon after they
+/// are good, and bisection where that is slower (as in the ITP method: I. Oliveira, R. Takahashi,
+/// "An Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality", ACM
+/// Trans. Math. Software 47(1), 2020).
 class Bracket {
 public:
     Bracket(std::vector<std::uint32_t> cells, std::vector<Margins> at_end, int power)
@@ -100,7 +100,7 @@ public:
     std::span<const std::uint32_t> cells() const { return cells_; }
     bool is_narrow() const { return !first.margins.empty() && width() <= wanted_; }
 
-    /// Where to look next: at the beginning first of all.
+    /// The next part to probe: the beginning at first.
     double next() {
         if (first.margins.empty()) return 0;
         --left_;
@@ -113,7 +113,7 @@ public:
         return std::max(last.part - longest, std::min(first.part + longest, part));
     }
 
-    /// What was found there.
+    /// Takes the result of a probe.
     void narrow(Probe at) {
         if (first.margins.empty()) {
             first = other_ = std::move(at);
@@ -122,7 +122,7 @@ public:
         const bool holds = at.holds();
         Probe& end = holds ? last : first;
         other_ = std::exchange(end, std::move(at));
-        // Rounding makes margins rough, so that estimates no longer become better.
+        // Rounding makes margins rough, so that estimates no longer improve.
         const bool has_settled = std::abs(estimate_ - estimate_before_) < 4 * beyond_;
         if (holds != is_near_begin_ && has_settled) beyond_ *= 4;
         estimate_before_ = estimate_;
@@ -143,7 +143,7 @@ private:
                 const double root = from > 0 ? 0
                                              : root_of(from, to, width(), other_.margins[n][k],
                                                        other_.part - first.part);
-                // The negation keeps the half where a margin is not finite.
+                // The negation picks the half where a margin is not finite.
                 least = std::min(least, !(root >= 0 && root <= width()) ? width() / 2 : root);
             }
         }
@@ -151,7 +151,7 @@ private:
     }
 
     std::vector<std::uint32_t> cells_;
-    Probe other_;  ///< One outside the bracket, or its first one itself.
+    Probe other_;  ///< A probe outside the bracket, or its first one.
     double wanted_;
     int left_;
     double beyond_, estimate_ = 0, estimate_before_ = -1;

@@ -1,4 +1,4 @@
-// Places from hashes: four words for each, of which one decides whether it is accepted.
+// Positions from hashes: four words for each, one of them to accept or reject it.
 #include "tissue/founders.h"
 
 #include "core/hash.h"
@@ -12,11 +12,11 @@
 namespace cascade {
 namespace {
 
-constexpr std::size_t most_tries = 10'000;  ///< For each founder.
+constexpr std::size_t most_tries = 10'000;  ///< Per founder.
 
 double fraction(std::uint32_t word) { return (word + 0.5) * 0x1p-32; }
 
-/// Random places of the surroundings by their number.
+/// Random positions of the surroundings by their number.
 class FounderPlaces {
 public:
     FounderPlaces(const Surroundings& surroundings, std::uint32_t seed, std::uint32_t stage)
@@ -28,7 +28,7 @@ public:
 
     struct Candidate {
         NearPlace place;
-        double threshold = 0;  ///< It is accepted if its chance is above this.
+        double threshold = 0;  ///< Accepted if its chance is above this.
     };
     Candidate at(std::uint64_t number) const {
         const auto low = static_cast<std::uint32_t>(number);

@@ -1,4 +1,4 @@
-// The first cells of a tissue: their places and the way they face.
+// The first cells of a tissue: their positions and orientations.
 #pragma once
 
 #include "core/result.h"
@@ -13,25 +13,23 @@
 
 namespace cascade {
 
-/// The probability, 0 … 1, with which a founder would be accepted at each of these places; NaN
-/// counts as 0.
+/// The probability, 0 … 1, of accepting a founder at each of these positions. NaN counts as 0.
 using FounderChance = std::function<std::vector<double>(std::span<const NearPlace> places)>;
 
-/// `count` random places, by area on a surface and by volume in a box. Without a chance, place k
-/// depends on nothing but the surroundings, `seed`, `stage` and k; with one, as many of these
-/// places are tried as are needed. Fails if fewer than one in ten thousand is accepted.
+/// `count` random positions, by area on a surface and by volume in a box. Without a chance,
+/// position k depends only on the surroundings, `seed`, `stage` and k. With a chance, as many of
+/// these positions are tried as needed. Fails if fewer than one in ten thousand is accepted.
 Result<std::vector<NearPlace>> random_founders(const Surroundings& surroundings, std::size_t count,
                                                std::uint32_t seed, std::uint32_t stage,
                                                const FounderChance& chance = {});
 
-/// The places of the surroundings that are nearest to these points, which must be finite.
+/// The positions of the surroundings nearest to these points, which must be finite.
 std::vector<NearPlace> founders_at(const Surroundings& surroundings,
                                    std::span<const Vector3d> points);
 
-/// The rotation that turns the axes of space to a right-handed frame with the axes y along `ey` and
-/// z as near to `ez` as that allows, as a quaternion of length 1: w, x, y, z. Vectors may have any
-/// length; where they leave an axis open (0, parallel, or not finite), some perpendicular one is
-/// taken.
+/// The rotation from the axes of space to a right-handed frame with y along `ey` and z as near to
+/// `ez` as possible, as a quaternion of length 1: w, x, y, z. Vectors may have any length. Where
+/// they leave an axis open (0, parallel, or not finite), takes any perpendicular one.
 std::array<double, 4> rotation_to(Vector3d ey, Vector3d ez);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Renewed cells are looked for in the boxes of the last search, where they may still be with their
-// old marks, and among themselves.
+// Searches for neighbours of renewed cells in the boxes of the last search, which may still hold
+// their old marks, and among themselves.
 #include "tissue/kept_lists.h"
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 namespace cascade {
 namespace {
 
-/// Lists of all cells are found when more than one of this many cells has been renewed since.
+/// All lists are found again when more than one of this many cells has been renewed since.
 constexpr std::size_t cells_of_a_renewed = 8;
-/// Fewer cells are looked at one by one.
+/// Always renews up to this many cells one by one.
 constexpr std::size_t few_cells = 32;
 
 std::size_t far_links(std::uint32_t cell, std::span<const std::uint32_t> list) {
@@ -34,7 +34,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     for (const BoxedCell& cell : cells) {
         if (!(width_of(cell, search_.rule()) <= search_.widest())) return false;
     }
-    // Enough room for all cells to be neighbours of those.
+    // Enough room for all cells to be their neighbours.
     const auto links = static_cast<double>(lists_.neighbours.size());
     if (links + 2.0 * static_cast<double>(cells.size() * ranks.size()) > most_links) return false;
     slots_.resize(std::max(slots_.size(), ranks.size()), no_slot);
@@ -56,7 +56,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     return true;
 }
 
-/// There is no cell in this place any more.
+/// Forgets an index that no cell has any more.
 void KeptLists::forget(std::uint32_t cell) {
     const std::uint32_t slot = std::exchange(slots_[cell], gone);
     if (slot >= renewed_.size()) return;
@@ -81,7 +81,7 @@ void KeptLists::find(const BoxedCell& cell, std::span<const std::uint32_t> ranks
     new_lists_.emplace_back(sorted.begin(), sorted.end());
 }
 
-/// Finds which lists change, of `count` cells.
+/// Finds the lists that change, of `count` cells.
 void KeptLists::note_links(std::span<const BoxedCell> cells, std::uint32_t count) {
     kinds_.assign(slots_.size(), Kind::kept);
     list_numbers_.resize(slots_.size());
@@ -111,7 +111,7 @@ void KeptLists::note_links(std::span<const BoxedCell> cells, std::uint32_t count
     std::sort(added_.begin(), added_.end());
 }
 
-/// What the list of a cell was; empty for a new cell.
+/// The old list of a cell. Empty for a new cell.
 std::span<const std::uint32_t> KeptLists::list_of(std::uint32_t cell) const {
     if (cell >= lists_.ends.size()) return {};
     const std::size_t begin = cell == 0 ? 0 : lists_.ends[cell - 1];
@@ -161,7 +161,7 @@ std::vector<bool> KeptLists::changed() const {
     return result;
 }
 
-/// The lists of these cells, as they are.
+/// Copies the lists of these cells unchanged.
 void KeptLists::copy(std::uint32_t first, std::uint32_t last) {
     const std::uint32_t* const all = lists_.neighbours.data();
     const std::size_t begin = first == 0 ? 0 : lists_.ends[first - 1];
@@ -170,7 +170,7 @@ void KeptLists::copy(std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t k = first; k <= last; ++k) next_.ends.push_back(lists_.ends[k] + shift);
 }
 
-/// A list that replaces the one of a cell.
+/// Writes a list that replaces a cell's old one.
 void KeptLists::write(std::uint32_t cell, std::span<const std::uint32_t> neighbours) {
     next_.far_links += far_links(cell, neighbours);
     next_.far_links -= far_links(cell, list_of(cell));

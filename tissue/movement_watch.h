@@ -14,42 +14,39 @@
 
 namespace cascade {
 
-/// A cell moves by the distance between its places; growth counts as the way by which it comes
-/// nearer to others.
+/// A cell moves by the distance between its positions. Growth counts as approaching others.
 class MovementWatch {
 public:
-    /// No cell may move farther in a step than this multiple of its radius, or of half the distance
-    /// of neighbours if that is larger.
+    /// The limit of a cell's movement in a step, as a multiple of its radius, or of half the
+    /// distance of neighbours if that is larger.
     static constexpr double most_of_radius = 0.5;
-    /// With this skin, lists last for every step that is not too long. A part of the slack is left
-    /// for rounding.
+    /// With this skin, lists last for every step that is not too long, with a margin for rounding.
     static constexpr double full_skin = 0.52;
 
-    /// Lists have been built with these skins for cells at these places.
+    /// Begins lists built with these skins for cells at these positions.
     void begin_lists(std::span<const Vector3d> places, std::span<const double> radii,
                      const NeighbourRule& rule, std::span<const float> skins);
-    /// The list of one cell, which may be a new one, has been found again at this place.
+    /// Renews the list of one cell, which may be new, at this position.
     void renew(std::size_t cell, Vector3d place, double radius, const NeighbourRule& rule,
                double skin);
-    /// Sets the number of cells.
     void resize(std::size_t cells) { listed_.resize(cells); }
-    /// A step begins at these places.
+    /// Begins a step at these positions.
     void begin_step(std::span<const Vector3d> places, std::span<const double> radii,
                     const NeighbourRule& rule);
-    /// A cell was put elsewhere without having moved, through a periodic side.
+    /// Shifts a cell that was put elsewhere without moving, through a periodic side.
     void shift(std::size_t cell, Vector3d by) { listed_[cell].place = listed_[cell].place + by; }
 
-    /// Since begin_step(): has a cell gone so far that the lists may miss a neighbour?
+    /// Whether a cell has gone so far since begin_step() that the lists may miss a neighbour.
     bool left_lists() const { return left_lists_.load(std::memory_order_relaxed); }
-    /// Has one gone too far for one step, or to a place that is not finite?
+    /// Whether a cell has gone too far for one step, or its position is not finite.
     bool went_too_far() const { return went_too_far_.load(std::memory_order_relaxed); }
-    /// Called by kernels: a cell is at this place when rates are evaluated.
+    /// Called by kernels with a cell's position when rates are evaluated.
     void look(std::size_t cell, Vector3d place, double radius);
-    /// Do the lists hold for a cell at this place, and for some way around it?
+    /// Whether the lists are valid for a cell at this position, and for some distance around it.
     bool reaches(std::size_t cell, Vector3d place, double radius, double around) const {
         return is_within(listed_[cell], place, radius, around);
     }
-    /// How far a cell has gone from where the step began, as a skin that it would take.
+    /// A cell's distance from the beginning of the step, as the skin that it would take.
     double way_of(std::size_t cell, Vector3d place) const;
     std::size_t count() const { return listed_.size(); }
 
@@ -57,7 +54,7 @@ private:
     struct Mark {
         Vector3d place;
         double radius = 0;
-        double limit = 0;  ///< Infinite where no cell has any extent, so that none has neighbours.
+        double limit = 0;  ///< Infinite if no cell has any extent, so that none has neighbours.
     };
     bool is_within(const Mark& mark, Vector3d place, double radius, double around = 0) const;
 
@@ -66,7 +63,7 @@ private:
     std::atomic<bool> left_lists_{false}, went_too_far_{false};
 };
 
-/// The step's passes with one before each evaluation of rates that watches the places there.
+/// Inserts a pass that watches positions before each evaluation of rates in the step.
 StepProblem watched(const TissueStep& step, const TissueSpecies& species,
                     std::shared_ptr<MovementWatch> watch);
 

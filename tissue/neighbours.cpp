@@ -1,4 +1,4 @@
-// Each cell searches for neighbours of its own size and larger; a pair of different sizes is then
+// Each cell searches for neighbours of its own size and larger. A pair of different sizes is then
 // added to the list of the larger cell.
 #include "tissue/neighbours.h"
 
@@ -30,7 +30,7 @@ struct Part {
 
 void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std::int64_t>& left,
                  Part& part) {
-    constexpr std::int64_t cells_at_once = 256;  // Between two looks at what is left.
+    constexpr std::int64_t cells_at_once = 256;  // Cells between two checks of the remaining work.
     part.neighbours.reserve(static_cast<std::size_t>(16 * (cells.end - cells.begin)));
     part.counts.reserve(static_cast<std::size_t>(cells.end - cells.begin));
     NeighbourKeys found;
@@ -56,7 +56,7 @@ void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std:
     left.fetch_sub(links, std::memory_order_relaxed);
 }
 
-/// Adds to the lists of large cells the small ones that have found them.
+/// Adds small cells to the lists of the large cells they have found.
 void add_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> ranks,
                NeighbourLists& lists) {
     std::vector<std::size_t> ends(lists.ends.size(), 0);

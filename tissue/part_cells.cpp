@@ -1,4 +1,4 @@
-// Sorts cells by place, so that those in one place follow each other.
+// Sorts cells by position, so that those at one position follow each other.
 #include "tissue/part_cells.h"
 
 #include "tissue/random_direction.h"
@@ -16,7 +16,7 @@ namespace {
 constexpr double part_of_radius = 0.01;
 
 struct CellAt {
-    std::array<double, 3> key{};  ///< The place, less whole periods.
+    std::array<double, 3> key{};  ///< The position, less whole periods.
     std::uint32_t number = 0, cell = 0;
 };
 

@@ -1,4 +1,4 @@
-// Cells in one place, which would never part: each would see the others in no direction.
+// Separation of cells at one position. They would never part by themselves.
 #pragma once
 
 #include "tissue/surroundings.h"
@@ -12,9 +12,9 @@ namespace cascade {
 
 /// Where several of `cells` share one position, on periodic planes also across sides, moves all but
 /// the one with the least number by a hundredth of its radius, in a random direction that depends
-/// on `seed`, `stage` and its number alone and lies in the surface if there is one. Frozen cells
-/// and those without a radius stay. Returns whether any has moved; Tissue::pad() is due then.
-/// Throws std::bad_alloc.
+/// only on `seed`, `stage` and its number and lies in the surface if there is one. Frozen cells and
+/// those without a radius stay. Returns whether any has moved. The caller must then call
+/// Tissue::pad(). Throws std::bad_alloc.
 bool part_cells(Tissue& tissue, const TissueSpecies& species, const Surroundings& surroundings,
                 std::uint32_t seed, std::uint32_t stage, std::span<const std::uint32_t> cells);
 

@@ -7,13 +7,13 @@
 
 namespace cascade {
 
-/// What a direction depends on, and nothing else.
+/// All that a direction depends on.
 struct DirectionKey {
     std::uint32_t seed = 0, stage = 0;
     std::uint32_t mother = 0, child = 0;  ///< Numbers of cells; equal for a founder.
 };
 
-/// A direction of length 1, uniformly distributed over all that are perpendicular to `normal`, or
+/// A direction of length 1, uniformly distributed over all directions perpendicular to `normal`, or
 /// over all if that is 0.
 Vector3d random_direction(const DirectionKey& key, Vector3d normal);
 

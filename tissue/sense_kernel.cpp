@@ -1,4 +1,4 @@
-// Writes what cells sense, cell by cell.
+// Writes the senses of cells, cell by cell.
 #include "tissue/sense_kernel.h"
 
 #include "core/links.h"
@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    /// Cells whose places are looked for together: of one row, so that one thread has them.
+    /// Cells whose positions are searched together: in one row, so in one thread.
     static constexpr std::int64_t cells_at_once = 16;
 
     template <typename Number>
@@ -100,10 +100,10 @@ private:
         }
     }
 
-    /// What is kept of a cell: its place, these triangles, and what it sensed.
+    /// Stored for a cell: its position, these triangles, and its senses.
     struct Triangles {
-        std::uint32_t from = 0;   ///< At which the search began,
-        std::uint32_t found = 0;  ///< and ended.
+        std::uint32_t from = 0;   ///< The search began here
+        std::uint32_t found = 0;  ///< and ended here.
     };
     static constexpr std::size_t key_size = 4;
     static Triangles triangles_of(const double* kept) { return std::bit_cast<Triangles>(kept[3]); }
@@ -133,7 +133,7 @@ private:
     std::vector<Sense> senses_;
     std::shared_ptr<NearTriangles> triangles_;
     std::int64_t kept_count_;
-    std::size_t kept_size_;  ///< Numbers of a cell in `kept_`.
+    std::size_t kept_size_;  ///< Numbers per cell in `kept_`.
     mutable AlignedArray<double> kept_;
 };
 

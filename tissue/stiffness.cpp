@@ -11,7 +11,7 @@ namespace cascade {
 namespace {
 
 constexpr int most_iterations = 30;
-/// The estimate is good enough when an iteration changes it by less than this part of it.
+/// The estimate is accepted when an iteration changes it by less than this part.
 constexpr double enough = 0.03;
 constexpr double margin = 1.1;
 
@@ -47,7 +47,7 @@ public:
         at_state_ = rates_at(tissue.species);
     }
 
-    /// The direction of last time; cells and species that it does not know get noise.
+    /// The last direction found. Cells and species that it lacks get noise.
     Vector start() const {
         Vector v = read(tissue_.stiffest);
         v.resize(tissue_.species.size());
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    /// `use(k)` for each of the species, which the threads share.
+    /// Calls `use(k)` for each of the species, on all threads.
     void each_species(std::size_t count, const auto& use) const {
         Team& team = runner_.team();
         team.run([&](int thread) {
@@ -98,7 +98,7 @@ private:
         });
     }
 
-    /// `use(species, rank, value, element)` for all values.
+    /// Calls `use(species, rank, value, element)` for all values.
     void each(std::vector<Field>& fields, const auto& use) const {
         const std::span<const std::uint32_t> elements = tissue_.elements_by_number();
         each_species(fields.size(), [&](std::size_t k) {

@@ -12,8 +12,8 @@ namespace cascade {
 /// Estimates the magnitude of the largest eigenvalue, in 1 / time, by power iteration with forward
 /// differences of the rates (B. Sommeijer, L. Shampine, J. Verwer, "RKC: an explicit solver for
 /// parabolic PDEs", Journal of Computational and Applied Mathematics 88, 1998, section 2.2), and
-/// adds a tenth. Begins from tissue.stiffest and leaves there the direction found. `scales` are the
-/// sizes of the species, above 0. Sums follow the numbers of cells. 0 if rates are not finite.
+/// adds a tenth. Begins from tissue.stiffest and stores the direction there. `scales` are the sizes
+/// of the species, above 0. Sums follow the numbers of cells. 0 if rates are not finite.
 double estimate_stiffness(Tissue& tissue, const CellValues& rates, std::span<const double> scales,
                           const StepMoment& moment, ValueRunner& runner);
 

@@ -68,7 +68,7 @@ public:
     }
 
 private:
-    /// The place nearest to a cell that is not over the inside of its triangle or one beside it.
+    /// The nearest position for a cell not above the inside of its triangle or one beside it.
     NearPlace search(Vector3d point, std::uint32_t triangle) const {
         NearPlace near = near_nothing(point);
         near.place.triangle = triangle;
@@ -82,7 +82,7 @@ private:
         near.off = near.is_beyond ? height : std::copysign(found->distance, height);
         return near;
     }
-    /// Of at most as many cells as PlaceFollower::AllOver has room for.
+    /// Finds the positions nearest to at most as many cells as PlaceFollower::AllOver holds.
     void near_few(std::span<const Vector3d> points, std::span<const std::uint32_t> triangles,
                   std::span<NearPlace> result) const {
         using AllOver = PlaceFollower::AllOver;
@@ -126,7 +126,7 @@ private:
             near.is_beyond = false;
         }
     }
-    /// As normal_at(), which looks for the corners' normals in several places.
+    /// Does the same as normal_at(), which reads the corners' normals from several arrays.
     Vector3d normal_of(std::uint32_t triangle, const std::array<double, 3>& weights) const {
         const auto& [a, b, c] = corner_normals_.data()[triangle];
         const Vector3d sum = a * weights[0] + b * weights[1] + c * weights[2];
@@ -135,7 +135,7 @@ private:
 
     const SurfaceMesh& mesh_;
     PlaceFollower follower_;
-    std::vector<Vector3d> normals_;                         ///< By point,
+    std::vector<Vector3d> normals_;                         ///< By point
     AlignedArray<std::array<Vector3d, 3>> corner_normals_;  ///< and by triangle and corner.
     bool is_open_ = false;
 };

@@ -27,7 +27,7 @@ std::size_t capacity_of(const PlaneLayout& layout) {
     return static_cast<std::size_t>(layout.width * layout.height);
 }
 
-/// Copies the last of `count` cells into all places after it.
+/// Copies the last of `count` cells into all elements after it.
 template <typename Number>
 void fill_after(Plane<Number>& plane, std::size_t count) {
     const auto width = static_cast<std::size_t>(plane.layout().width);
@@ -38,8 +38,8 @@ void fill_after(Plane<Number>& plane, std::size_t count) {
                  [&](Number* row, auto, auto places) { std::fill_n(row, places, value); });
 }
 
-/// Writes the values of the cells from `first` on, and that of the last one into all places after
-/// it.
+/// Writes the values of the cells from `first` on, and the last cell's value into all elements
+/// after it.
 template <typename Number>
 void write(Plane<Number>& plane, std::span<const Number> values, std::size_t first = 0) {
     for_each_row(plane, first, first + values.size(), [&](Number* row, auto begin, auto count) {
@@ -83,8 +83,8 @@ std::vector<std::vector<double>> numbers_in(const std::vector<Field>& fields,
     return result;
 }
 
-/// Puts cell sources[k] at each of these places k, of `count` in the layout. Other places stay as
-/// they are, which must be none if the layout is another one.
+/// Puts cell sources[k] at places[k], for `count` cells in the layout. Other elements stay, and
+/// there must be none if the layout differs.
 void rearrange_field(Field& field, const PlaneLayout& layout, std::size_t count,
                      std::span<const std::uint32_t> places,
                      std::span<const std::uint32_t> sources) {
@@ -99,7 +99,7 @@ void rearrange_field(Field& field, const PlaneLayout& layout, std::size_t count,
     });
 }
 
-/// The same for values by cell.
+/// Does the same for values by cell.
 template <typename Value>
 void rearrange_values(std::vector<Value>& values, std::size_t count,
                       std::span<const std::uint32_t> places,
@@ -168,7 +168,7 @@ TissueRecord Tissue::record() const {
     return result;
 }
 
-/// Few cells lie in short rows, so that there are few places that repeat the last one.
+/// Short rows for few cells, so that few elements repeat the last one.
 void Tissue::choose_layout(std::size_t cells) {
     const std::size_t wanted = cells + cells / 8 + 1;
     const std::size_t width = wanted <= 256 ? 16 : 64;
@@ -179,7 +179,7 @@ void Tissue::choose_layout(std::size_t cells) {
     layout_ = PlaneLayout(grid_);
 }
 
-/// Fills what says the cells' numbers, of which those before `first` are known.
+/// Fills all arrays of the cells' numbers. Numbers before `first` are known.
 void Tissue::number_cells(std::size_t first) {
     ranks_.resize(count());
     elements_by_number_.clear();
@@ -213,7 +213,7 @@ bool Tissue::rearrange(std::span<const std::uint32_t> sources,
     const PlaneLayout before = layout_;
     const std::size_t room = capacity_of(layout_), cells = sources.size();
     if (cells > room || cells < room / 4) choose_layout(cells);
-    std::vector<std::uint32_t> places, from;  // Of the cells that change.
+    std::vector<std::uint32_t> places, from;  // Cells that change.
     for (std::uint32_t k = 0; k < cells; ++k) {
         if (layout_ == before && k < count() && sources[k] == k) continue;
         places.push_back(k);
@@ -234,7 +234,7 @@ bool Tissue::rearrange(std::span<const std::uint32_t> sources,
     return layout_ != before;
 }
 
-/// Cells keep their order by number, and those that are born follow.
+/// Leaves cells in their order by number and appends new ones.
 void Tissue::keep_order(std::span<const std::uint32_t> sources,
                         std::span<const std::uint32_t> born) {
     constexpr std::uint32_t nowhere = 0xffffffff;

@@ -1,6 +1,6 @@
 // A tissue: cells that crawl, divide and die, and the planes that hold their values.
 //
-// Each cell has a number of birth, which never changes. Cells lie in memory in any order; every sum
+// Each cell has a number of birth, which never changes. Cells lie in memory in any order. Every sum
 // over cells and every list of neighbours follows the numbers, so that no result depends on memory.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace cascade {
 
-/// How far a stage of a tissue has come: all that steps go on from besides the cells.
+/// The progress of a tissue's stage: all that steps continue from besides the cells.
 struct TissueTime {
     double t = 0;
     std::int64_t steps = 0;
@@ -26,29 +26,29 @@ struct TissueTime {
     /// it was estimated; −1: not yet.
     double stiffness = 0;
     std::int64_t estimated_at = -1;
-    double last_event = 0;  ///< The time of the last division or death,
-    double progress = 0;    ///< and the greatest progress since then (tissue/tissue_loop.h).
-    // When births and deaths were last compared with the number of cells:
+    double last_event = 0;  ///< The time of the last division or death.
+    double progress = 0;    ///< The greatest progress since then (tissue/tissue_loop.h).
+    // The last comparison of births and deaths with the number of cells:
     double compared_at = 0;
     std::int64_t compared_births = 0, compared_deaths = 0, compared_cells = 0;
 };
 
-/// A tissue as plain data, cell after cell in ascending order of their numbers. A run that goes on
-/// from it gets the same bits as one that was not interrupted.
+/// A tissue as plain data, cell after cell in ascending order of their numbers. A run that
+/// continues from it gets the same bits as an uninterrupted one.
 struct TissueRecord {
     std::vector<std::uint32_t> numbers;
     std::vector<std::vector<double>> species;   ///< By species, then by cell.
     std::vector<std::vector<double>> stiffest;  ///< Likewise: the direction of fastest change.
-    std::vector<std::vector<double>> kept;      ///< Tissue::kept, empty where that is.
-    std::optional<std::size_t> frozen;          ///< Which of them says which cells are frozen.
+    std::vector<std::vector<double>> kept;      ///< Tissue::kept. Empty where that is.
+    std::optional<std::size_t> frozen;          ///< The plane of `kept` that marks frozen cells.
     std::vector<std::uint32_t> triangles;       ///< Of the surface, nearest to each cell.
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
     TissueTime time;
 };
 
-/// The cells in memory. Cell k is in column k mod width of row k / width; the places after the last
-/// cell repeat it. There is room for an eighth more cells than there were when the planes were
+/// The cells in memory. Cell k is in column k mod width of row k / width. The elements after the
+/// last cell repeat it. There is room for an eighth more cells than there were when the planes were
 /// made, so that births seldom move planes.
 class Tissue {
 public:
@@ -62,7 +62,7 @@ public:
     Precision precision() const { return precision_; }
     const Grid& grid() const { return grid_; }
     const PlaneLayout& layout() const { return layout_; }
-    /// Elements from cell 0 to this one.
+    /// The number of elements from cell 0 to this one.
     std::int64_t element(std::size_t cell) const {
         const auto k = static_cast<std::int64_t>(cell);
         return layout_.row_start(k / layout_.width) + k % layout_.width;
@@ -78,17 +78,15 @@ public:
         }
     }
 
-    /// By species; lent to the steps while these go on.
+    /// By species. Lent to the steps while they run.
     std::vector<Field> species;
-    /// Values that no rate changes, which go along with their cells; some may be empty.
+    /// Values without rates, which go along with their cells. Some may be empty.
     std::vector<Field> kept;
-    /// The direction in which the rates change fastest; empty until it is
-    /// known.
+    /// The direction in which the rates change fastest. Empty until it is known.
     std::vector<Field> stiffest;
     /// By cell: the triangle nearest to it at the last complete step, or no_triangle.
     std::vector<std::uint32_t> triangles;
-    /// By cell: how far it may be expected to go in a step, as a skin of lists. No result depends
-    /// on it.
+    /// By cell: its expected movement in a step, as a skin of lists. No result depends on it.
     std::vector<float> restlessness;
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
@@ -100,32 +98,32 @@ public:
     std::span<const std::uint32_t> by_number() const { return by_number_; }
     /// The elements of the cells in that order, counted from cell 0.
     std::span<const std::uint32_t> elements_by_number() const { return elements_by_number_; }
-    /// By cell in memory: its place in by_number().
+    /// By cell in memory: its index in by_number().
     std::span<const std::uint32_t> ranks() const { return ranks_; }
     /// The numbers as words in a plane, for kernels that draw random numbers.
     const Field& number_plane() const { return number_plane_; }
-    /// 1 for cells, 0 for the places that repeat the last one.
+    /// 1 for cells, 0 for the elements that repeat the last one.
     const Mask& inside() const { return inside_; }
 
     /// The same as numbers.
     const Field& ones() const { return ones_; }
-    /// 1 for cells that are frozen; empty if none can be.
+    /// 1 for frozen cells. Empty if none can be frozen.
     const Mask& frozen() const { return frozen_; }
     bool is_frozen(std::size_t cell) const {
         return !frozen_.empty() && frozen_.origin()[element(cell)] != 0;
     }
-    /// Are all cells?
+    /// Whether all cells are frozen.
     bool is_frozen() const;
-    /// From now on cells are frozen where this kept plane is not 0.
+    /// From now on, freezes cells where this kept plane is not 0.
     void freeze_by(std::size_t kept_plane);
 
-    /// Puts a copy of cell sources[k] at place k, for all k; cells that are not among the sources
-    /// disappear. The cells at the places `born` get the next numbers, in this order; no two others
-    /// have the same source. Returns whether the layout has changed; otherwise all planes stay
-    /// where they are. Throws std::bad_alloc.
+    /// Puts a copy of cell sources[k] at index k, for all k. Cells that are not among the sources
+    /// disappear. The cells at the indices `born` get the next numbers, in this order. No two
+    /// others have the same source. Returns whether the layout has changed. Otherwise all planes
+    /// stay in memory. Throws std::bad_alloc.
     bool rearrange(std::span<const std::uint32_t> sources,
                    std::span<const std::uint32_t> born = {});
-    /// Copies the values of the last cell into the places after it.
+    /// Copies the values of the last cell into the elements after it.
     void pad();
 
     double value(std::size_t species_index, std::size_t cell) const;
@@ -144,7 +142,7 @@ private:
     std::vector<std::uint32_t> numbers_, by_number_, elements_by_number_, ranks_;
     Field number_plane_, ones_;
     Mask inside_, frozen_;
-    std::optional<std::size_t> frozen_by_;  ///< Of `kept`.
+    std::optional<std::size_t> frozen_by_;  ///< A plane of `kept`.
 };
 
 /// The value of a cell in a plane of the tissue's layout.

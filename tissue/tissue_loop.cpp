@@ -1,4 +1,4 @@
-// Takes steps, then lets cells divide and die.
+// Takes steps, then divides and removes cells.
 #include "tissue/tissue_loop.h"
 
 #include "solvers/pace.h"
@@ -22,7 +22,7 @@ constexpr double rise_of_motion = 3;
 constexpr double times_of_fastest_rate = 100;
 constexpr std::int64_t generations = 4;
 
-/// The stiffness is estimated again after this many steps.
+/// Steps between two estimates of the stiffness.
 constexpr std::int64_t steps_of_an_estimate = 16;
 
 }  // namespace
@@ -123,7 +123,7 @@ private:
         if (tissue_.count() == 0) return true;
         outcome_.failure = find_not_finite(tissue_);
         if (outcome_.failure) return false;
-        // A run that goes on has had these events, and its cells have parted.
+        // A resumed run has had these events, and its cells have parted.
         if (time().steps == 0 && part_cells(tissue_, species_, surroundings_, schedule_.seed,
                                             schedule_.stage, tissue_.by_number())) {
             tissue_.pad();
@@ -151,7 +151,7 @@ private:
         return std::isfinite(schedule_.end_time) ? schedule_.end_time / 100 : 0.01;
     }
 
-    /// With shorter steps the end would never be reached.
+    /// Shorter steps would never reach the end.
     double least_step() {
         const bool ends = std::isfinite(schedule_.end_time);
         return 1e-10 * (ends ? schedule_.end_time : std::max(time().t, 1.0));
@@ -161,7 +161,7 @@ private:
         const double wanted =
             is_adaptive() ? std::min(time().control.step, schedule_.largest_step) : schedule_.step;
         const double whole = std::min(wanted, stepper_.longest_step());
-        // If the last step would leave almost nothing, it is made a little longer.
+        // If the last step would leave almost nothing, it is made slightly longer.
         const double left = schedule_.end_time - time().t;
         return left < 1.01 * whole ? left : whole;
     }
@@ -196,14 +196,14 @@ private:
         const int order = order_of_estimate(schedule_.solver);
         StepControl control(time().control, order);
         double error = tried.error;
-        // A way that is too long is judged like an error that halves the step.
+        // Too long a movement counts as an error that halves the step.
         if (tried.went_too_far) error = std::max(error, std::pow(2.0, order));
         const bool is_accepted = control.judge(length, error);
         time().control = control.state();
         return is_accepted;
     }
 
-    /// Finds the cell to blame, and goes back to the last good values.
+    /// Finds the cell to blame, and restores the last good values.
     bool fail_after(const TriedStep& tried, bool is_finite) {
         using Kind = TissueFailure::Kind;
         if (!is_finite) outcome_.failure = find_not_finite(tissue_);
@@ -292,7 +292,7 @@ private:
         stepper_.forget_rates();
     }
 
-    /// Lets cells divide and die that do so now, and looks whether the stage goes on.
+    /// Divides and removes cells as due now, and returns whether the stage goes on.
     bool happen() {
         EventRounds rounds(rules_, surroundings_, tissue_, species_, schedule_, stepper_);
         double last_event = time().t;
@@ -335,10 +335,10 @@ private:
     Progress progress_;
     Pace pace_;
     TissueOutcome outcome_;
-    std::vector<CellEvent> events_;  ///< Found by the last step and not yet happened.
+    std::vector<CellEvent> events_;  ///< Found in the last step, not yet applied.
     /// No condition holds at the end of the last step.
     bool is_quiet_ = false;
-    /// None holds there but for the cells of `events_`.
+    /// No condition holds there except for the cells of `events_`.
     bool has_all_events_ = false;
     double now_ = 0;  ///< The present progress towards rest.
     bool is_started_ = false;

@@ -1,4 +1,4 @@
-// What the time loop of a tissue asks of those who know its equations.
+// The interface between a tissue's time loop and its equations.
 #pragma once
 
 #include "core/links.h"
@@ -15,23 +15,23 @@
 
 namespace cascade {
 
-/// The species that the loop itself knows of, by their number.
+/// The species that the loop itself knows, by their number.
 struct TissueSpecies {
     std::size_t place = 0;  ///< The first of three components.
     std::size_t radius = 3;
-    bool crawls = true;  ///< Places have rates.
-    /// Those that never come to rest, such as the age, by which a tissue is not judged steady.
+    bool crawls = true;  ///< Positions have rates.
+    /// Species that never come to rest, such as the age. They do not count for steadiness.
     std::vector<std::size_t> restless;
 };
 
-/// The place of a cell in some state of the tissue,
+/// The position of a cell in some state of the tissue.
 inline Vector3d place_in(const std::vector<Field>& state, const Tissue& tissue,
                          const TissueSpecies& species, std::size_t cell) {
     return {value_in(state[species.place], tissue, cell),
             value_in(state[species.place + 1], tissue, cell),
             value_in(state[species.place + 2], tissue, cell)};
 }
-/// and in the present one.
+/// The position of a cell in the present state.
 inline Vector3d place_of(const Tissue& tissue, const TissueSpecies& species, std::size_t cell) {
     return place_in(tissue.species, tissue, species, cell);
 }
@@ -41,8 +41,8 @@ inline Vector3d place_of(const Tissue& tissue, const TissueSpecies& species, std
 struct CellValues {
     const StepProblem* problem = nullptr;  ///< Null: there are no such values.
     std::size_t count = 0;                 ///< Planes in register 1.
-    /// A cell's values depend on nothing but its own species and what it senses at its place:
-    /// neither on other cells nor on the time.
+    /// A cell's values depend only on its own species and what it senses: neither on other cells
+    /// nor on the time.
     bool is_of_cell_alone = false;
 };
 
@@ -52,22 +52,21 @@ struct TissueStep {
     std::vector<RegisterId> states;  ///< As state_registers() of its scheme.
 };
 
-/// The registers at whose values the sweeps of a scheme evaluate rates, the old step among them.
+/// The registers at which the sweeps of a scheme evaluate rates, including the old step.
 std::vector<RegisterId> state_registers(const Scheme& scheme);
 
 /// The equations of a tissue as passes over its planes. Problems need not be told the number of
-/// cells, which changes without bind(). They stay where they are until the next bind().
+/// cells, which changes without bind(). They stay in memory until the next bind().
 class TissueRules {
 public:
     virtual ~TissueRules() = default;
 
-    /// Called before anything else, and again when tissue.grid() has changed: passes are to be
-    /// bound to it, to the addresses of `links`, of the plane of numbers and of the mask of the
-    /// cells.
+    /// Called first, and again when tissue.grid() has changed. Binds passes to it, to the addresses
+    /// of `links`, of the plane of numbers and of the mask of the cells.
     virtual void bind(const Tissue& tissue, const Links& links) = 0;
 
     /// A step, with this number of stages if the solver is stabilised. It has an error register if
-    /// steps are chosen by their error.
+    /// the error chooses the steps.
     virtual TissueStep step(std::uint32_t stages) = 0;
     /// The rates of all species.
     virtual CellValues rates() = 0;
@@ -79,15 +78,15 @@ public:
     };
     virtual Conditions conditions() = 0;
 
-    /// The first plane of three with the direction of division, of any length, of a cell that
-    /// divides; none: at random in the tangent plane, as it also is where the direction is 0.
+    /// The first of three planes with the direction of division, of any length, for a dividing
+    /// cell. Without it, or where the direction is 0, cells divide at random in the tangent plane.
     virtual CellValues along() = 0;
 
-    /// Values after a division, the same formulas for both cells. Evaluated when the new cells are
-    /// in their places and still have all values of their mothers.
+    /// Values after a division, by the same formulas for both cells. Evaluated when the new cells
+    /// have their positions and still all values of their mothers.
     struct Restarts {
         CellValues values;
-        /// Plane k is the new value of species[k]; numbers from that of species on are those of
+        /// Plane k is the new value of species[k]. Numbers from the number of species on refer to
         /// Tissue::kept.
         std::vector<std::size_t> species;
     };

@@ -13,15 +13,15 @@ namespace cascade {
 
 namespace {
 
-/// Every number of stages has passes and planes of its own, so few are used.
+/// Every number of stages has its own passes and planes, so only a few are used.
 constexpr std::array<std::uint32_t, 14> numbers_of_stages{3,  5,  7,  9,  11, 13, 17,
                                                           21, 27, 35, 45, 57, 75, 99};
 
 /// A step ends before events of more than one of this many of its cells: new cells and their
-/// neighbours see each other from its end on.
+/// neighbours see each other only after its end.
 constexpr std::size_t cells_of_an_event = 20;
 
-/// A step ends at the latest this many of the shortest times in which rates act after an event.
+/// The longest step after an event, in shortest time scales of rates.
 constexpr double most_of_stiffness = 4;
 
 bool all_finite(const Tissue& tissue) {
@@ -77,7 +77,7 @@ std::vector<double> sizes_of(const std::vector<Field>& species, const Tissue& ti
     for (std::size_t k = 0; k < 3 && mean_radius > 0; ++k) {
         if (std::isfinite(sizes[roles.place + k])) sizes[roles.place + k] = mean_radius;
     }
-    // The negation keeps NaN.
+    // The negation preserves NaN.
     for (double& size : sizes) size = size < 1e-30 ? 1e-30 : size;
     return sizes;
 }
@@ -233,7 +233,7 @@ Result<TriedStep> TissueStepper::attempt(double length) {
     }
 }
 
-/// Does not depend on memory, unlike that of Stepper::attempt().
+/// Independent of memory order, unlike Stepper::attempt()'s error.
 double TissueStepper::error() {
     const std::vector<double> errors = root_mean_squares(stepper_->error_planes(), tissue_, team_);
     const std::vector<double> of_values = sizes();
@@ -280,7 +280,7 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
     return result;
 }
 
-/// Keeps what happens until the step must end, and goes to that end.
+/// Keeps the events before the step must end, and moves to that end.
 void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic,
                            StepEvents& result) {
     if (found.empty()) return;

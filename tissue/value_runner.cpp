@@ -1,4 +1,4 @@
-// A copy of each problem is told the present number of cells.
+// Sets the present number of cells in a copy of each problem.
 #include "tissue/value_runner.h"
 
 #include "core/check.h"
@@ -43,7 +43,7 @@ using Patches = std::vector<Patch>;
 /// Fewer patches are not worth the other threads.
 constexpr std::size_t patches_of_threads = 32;
 
-/// The slices of links in which these cells are, as patches of one row, adjacent ones joined. The
+/// The slices of links that contain these cells, as patches of one row, adjacent ones joined. The
 /// cells are in ascending order.
 Patches slices_of(std::span<const std::uint32_t> cells, std::int64_t width) {
     constexpr std::int64_t lanes = PlaneLayout::row_pad;
@@ -86,7 +86,7 @@ std::vector<Patches> patches_of_passes(const StepProblem& problem,
         const StepProblem::Pass& reader = problem.passes[pass];
         keep_each_once(cells[pass]);
         patches[pass] = slices_of(cells[pass], layout.width);
-        std::vector<std::uint32_t> others;  // To which links lead.
+        std::vector<std::uint32_t> others;  // Neighbours by links.
         for (std::size_t k = 0; k < reader.fields.size(); ++k) {
             const auto* const temporary = std::get_if<TemporaryId>(&reader.fields[k]);
             if (temporary == nullptr) continue;

@@ -19,14 +19,14 @@ public:
     explicit ValueRunner(Team& team) : team_(team) {}
 
     /// The values at this state, in planes that the next call for the same values overwrites.
-    /// `among`: only the values of these cells are asked for; empty: those of all.
+    /// `among`: the only cells needed. Empty: all.
     std::vector<Field>& run(const CellValues& values, std::vector<Field>& state,
                             const Tissue& tissue, const StepMoment& moment,
                             std::span<const std::uint32_t> among = {});
     Team& team() const { return team_; }
-    /// The problems are gone.
+    /// Call when problems are gone.
     void clear() { known_.clear(); }
-    /// Links lead elsewhere, or cells are elsewhere in memory.
+    /// Call when links have changed or cells have moved in memory.
     void links_changed() {
         for (auto& [problem, known] : known_) known.among.clear();
     }
@@ -36,8 +36,8 @@ private:
         StepProblem problem;
         std::unique_ptr<PassRunner> runner;
         std::vector<Field> results;
-        std::vector<std::uint32_t> among;         ///< The cells that were asked for last,
-        std::vector<std::vector<Patch>> patches;  ///< and what each pass computes for these.
+        std::vector<std::uint32_t> among;         ///< The last cells requested,
+        std::vector<std::vector<Patch>> patches;  ///< and what each pass computes for them.
     };
     Team& team_;
     std::map<const StepProblem*, Known> known_;
