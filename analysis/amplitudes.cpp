@@ -1,5 +1,4 @@
-// Second and third derivatives are differences of the Jacobian, which is exact, extrapolated to
-// steps of 0.
+// Second and third derivatives are differences of the exact Jacobian, extrapolated to steps of 0.
 #include "analysis/amplitudes.h"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// Below these parts of what they are made of, numbers are errors of the differences.
+/// Below these relative sizes, numbers are errors of the differences.
 constexpr double no_change = 1e-6, no_product = 1e-6;
 
 /// The rates as a polynomial of the change of the state: f(u) = J u + ½ Q(u, u) + ⅙ C(u, u, u).
@@ -36,7 +35,7 @@ public:
         };
         return extrapolated(change, a);
     }
-    /// Do the parts of the Jacobian that reach other cells stay as they are?
+    /// Whether the parts of the Jacobian that reach other cells stay constant.
     bool is_local(const Vector& direction) const {
         const double step = 0.01 * size_ / direction.cwiseAbs().maxCoeff();
         const Matrices here = rates_.matrices(state_),
@@ -52,7 +51,7 @@ public:
 private:
     Matrix local(const Vector& change) const { return rates_.matrices(state_ + change).terms[0]; }
 
-    /// Of differences of second order, to sixth order.
+    /// Extrapolates differences of second order to sixth order.
     template <typename Change>
     Vector extrapolated(const Change& change, const Vector& direction) const {
         const double step = 0.02 * size_ / direction.cwiseAbs().maxCoeff();
@@ -107,7 +106,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const std::size_t axes = static_cast<std::size_t>(
         std::count(lattice.has_axis.begin(), lattice.has_axis.end(), true));
     const bool has_plane = lattice.is_continuous || axes >= 2;
-    // The first axes that there are; a continuous lattice has one for all directions.
+    // The first existing axes. A continuous lattice has one axis for all directions.
     const auto wave_at = [&](double across, double up) {
         Phases phases{};
         if (lattice.is_continuous) {
@@ -127,7 +126,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const Matrix at_wave = critical_jacobian.real();
     const double size = at_wave.cwiseAbs().maxCoeff();
     const auto critical = critical_wave(at_wave, 1e-6 * size);
-    // Waves that travel have complex amplitudes.
+    // Travelling waves have complex amplitudes.
     const double travels = critical_jacobian.imag().cwiseAbs().maxCoeff();
     if (!critical || travels > 1e-9 * size) return std::nullopt;
     const auto& [wave, adjoint] = *critical;
@@ -151,7 +150,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     result.self = -(from_mean + by(answer(at(2 * phase, 0), square / 2)) + adjoint.dot(cube) / 2);
     result.cross = std::numeric_limits<double>::quiet_NaN();
     if (!has_plane) return result;
-    // k₁ − k₂ is √3 as long. k₁ + k₂ is −k₃: what it forces in φ is v, and the rest answers.
+    // k₁ − k₂ is √3 as long. k₁ + k₂ is −k₃: its forcing along φ is v, and the rest responds.
     const double root = std::numbers::sqrt3;
     const Vector other = square - wave * adjoint.dot(square);
     Matrix bordered = Matrix::Zero(wave.size() + 1, wave.size() + 1);

@@ -1,4 +1,4 @@
-// Words and numbers of an analysis, for people.
+// Describes the results of an analysis to users.
 #include "analysis/stage_analysis.h"
 
 #include "core/counted.h"
@@ -14,7 +14,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// If there are more species, only this number of them are named.
+/// If there are more species, names only this number of them.
 constexpr Eigen::Index most_named = 6;
 
 /// "-0.5", "-0.5 ± 2i".
@@ -97,7 +97,7 @@ private:
         return text;
     }
 
-    /// A length in cells and, if that is another, in the unit of the script.
+    /// A length in cells and, if that differs, in the unit of the script.
     std::string length(double cells) const {
         if (lattice_.is_continuous) return fmt::format("{:.4g} mean distances of cells", cells);
         return lattice_.spacing == 1
@@ -105,7 +105,7 @@ private:
                    : fmt::format("{:.4g} cells, {:.4g} in length", cells, cells * lattice_.spacing);
     }
 
-    /// The same of a range.
+    /// The same for a range.
     std::string lengths(double least, double most) const {
         const double spacing = lattice_.spacing;
         if (lattice_.is_continuous || spacing == 1) {
@@ -123,7 +123,7 @@ private:
                            std::atan2(d[1], d[0]) * 180 / std::numbers::pi);
     }
 
-    /// Is the fastest wave the limit of long ones, up to rounding?
+    /// Whether the fastest wave is the limit of long ones, up to rounding.
     bool is_longest() const {
         const double apart = relation_.fastest.rate.real() - relation_.at_rest.real();
         return relation_.fastest.cells() > 1e4 ||

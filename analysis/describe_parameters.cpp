@@ -18,7 +18,7 @@ std::string pattern_words(const System& system, const ParameterScan& scan,
                           const CriticalValue& change) {
     if (!change.amplitudes) return "";
     const AmplitudeEquations& by = *change.amplitudes;
-    // What is so large that terms of third order do not limit it is not known from these.
+    // The coefficients do not tell what stops a growth that terms of third order do not limit.
     if (!by.is_supercritical()) return "begins by a jump";
     if (!by.has_plane()) return "grows smoothly";
     if (by.quadratic == 0) {

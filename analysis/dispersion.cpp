@@ -16,7 +16,7 @@ Phases along(const Direction& direction, double phase) {
     return {direction[0] * phase, direction[1] * phase, direction[2] * phase};
 }
 
-/// The phase of the shortest wave along a direction: π along the axis that it follows most.
+/// The phase of the shortest wave along a direction: π along its dominant axis.
 double shortest(const Direction& direction) {
     const double most =
         std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
@@ -31,8 +31,8 @@ std::vector<std::size_t> axes_of(const Lattice& lattice) {
     return axes;
 }
 
-/// Do rates depend on the symbol of the Laplacian alone? Along the diagonal it has all its values,
-/// but for the isotropic one in space, which is largest where one of the three phases is 0.
+/// Whether rates depend only on the symbol of the Laplacian. Along the diagonal it has all its
+/// values, except the isotropic one in space, which is largest where one of the three phases is 0.
 bool has_laplacian_alone(const LinearModel& model) {
     const DomainSettings& domain = model.program->domain;
     if (domain.stencil == StencilKind::isotropic && domain.grid.stencil().axes() == 3) return false;
@@ -44,7 +44,7 @@ bool has_laplacian_alone(const LinearModel& model) {
     });
 }
 
-/// Half of the directions of the axes there are; a wave and its opposite have conjugate rates.
+/// Half of the directions along the existing axes. A wave and its opposite have conjugate rates.
 std::vector<Direction> directions_of(const LinearModel& model, const Lattice& lattice, int count) {
     const std::vector<std::size_t> axes = axes_of(lattice);
     std::vector<Direction> directions;
@@ -85,7 +85,7 @@ std::vector<Direction> directions_of(const LinearModel& model, const Lattice& la
     return directions;
 }
 
-/// The k-th of `count` phases along a direction, denser where waves are long.
+/// The k-th of `count` phases along a direction, denser for long waves.
 double phase_of(const Direction& direction, std::size_t k, std::size_t count) {
     const double part = static_cast<double>(k) / static_cast<double>(count);
     return shortest(direction) * part * (0.1 + 0.9 * part);
@@ -128,7 +128,7 @@ public:
         return branch;
     }
 
-    /// The largest rates alone.
+    /// The largest rates only.
     Branch growth_along(const Direction& direction, std::size_t count) const {
         Branch branch;
         for (std::size_t k = 1; k <= count; ++k) {
@@ -205,7 +205,7 @@ public:
     double resolution = 0;
 
 private:
-    /// Without allocations, since maps of parameters ask a million times.
+    /// Without allocations, since maps of parameters call it a million times.
     Complex largest_of_two(const Phases& phases) const {
         const std::vector<Matrix>& terms = matrices_.terms;
         Complex a = terms[0](0, 0), b = terms[0](0, 1);
@@ -336,7 +336,7 @@ std::optional<GrowingWave> fastest_fitting_wave(const LinearModel& model,
         most[axis] = static_cast<std::int64_t>(std::numbers::pi / unit[axis] + 1e-9);
         waves *= static_cast<double>(most[axis] + 1);
     }
-    // Between many waves there is hardly any room: those along the axes and diagonals do.
+    // Numerous waves leave hardly any gaps: waves along the axes and diagonals suffice.
     const bool has_all = waves <= 20'000;
     std::optional<GrowingWave> fastest;
     const auto look = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
@@ -382,7 +382,7 @@ std::vector<Complex> decaying_rates(const LinearModel& model, const Matrices& ma
     }
     const int count = lattice.has_axis[2] ? 8 : 24;
     const auto steps_along = [&](std::size_t axis) { return lattice.has_axis[axis] ? count : 0; };
-    // Waves and their opposites have conjugate rates, which are as stable.
+    // Waves and their opposites have conjugate rates, which are equally stable.
     const auto phase = [&](int k) { return std::numbers::pi * k / count; };
     for (int i = 0; i <= steps_along(0); ++i) {
         for (int j = -steps_along(1); j <= steps_along(1); ++j) {

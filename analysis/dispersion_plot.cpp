@@ -82,7 +82,7 @@ private:
         for (std::size_t k = 0; k < numbers_.size() && numbers_[k] <= most_number_; ++k) {
             shows_second_ = shows_second_ || second_[k] > std::max(low, -1.5 * high);
         }
-        // Deep valleys would hide how little the waves grow that do.
+        // Deep valleys would hide the small growth of the growing waves.
         if (relation_.has_growing_waves() || relation_.grows_at_rest())
             low = std::max(low, -1.5 * high);
         if (high - low <= 0) high = 1;
@@ -146,7 +146,7 @@ private:
 
     const StageAnalysis& analysis_;
     const Dispersion& relation_;
-    double per_phase_;  ///< From phases to wave numbers in the script's unit.
+    double per_phase_;  ///< Converts phases to wave numbers in the script's unit.
     std::vector<double> numbers_, real_, turning_, second_;
     bool turns_ = false, shows_second_ = false;
     double most_number_ = 0;

@@ -6,8 +6,8 @@
 
 namespace cascade::analysis {
 
-/// Of state_to_show(). Waves far shorter than those that grow are left out. Shows the real part of
-/// the largest rate, its imaginary part if it has one, the next rate, the band that grows and its
+/// Shows state_to_show() without waves far shorter than the growing ones: the real part of the
+/// largest rate, its imaginary part if it has one, the next rate, the band that grows and its
 /// fastest wave.
 Drawing plot_dispersion(const StageAnalysis& analysis);
 

@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors, apart from the other decompositions: each takes a compiler process
-// of 1 GiB.
+// Eigenvalues and eigenvectors, separate from the other decompositions: each needs 1 GiB to
+// compile.
 #include "analysis/linear_algebra.h"
 
 #include <Eigen/Eigenvalues>

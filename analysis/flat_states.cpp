@@ -1,5 +1,5 @@
-// Newton's method with shortened steps and deflation. What the reaction keeps is added as
-// equations, since the Jacobian alone is singular then.
+// Newton's method with shortened steps and deflation. Conserved totals are added as equations,
+// since the Jacobian alone is singular then.
 #include "analysis/flat_states.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// A number from 0 to 1 that depends on its two numbers alone.
+/// A number from 0 to 1 that depends only on its two numbers.
 double scattered(std::uint32_t a, std::uint32_t b) {
     std::uint32_t bits = a * 0x9E3779B9U ^ (b + 1) * 0x85EBCA6BU;
     bits ^= bits >> 15;
@@ -22,7 +22,7 @@ double scattered(std::uint32_t a, std::uint32_t b) {
     return (bits + 0.5) / 4294967296.0;
 }
 
-/// The size of values of each species, to compare changes with.
+/// The size of each species' values, for comparison with changes.
 Vector sizes_of(const LocalRates& rates) {
     const Vector start = rates.start();
     const double largest = start.cwiseAbs().maxCoeff();
@@ -58,7 +58,7 @@ public:
                 next = x + part * step;
                 const Vector there = residual_of(next);
                 if (!there.allFinite()) continue;
-                // Deflated residuals may rise, so a small rise of a whole step is admitted.
+                // Deflated residuals may rise, so a small rise of a whole step is allowed.
                 is_better = deflation(next) * there.norm() <
                             (known_.empty() ? 1.0 : 2.0) * deflation(x) * residual.norm();
                 if (is_better) residual = there;
@@ -89,13 +89,13 @@ private:
         return product;
     }
 
-    /// Of the residual times the deflation m: its Jacobian is m J + residual · (grad m), so by
-    /// Sherman and Morrison's formula its step is the undeflated one times a number.
+    /// The step for the residual times the deflation m: its Jacobian is m J + residual · (grad m),
+    /// so by Sherman and Morrison's formula its step is the undeflated one times a number.
     Vector step_of(const Vector& x, const Vector& residual) const {
         Matrix all(residual.size(), x.size());
         all << rates_.jacobian(x), conserved_;
         const Vector step = -least_squares(all, residual);
-        double slope = 0;  // Of log m along the step.
+        double slope = 0;  // The slope of log m along the step.
         for (const Vector& state : known_) {
             const Vector apart = (x - state).cwiseQuotient(sizes_);
             const double square = apart.squaredNorm();
@@ -106,7 +106,7 @@ private:
     }
 
 public:
-    /// Do flat states lie beside this one, such as every number of healthy people without disease?
+    /// Whether flat states lie beside this one, such as all numbers of healthy people in epidemics.
     bool is_in_family(const Vector& x) const {
         Matrix all(x.size() + conserved_.rows(), x.size());
         all << rates_.jacobian(x), conserved_;
@@ -136,7 +136,7 @@ private:
         const Vector rates = rates_.rates(x);
         const Matrix jacobian = rates_.jacobian(x);
         if (!rates.allFinite() || !jacobian.allFinite()) return std::nullopt;
-        // As small as rounding of the values makes it.
+        // The smallest residual possible with rounded values.
         const Vector rounding = jacobian.cwiseAbs() * x.cwiseAbs().cwiseMax(sizes_);
         const double most = std::max(rounding.maxCoeff(), 1e-300);
         if (rates.cwiseAbs().maxCoeff() > 1e-9 * most &&
@@ -153,7 +153,7 @@ private:
     std::vector<Vector> known_;
 };
 
-/// Does a rule such as `b >= 0` exclude it?
+/// Whether the rules allow it. A rule such as `b >= 0` may exclude it.
 bool is_admitted(const LinearModel& model, const Vector& state) {
     for (const Invariant& rule : model.system().invariants) {
         const auto found = std::find(model.species.begin(), model.species.end(), rule.species);
@@ -220,7 +220,7 @@ FlatStates flat_states(const LocalRates& rates) {
         Vector guess(start.size());
         for (Eigen::Index s = 0; s < guess.size(); ++s) {
             const double at = scattered(k + 100, static_cast<std::uint32_t>(s));
-            // From 0 and small values to some times larger ones, and of both signs.
+            // From 0 and small values to a multiple of the large ones, and of both signs.
             guess[s] = k % 3 == 0   ? start[s] + sizes[s] * (at - 0.5)
                        : k % 3 == 1 ? sizes[s] * std::exp(8 * (at - 0.7))
                                     : sizes[s] * 6 * (at - 0.5);

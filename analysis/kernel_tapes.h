@@ -14,14 +14,14 @@ class KernelTapes {
 public:
     KernelTapes(const LinearModel& model, const KernelFormula& kernel);
 
-    /// Does it depend on the model's varied items?
+    /// Whether it depends on the model's varied items.
     bool varies() const { return varies_; }
 
-    /// With the values of the varied items. Null if it has more than most_lags lags.
+    /// The kernel at these values of the varied items. Null if it has more than most_lags lags.
     std::shared_ptr<const WaveKernel> at(std::span<const double> varied) const;
     bool has_too_many_lags(std::span<const double> varied) const;
 
-    /// With these the analysis of a stage takes some tenths of a second.
+    /// With this limit the analysis of a stage takes a few tenths of a second.
     static constexpr std::int64_t most_lags = std::int64_t{1} << 16;
 
 private:

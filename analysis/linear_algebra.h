@@ -1,8 +1,8 @@
 // Decompositions of small dense matrices.
 //
-// Eigen's templates take seconds to compile, so each decomposition has one place in this room:
-// other files include no more than Eigen/Core. No function fails: of a matrix with infinities or
-// NaN the results mean nothing.
+// Eigen's templates take seconds to compile, so each decomposition is in one file of this room, and
+// other files include only Eigen/Core. No function fails. The results for a matrix with infinities
+// or NaN are meaningless.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,25 +25,25 @@ struct EigenPair {
     std::complex<double> value;
     Vector vector;
 };
-/// Those of a square matrix for its eigenvalue of least magnitude.
+/// The pair with the eigenvalue of least magnitude of a square matrix.
 EigenPair least_eigenpair(const Matrix& matrix);
 
 /// The x with matrix · x = right, for a square matrix, by elimination with full pivoting. If the
-/// matrix is singular, the components of x that are free are 0.
+/// matrix is singular, the free components of x are 0.
 Vector solution_of(const Matrix& matrix, const Vector& right);
-/// The least magnitude of the pivots of that elimination; 0 for a singular matrix.
+/// The least magnitude of the pivots of that elimination. 0 for a singular matrix.
 double least_pivot(const Matrix& matrix);
 
-/// The shortest of the x for which the length of matrix · x − right is least. The matrix has as
-/// many rows as `right` and any number of columns.
+/// The shortest x with the least length of matrix · x − right. The matrix has as many rows as
+/// `right` and any number of columns.
 Vector least_squares(const Matrix& matrix, const Vector& right);
 /// The same for each column of `right`.
 ComplexMatrix least_squares(const ComplexMatrix& matrix, const ComplexMatrix& right);
 
 /// By decreasing size: as many as the smaller side of the matrix, which may have any shape.
 Vector singular_values(const Matrix& matrix);
-/// Rows of length 1, orthogonal to each other and to all columns of the matrix: as many as its rows
-/// less its rank. Singular values up to `resolution` of the largest count as 0.
+/// Rows of length 1, orthogonal to each other and to all columns of the matrix: its number of rows
+/// minus its rank. Singular values up to `resolution` of the largest count as 0.
 Matrix rows_across_columns(const Matrix& matrix, double resolution);
 
 }  // namespace cascade::analysis

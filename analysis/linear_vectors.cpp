@@ -92,7 +92,7 @@ void Lineariser::combine(Part& sum, const Part& vector, NodeId factor) {
     });
 }
 
-/// A vector times a number at faces, where the number is `factor` and changes by `by` times
+/// Multiplies a vector by a number at faces, where the number is `factor` and changes by `by` times
 /// `slopes`.
 void Lineariser::scale(Part& product, const Part& vector, NodeId factor, const Slopes& slopes,
                        NodeId by) {

@@ -19,7 +19,7 @@ Lineariser::Lineariser(LinearModel& model)
       flat_(model.variable_count()),
       axes_(lattice_of(*model.program).has_axis) {}
 
-/// Adds a part; fails with words for the user.
+/// Adds a part. Fails with words for the user.
 Result<void> Lineariser::add(const Node& node) {
     if (algebra_.size() > most_calculus_nodes) return failure("its rates are too large");
     nodes_.push_back(node);
@@ -51,7 +51,7 @@ LinearPart Lineariser::nothing() const {
     return part;
 }
 
-/// The node with the values of its operands in place of them.
+/// The node with the values of its operands.
 Node Lineariser::of_values(const Node& node) const {
     Node valued = node;
     for (std::size_t n = 0; n < node.operand_count; ++n) {
@@ -144,7 +144,7 @@ Result<void> Lineariser::add_call(const Node& node, Part& part) {
     }
     switch (node.function) {
         case Function::lap: part.slopes = through(first, Kind::laplacian); return {};
-        case Function::grad2: return {};  // A square, and 0 in a flat state.
+        case Function::grad2: return {};  // A square, hence 0 in a flat state.
         case Function::advect: add_advection(node, part); return {};
         case Function::transport: add_transport(node, part); return {};
         case Function::diffuse: add_diffusion(node, part); return {};
@@ -234,7 +234,7 @@ Result<std::size_t> Lineariser::kernel_of(const Node& node) {
     return kernels.size() - 1;
 }
 
-/// Upwind. The carried value is flat, so that changes of the velocity do not matter.
+/// Upwind differences. The carried value is flat, so changes of the velocity do not matter.
 void Lineariser::add_advection(const Node& node, Part& part) {
     const std::size_t velocities = node.operand_count - 1;
     const Slopes& carried = this->part(node, velocities).slopes;
@@ -246,8 +246,8 @@ void Lineariser::add_advection(const Node& node, Part& part) {
     }
 }
 
-/// By central differences, which have the same speed of long waves. Limited slopes are not
-/// linear in the values; the little that they damp is left out.
+/// Central differences, which have the same speed of long waves. Limited slopes are not linear in
+/// the values. Their small damping is ignored.
 void Lineariser::add_transport(const Node& node, Part& part) {
     const std::size_t velocities = node.operand_count - 1;
     const Slopes& carried = this->part(node, velocities).slopes;

@@ -1,4 +1,4 @@
-// Walks the formulas of rates once: the flat value of each part, and how it changes with waves
+// Walks the formulas of rates once: the flat value of each part, and its response to waves
 // (internal to the linear model).
 #pragma once
 
@@ -17,20 +17,20 @@ using Slopes = std::vector<Slope>;  ///< By variable.
 
 /// A part of the rates about a flat state.
 struct LinearPart {
-    std::array<NodeId, 3> value{};  ///< Of a number the first; the components of a vector.
-    TensorMatrix matrix{};          ///< Of a tensor.
-    Slopes slopes;                  ///< Of a number.
-    /// Of a vector, by the axis across which faces lie, and by component.
+    std::array<NodeId, 3> value{};  ///< The first for a number, else the components of a vector.
+    TensorMatrix matrix{};          ///< For tensors.
+    Slopes slopes;                  ///< For numbers.
+    /// For vectors, by the axis across the faces, and by component.
     std::array<std::array<Slopes, 3>, 3> at_faces;
 };
 
-/// Writes formulas, kernels and what it notices into a model, whose species, unknowns and starting
+/// Writes formulas, kernels and remarkable facts into a model, whose species, unknowns and starting
 /// values are known.
 class Lineariser {
 public:
     explicit Lineariser(LinearModel& model);
 
-    /// Adds a node after its operands; fails with words for the user.
+    /// Adds a node after its operands. Fails with words for the user.
     Result<void> add(const Node& node);
     const LinearPart& operator[](NodeId id) const { return parts_[id]; }
 
@@ -71,7 +71,7 @@ private:
     LinearModel& model_;
     Algebra& algebra_;
     NodeId zero_, one_;
-    Slopes flat_;  ///< Of what does not change.
+    Slopes flat_;  ///< The slopes of constants.
     std::array<bool, 3> axes_;
     IdVector<NodeId, Part> parts_;
     Nodes nodes_;

@@ -1,5 +1,5 @@
-// Four tapes with the same inputs. A constraint is linear in its field, so that two of its values
-// give the field.
+// Four tapes with the same inputs. A constraint is linear in its field, so two of its values give
+// the field.
 #include "analysis/local_rates.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ Matrix matrix_of(const std::vector<double>& entries, std::size_t first, Eigen::I
     return Eigen::Map<const ByRows>(entries.data() + first, count, count);
 }
 
-/// The largest coefficient by which constraints depend on their fields.
+/// The largest coefficient of a constraint's field in a constraint.
 double largest_of_unknowns(const Matrices& matrices, Eigen::Index unknowns) {
     double largest = 0;
     for (const Matrix& matrix : matrices.terms) {
@@ -71,7 +71,7 @@ ComplexMatrix jacobian_of(const LinearModel& model, const Matrices& matrices,
             symbol(model.terms[k].operators, lattice, matrices.kernels, phases) * matrices.terms[k];
     }
     if (model.unknowns.empty()) return sum;
-    // A wave that no field changes a constraint by, such as the mean of a potential, is 0 in it.
+    // A wave that enters a constraint by no field, such as a potential's mean, is 0 in it.
     const auto species = static_cast<Eigen::Index>(model.species_count());
     const auto unknowns = static_cast<Eigen::Index>(model.unknowns.size());
     ComplexMatrix by_unknowns = sum.bottomRightCorner(unknowns, unknowns);

@@ -13,13 +13,13 @@ namespace cascade::analysis {
 /// The Jacobian of all waves in a state.
 struct Matrices {
     std::vector<Matrix> terms;  ///< In the order of the model's terms.
-    WaveKernels kernels;        ///< Of the model's convolutions.
+    WaveKernels kernels;        ///< The model's convolutions.
 
     bool are_finite() const;
 };
 
-/// The Jacobian of a wave: how fast species change with species, the fields of constraints
-/// following at once.
+/// The Jacobian of a wave: how fast species change with species, where the fields of constraints
+/// follow at once.
 ComplexMatrix jacobian_of(const LinearModel& model, const Matrices& matrices,
                           const Lattice& lattice, const Phases& phases);
 
@@ -29,7 +29,7 @@ public:
 
     const LinearModel& model() const { return model_; }
     Eigen::Index species_count() const { return static_cast<Eigen::Index>(model_.species_count()); }
-    /// The values of the model's varied items from here on.
+    /// Sets the values of the model's varied items from here on.
     void set_varied(std::vector<double> values);
 
     /// The starting values of the species.
@@ -37,7 +37,7 @@ public:
     /// The standard deviation of their random numbers.
     Vector scatter() const { return species_of(scatter_); }
     Vector rates(const Vector& species) const;
-    /// Of changes that are the same in all cells.
+    /// For uniform changes.
     Matrix jacobian(const Vector& species) const;
     Matrices matrices(const Vector& species) const;
 

@@ -1,4 +1,4 @@
-// Colours that differ for colour-blind readers too (M. Okabe, K. Ito, "Color Universal Design").
+// Colours for colour-blind readers, too (M. Okabe, K. Ito, "Color Universal Design").
 #include "analysis/map_plot.h"
 
 #include "picture/axes.h"

@@ -1,4 +1,4 @@
-// The diagram of a map over two parameters: a colour for each class, and where the script stands.
+// The diagram of a map over two parameters: a colour for each class, and the script's own values.
 #pragma once
 
 #include "analysis/parameters.h"

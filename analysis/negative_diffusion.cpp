@@ -18,7 +18,7 @@ public:
     ConstantFactors(const Program& program, std::uint32_t stage)
         : program_(program), stage_(stage), starts_(start_values(algebra_, program, stage, {})) {}
 
-    /// 0 of a formula without nodes; empty if the value differs from cell to cell or changes.
+    /// 0 for a formula without nodes. Empty if the value differs from cell to cell or changes.
     std::optional<double> value(const Formula& formula) {
         if (formula.nodes.empty()) return 0;
         const bool is_known = std::all_of(formula.nodes.begin(), formula.nodes.end(), is_plain);

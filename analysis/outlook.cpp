@@ -1,5 +1,5 @@
-// Strict about what it judges: starting values, parameters, sides and rates must leave noise as the
-// only source of differences.
+// Checks strictly that starting values, parameters, sides and rates leave noise as the only source
+// of differences.
 #include "analysis/outlook.h"
 
 #include "analysis/stage_analysis.h"
@@ -15,7 +15,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// Noise above this part of the values might start a pattern that weak noise does not.
+/// Stronger noise, relative to the values, might start a pattern that weak noise does not.
 constexpr double weak = 0.02;
 
 bool has_values_at_sides(const Program& program, std::uint32_t stage) {
@@ -31,7 +31,7 @@ bool has_values_at_sides(const Program& program, std::uint32_t stage) {
     return false;
 }
 
-/// Is noise the only source of differences between cells?
+/// Whether noise is the only source of differences between cells.
 bool starts_with_noise_alone(const LinearModel& model) {
     if (model.reads_time || model.has_noise) return false;
     const System& system = model.system();
@@ -54,8 +54,8 @@ bool starts_with_noise_alone(const LinearModel& model) {
     return has_noise;
 }
 
-/// False, without any calculus, for most stages that starts_with_noise_alone() does not take: those
-/// that draw nothing and those that go on from the pattern of an earlier stage.
+/// A quick test that is false for most stages refused by starts_with_noise_alone(): those that draw
+/// nothing and those that continue from the pattern of an earlier stage.
 bool may_start_with_noise(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
     const auto is_noise = [](const Node& node) {
@@ -83,9 +83,9 @@ bool is_weak(const Vector& scatter, const Vector& state, const Vector& start) {
     return true;
 }
 
-/// The species for which the least more diffusion would let a wave grow, with the factor.
+/// The species that lets a wave grow with the least additional diffusion, and the factor.
 std::string remedy(const LinearModel& model, const Matrices& matrices) {
-    if (model.has_nonlocal_parts()) return "";  // What scales is not diffusion alone.
+    if (model.has_nonlocal_parts()) return "";  // Scaling would change more than diffusion.
     const auto grows_with = [&](Eigen::Index species, double factor) {
         Matrices scaled = matrices;
         for (std::size_t k = 1; k < scaled.terms.size(); ++k) {
@@ -111,7 +111,7 @@ std::string remedy(const LinearModel& model, const Matrices& matrices) {
                        std::ceil(least * 100) / 100);
 }
 
-/// The time that the stage takes; empty if that is not known before it runs.
+/// The duration of the stage. Empty if it is not known before it runs.
 std::optional<double> duration_of(const LinearModel& model) {
     const Stage& stage = model.program->stages[model.stage];
     if (stage.time.duration) return stage.time.duration;

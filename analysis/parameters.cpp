@@ -1,4 +1,4 @@
-// A flat state is followed from value to value by Newton's method, each time from the last one.
+// Follows a flat state from value to value by Newton's method, each time from the last one.
 #include "analysis/parameters.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ public:
         sizes_ = sizes_.cwiseMax(0.1 * std::max(sizes_.maxCoeff(), 1e-3));
     }
 
-    /// The state beside a known one; nothing if Newton's method goes astray.
+    /// The state beside a known one. Empty if Newton's method goes astray.
     Place at(const std::vector<double>& values, const std::optional<Vector>& beside) {
         rates_.set_varied(values);
         // Totals are those of the starting values, which may depend on the parameters.
@@ -46,7 +46,7 @@ public:
         return place;
     }
 
-    /// Adds what grows where standing waves begin to, at a critical value of the only parameter.
+    /// Adds the equations of growing standing waves at a critical value of the only parameter.
     /// `step` is a small change of it.
     void add_amplitudes(CriticalValue& change, const Place& beside, double step) {
         const auto at_value = [&](double value) {
@@ -73,8 +73,8 @@ public:
     }
 
 private:
-    /// Is it another state, which Newton's method has found by accident? A state that moves far is
-    /// the same one if it goes where its slope by the parameter says.
+    /// Whether Newton's method has found another state by accident. A state that moves far is the
+    /// same one if it follows its slope by the parameter.
     bool has_jumped(const Vector& from, const Vector& to) const {
         const Vector scale = sizes_.cwiseMax(from.cwiseAbs());
         const auto distance = [&](const Vector& change) {
@@ -103,7 +103,7 @@ Result<double> present_value(const Program& program, std::uint32_t stage, ItemId
     return *number;
 }
 
-/// Where the class changes between two values; `step` is a small change of them.
+/// The value between two values at which the class changes. `step` is a small change of them.
 CriticalValue bisected(Follower& follower, double low, double high, const Place& at_low,
                        const Place& at_high, double step) {
     Place below = at_low, above = at_high;
@@ -150,7 +150,7 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
     ParameterScan scan{span, *present, {}, {}, {}};
     const int parts = model->species_count() <= 2 ? 64 : 32;
     const double middle = std::clamp(*present, span.low, span.high);
-    // At an end of its range a parameter may be 0 and leave nothing to divide by.
+    // At an end of its range a parameter may be 0 and make a division impossible.
     const double inwards = 1e-6 * (span.high - span.low);
     const double small = 1e-4 * (span.high - span.low);
     const auto walk = [&](double end) {
@@ -199,7 +199,7 @@ std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32
         const std::array items{item};
         const auto model = linear_model(program, stage, items);
         if (!model) continue;
-        // Does a formula read it?
+        // Whether a formula reads it.
         const std::vector<NodeId> roots = model->formulas();
         const auto reads = [&](NodeId root) {
             const Formula formula = model->algebra.formula(root);

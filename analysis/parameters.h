@@ -1,4 +1,4 @@
-// How the class of a flat state changes with parameters: critical values of one, a map over two.
+// The class of a flat state by parameters: critical values of one, a map over two.
 #pragma once
 
 #include "analysis/amplitudes.h"
@@ -22,10 +22,10 @@ struct ParameterSpan {
 struct CriticalValue {
     double value = 0;
     std::optional<Stability> below, above;  ///< Empty: the flat state does not exist there.
-    double cells = 0;                       ///< The length of the fastest wave there; NaN without.
-    /// Where standing waves begin to grow, if they are known (amplitude_equations()).
+    double cells = 0;                       ///< The fastest wave's length there, or NaN.
+    /// At the onset of standing waves, if known (amplitude_equations()).
     std::optional<AmplitudeEquations> amplitudes = {};
-    /// The value beyond which stripes replace spots, by these; NaN if they do not.
+    /// The value at which stripes replace spots, by these equations. NaN if they do not.
     double stripes = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -36,8 +36,8 @@ struct ParameterScan {
     std::vector<CriticalValue> changes;  ///< By increasing value.
 };
 
-/// Follows a flat state of the script through the values of a parameter, and bisects where its
-/// class changes between two of some hundred values. Fails where linear_model() does.
+/// Follows a flat state of the script through about a hundred values of a parameter, and bisects
+/// between two of them where its class changes. Fails where linear_model() does.
 Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage,
                                      const ParameterSpan& span, const Vector& state);
 
@@ -50,9 +50,8 @@ struct ParameterMap {
     std::vector<std::optional<Stability>> classes;  ///< Rows from the lowest value of `up`.
 };
 
-/// Classes of a flat state of the script at side × side pairs of values, the ends of ranges
-/// included. Blocks of 8 × 8 pairs whose
-/// corners are alike count as a whole.
+/// Classes of a flat state of the script at side × side pairs of values, including the ends of
+/// ranges. Blocks of 8 × 8 pairs whose corners are alike count as a whole.
 Result<ParameterMap> map_parameters(const Program& program, std::uint32_t stage,
                                     const ParameterSpan& across, const ParameterSpan& up,
                                     std::size_t side, const Vector& state);

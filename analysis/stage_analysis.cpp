@@ -1,4 +1,3 @@
-// Puts the parts together.
 #include "analysis/stage_analysis.h"
 
 #include <algorithm>
@@ -42,7 +41,7 @@ double reach(const StepPolynomial& polynomial, double angle) {
         }
         inside = radius;
     }
-    // On the imaginary axis euler and rk2 amplify every wave, if little.
+    // On the imaginary axis euler and rk2 amplify every wave slightly.
     if (inside == 0 && angle > std::numbers::pi / 2 - 1e-9) return 0;
     for (int round = 0; round < 40; ++round) {
         const double middle = (inside + outside) / 2;
@@ -54,7 +53,7 @@ double reach(const StepPolynomial& polynomial, double angle) {
 }  // namespace
 
 std::vector<StableStep> stable_steps(std::span<const Complex> rates) {
-    // Of the rates at about the same angle only the largest matters.
+    // Among rates at about the same angle only the largest matters.
     constexpr std::size_t sectors = 512;
     std::array<Complex, sectors + 1> largest{};
     for (const Complex rate : rates) {

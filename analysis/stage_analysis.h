@@ -1,5 +1,5 @@
-// What is known of a stage before it runs: its flat states, what grows from each of them, and the
-// steps with which the rest fades.
+// The analysis of a stage before it runs: its flat states, the waves that grow from each of them,
+// and the stable steps for the others.
 #pragma once
 
 #include "analysis/dispersion.h"
@@ -16,7 +16,7 @@ namespace cascade::analysis {
 
 struct StableStep {
     Solver solver = Solver::euler;
-    double step = 0;  ///< In the time of the rates; infinite if nothing fades; 0 if no step is.
+    double step = 0;  ///< In the time of the rates. Infinite if nothing fades, 0 if no step is.
 };
 
 /// For euler, rk2, rk4, rk23 and rk45, by the polynomial with which each multiplies a wave in a
@@ -33,10 +33,10 @@ struct StateAnalysis {
 
 struct StageAnalysis {
     LinearModel model;
-    std::vector<StateAnalysis> states;  ///< That of the starting values first, if there is one.
-    bool has_conserved_totals = false;  ///< Then flat states come in families.
+    std::vector<StateAnalysis> states;  ///< The starting values' state first, if it exists.
+    bool has_conserved_totals = false;  ///< Flat states then come in families.
     Vector start;                       ///< The starting values of the species.
-    std::optional<double> step;         ///< Of the time, if it is one number.
+    std::optional<double> step;         ///< The time step, if it is one number.
 };
 
 /// The length of the stage's steps, if it is the same in all cells and not chosen by the stage.
@@ -45,14 +45,14 @@ std::optional<double> fixed_step(const LinearModel& model);
 /// Fails where linear_model() does. The program must outlive the result.
 Result<StageAnalysis> analyze_stage(const Program& program, std::uint32_t stage);
 
-/// The state that is worth a closer look: the first that is stable without waves and from which
-/// waves grow, or else the first. There must be one.
+/// The most interesting state: the first that is stable without waves and from which waves grow, or
+/// else the first. There must be one.
 const StateAnalysis& state_to_show(const StageAnalysis& analysis);
 
 /// "u = 1, v = 0.9", at most six of them.
 std::string values_text(const LinearModel& model, const Vector& species);
 
-/// The analysis as a text of some lines.
+/// The analysis as a text of a few lines.
 std::string describe(const StageAnalysis& analysis);
 
 /// The classes in words, such as "Turing".

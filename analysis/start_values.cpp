@@ -1,4 +1,4 @@
-// Goes once through the formulas of a stage's items.
+// Walks once over the formulas of a stage's items.
 #include "analysis/start_values.h"
 
 #include "lang/calculus/derivative_rules.h"
@@ -101,7 +101,7 @@ private:
                 result.scatter = spread(node, of(0), of(1));
                 return result;
             case FunctionKind::pattern:
-                // Smooth noise is as random as draws are.
+                // Smooth noise is as random as draws.
                 if (node.function != Function::noise) return elsewhere(true, false);
                 result.scatter = algebra_.number(0.5);
                 return result;

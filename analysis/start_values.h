@@ -1,5 +1,5 @@
-// The values with which a stage starts, as numbers instead of planes: what random numbers scatter
-// about, and how far they scatter.
+// The starting values of a stage as numbers instead of planes: the mean of random numbers, and
+// their standard deviation.
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -10,20 +10,20 @@
 
 namespace cascade::analysis {
 
-/// The start of an item. Random numbers count as their mean, noise and shapes as 0, and places as
-/// the middle of the domain.
+/// The start of an item. Random numbers count as their mean, noise and shapes as 0, and positions
+/// as the middle of the domain.
 struct StartValue {
     NodeId value;
     /// The standard deviation due to random numbers, to first order.
     NodeId scatter;
-    /// Does it differ from place to place by something other than random numbers?
+    /// Whether it differs between positions other than by random numbers.
     bool differs = false;
-    /// Does it come from a file, so that `value` means nothing?
+    /// Whether it comes from a file, so that `value` means nothing.
     bool is_unknown = false;
 };
 
-/// One for each item of the stage. Items of `varied` stay items; all others become numbers
-/// or formulas of these.
+/// One for each item of the stage. Items of `varied` stay items. All others become numbers or
+/// formulas of these.
 IdVector<ItemId, StartValue> start_values(Algebra& algebra, const Program& program,
                                           std::uint32_t stage, std::span<const ItemId> varied);
 

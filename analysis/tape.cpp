@@ -1,4 +1,4 @@
-// The nodes that results need, in their order, each with a register.
+// The nodes required for the results, in their order, each with a register.
 #include "analysis/tape.h"
 
 #include "core/check.h"

@@ -111,7 +111,7 @@ Complex WaveKernel::symbol(const Phases& phases) const {
         sum += wave * Complex(real[k], imaginary[k]);
         wave *= across;
     }
-    // Weights that are the same to both sides leave rounding errors only.
+    // Symmetric weights leave only rounding errors.
     return std::abs(sum.imag()) > 1e-12 * magnitude_ ? sum : Complex(sum.real());
 }
 
