@@ -32,7 +32,7 @@ private:
     std::string bytes_{model_magic};
 };
 
-/// Nothing after the first length that the rest of the bytes does not have.
+/// Fails at the first length that exceeds the rest of the bytes.
 class ModelReader {
 public:
     explicit ModelReader(std::string_view bytes) : rest_(bytes) {
@@ -72,7 +72,7 @@ private:
     bool is_sound_ = true;
 };
 
-/// Are corners points, and does every edge lead to one that leads back?
+/// Whether corners are points, and every edge leads to one that leads back.
 bool is_sound(const SurfaceMesh& mesh) {
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {

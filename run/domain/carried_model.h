@@ -1,5 +1,5 @@
-// A model with its cells as bytes, for pages that carry their engine: reading a model's file and
-// spreading its cells takes libraries and time that a page has not.
+// A model with its cells as bytes, for pages that carry their engine. Reading a model's file and
+// spreading its cells needs libraries and time that a page lacks.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -18,9 +18,9 @@ struct CarriedModel {
     SurfaceCells cells;
 };
 
-/// Numbers are in the byte order of the machine; browsers have that of x86-64.
+/// Numbers have the byte order of the machine. Browsers use that of x86-64.
 std::string print_carried_model(const ModelCells& model);
-/// Fails if the bytes are cut off, or of no model.
+/// Fails if the bytes are truncated or do not hold a model.
 Result<CarriedModel> parse_carried_model(std::string_view bytes);
 
 /// The cells of a program's domain, as make_model_cells() makes them of the same mesh.

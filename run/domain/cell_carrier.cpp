@@ -1,10 +1,10 @@
 // On grids core/resample divides cells. On models values go along the surface: with the weights w
-// of the cell filter, the cells' places x, values f and gradients g, the value at a place p is
+// of the cell filter, the cells' positions x, values f and gradients g, the value at position p is
 //
 //     Σ w f + ½ Σ w (g + Σ w g) · (p − x).
 //
-// The average alone flattens waves, and tangents from the cells overshoot them by as much; half the
-// way between them the curvature of f cancels, as does the slope where cells are uneven around p.
+// The average alone flattens waves, and tangents from the cells overshoot them by as much. Half way
+// between them the curvature of f cancels, as does the slope where cells are uneven around p.
 #include "run/domain/cell_carrier.h"
 
 #include "core/counted_cells.h"
@@ -21,7 +21,7 @@ namespace cascade {
 
 namespace {
 
-/// How far values go on beyond the border of a mask: as far as a divided cell reads.
+/// How far values continue beyond the border of a mask: as far as a divided cell reads.
 constexpr int reach_beyond = 4;
 
 /// Calls `visit(i, j, k)` for the neighbours of a cell along the axes.
@@ -49,8 +49,8 @@ void visit_cells(const Grid& grid, const Visit& visit) {
     }
 }
 
-/// The plane with values outside of the mask: in each round of cells around it, the mean of the
-/// neighbours that have one.
+/// The plane with values outside of the mask: the mean over neighbours with a value, in successive
+/// rounds of cells around it.
 template <typename Number>
 Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask& inside) {
     Plane<Number> result = plane.clone();
@@ -75,7 +75,7 @@ Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask
     return result;
 }
 
-/// The cells beside a side of an axis as a grid of their own, in the same order.
+/// The cells beside a side of an axis as a separate grid, in the same order.
 Grid face_of(const Grid& grid, std::size_t axis) {
     return {axis == 0 ? grid.height : grid.width, axis == 2 ? grid.height : grid.depth};
 }

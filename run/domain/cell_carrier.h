@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// Carries planes with a value for each cell. The same on any number of threads.
+/// Carries planes with a value for each cell. The result is the same on any number of threads.
 class CellCarrier {
 public:
     CellCarrier() = default;
@@ -21,27 +21,27 @@ public:
     CellCarrier(const CellCarrier&) = delete;
     CellCarrier& operator=(const CellCarrier&) = delete;
 
-    /// In wider cells the means of the cells that they cover. In finer cells smooth, and nowhere
-    /// outside of the range of the cells around unless crests are kept; of third order in their
-    /// width on grids away from crests, of second on models. NaN around a cell with NaN.
+    /// Wider cells get the mean of the cells that they cover. Finer cells get smooth values, within
+    /// the range of the cells around unless crests are kept. They are of third order in the cell
+    /// width on grids away from crests, and of second on models. NaN around a cell with NaN.
     virtual Field carried(const Field& values) const = 0;
-    /// A finer cell has what the cell has in which it lies, or, on models, the nearest one. A wider
-    /// cell has 1 where at least half of its cells are not 0.
+    /// A finer cell gets the value of the cell that contains it, or, on models, of the nearest one.
+    /// A wider cell is 1 where at least half of its cells are not 0.
     virtual Mask carried(const Mask& cells) const = 0;
     /// The values of the side with this number: means along it, or each repeated. Grids only.
     virtual std::shared_ptr<const SideValues> carried(const SideValues& values,
                                                       std::size_t side) const = 0;
 };
 
-/// What becomes of crests between cells that are higher than all cells around, and of troughs.
+/// The treatment of crests between cells that are higher than all cells around, and of troughs.
 enum class Crests : std::uint8_t {
-    levelled,  ///< For values that a run goes on with, which stay in the range of the cells around.
-    kept       ///< For pictures, in which a plateau would show.
+    levelled,  ///< For a run's values, which stay in the range of the cells around.
+    kept       ///< For pictures, which would show a plateau.
 };
 
-/// Each cell of `grid` becomes times × times cells (core/resample.h). With a mask, the values of
-/// its cells go on beyond its border, and are 0 outside of `finer_mask`; both are null without one.
-/// All must outlive the result.
+/// Divides each cell of `grid` into times × times cells (core/resample.h). With a mask, the values
+/// of its cells continue beyond its border, and are 0 outside of `finer_mask`. Both are null
+/// without one. All must outlive the result.
 std::unique_ptr<CellCarrier> carrier_to_finer(const Grid& grid, std::int64_t times,
                                               const DomainMask* mask, const DomainMask* finer_mask,
                                               Crests crests = Crests::levelled);

@@ -1,4 +1,4 @@
-// Planes with one value for each cell of a model, in the order in which they lie in memory.
+// Planes with one value for each cell of a model, in the order of memory.
 #pragma once
 
 #include "core/plane.h"
@@ -13,7 +13,7 @@
 namespace cascade {
 
 /// Calls `write(row, column, cell, is_cell)` for all positions of the rows, where order[k] is the
-/// cell at position k; the padding of the last row repeats the last cell.
+/// cell at position k. The padding of the last row repeats the last cell.
 template <typename Write>
 void for_each_place(const Grid& grid, const std::vector<std::uint32_t>& order, const Write& write) {
     const std::size_t count = order.size();

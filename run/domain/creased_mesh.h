@@ -1,4 +1,4 @@
-// A model as it is drawn: smooth, except at sharp edges.
+// A model for drawing: smooth, except at sharp edges.
 #pragma once
 
 #include "mesh/surface_mesh.h"
@@ -8,15 +8,15 @@ namespace cascade {
 
 /// The mesh to draw, and its map from space: (p − middle) × scale.
 struct DrawnMesh {
-    TriangleMesh mesh;  ///< Triangles have the numbers and corners of the surface's.
+    TriangleMesh mesh;  ///< Triangles have the numbers and corners of the surface.
     Vector3d middle;
     double scale = 1;  ///< Makes the longest side of the box 1.
 };
 
-/// Normals are averages over the triangles around a point, but not across edges at which these meet
-/// at more than 60°. Throws std::bad_alloc.
+/// Normals are averages over the triangles around a point, but not across edges with a bend of more
+/// than 60°. Throws std::bad_alloc.
 DrawnMesh creased_mesh(const SurfaceMesh& surface);
-/// The same where another one is drawn.
+/// The mesh alone, with the map of another one.
 TriangleMesh creased_mesh(const SurfaceMesh& surface, const Vector3d& middle, double scale);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Reads and repairs as a run does; genus by the Euler characteristic, evenness of cells by areas
-// and distances to the nearest neighbour.
+// Reads and repairs as a run does. The genus follows from the Euler characteristic, and the
+// evenness of cells from areas and distances to the nearest neighbour.
 #include "run/domain/describe_model.h"
 
 #include "atlas/texture_facts.h"

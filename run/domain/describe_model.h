@@ -1,4 +1,4 @@
-// Describes a model's file, for `cascade mesh`.
+// Describes a model's file for `cascade mesh`.
 #pragma once
 
 #include "core/granted_files.h"
@@ -20,11 +20,11 @@ namespace cascade {
 /// std::bad_alloc.
 Result<MadeMesh> read_and_repair(const std::filesystem::path& path, const ReadAccess& access);
 
-/// Lines about the surface: its components, its topology, its size, its texture coordinates, the
-/// repairs. Throws std::bad_alloc.
+/// Lines about the surface: its components, topology, size, texture coordinates and repairs. Throws
+/// std::bad_alloc.
 std::vector<std::string> describe_model(const MadeMesh& made);
 
-/// A line about texture coordinates, which there are. Throws std::bad_alloc.
+/// A line about the texture coordinates of a mesh that has some. Throws std::bad_alloc.
 std::string describe_texture(const SurfaceMesh& mesh);
 
 /// Lines about cells of a model. Fails if they cannot be made (surface/make_cells.h) and on more

@@ -1,5 +1,5 @@
-// The halo of the mask is filled by the grid's boundary before the bits of neighbours are taken. A
-// value counts as inside unless it is 0, denormal or NaN.
+// Fills the halo of the mask by the grid's boundary before taking the bits of neighbours. A value
+// counts as inside unless it is 0, denormal or NaN.
 #include "run/domain/domain_mask.h"
 
 #include "core/counted_cells.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The bits of the cells around cell (i, j, k) and of that cell itself.
+/// The bits of cell (i, j, k) and the cells around it.
 std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j,
                           std::int64_t k) {
     const std::int64_t reach = inside.layout().has_halo_slices() ? 1 : 0;

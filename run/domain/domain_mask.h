@@ -22,7 +22,7 @@ struct DomainMask {
 /// which counts as 0 everywhere in the language).
 DomainMask make_domain_mask(const Field& values, const Grid& grid);
 
-/// The cells that do not change: those that are frozen (nullptr: none) and those outside.
+/// The cells that do not change: frozen cells (nullptr: none) and cells outside.
 Mask still_cells(const DomainMask& mask, const Mask* frozen);
 
 /// A copy of a field with `value` in every cell that is outside.

@@ -1,4 +1,4 @@
-// Values are compared in order of cells; a NaN ends the search.
+// Compares values in the order of cells. A NaN ends the search.
 #include "run/domain/field_values.h"
 
 #include "core/check.h"
@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-/// The first value inside the mask that no other exceeds in the given order; NaN if one is NaN.
+/// The first value inside the mask that no other exceeds in the given order. NaN if one is NaN.
 template <typename Beats>
 double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
     return field.visit([&](const auto& plane) -> double {

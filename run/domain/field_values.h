@@ -15,15 +15,15 @@ Mask to_mask(const Field& field);
 /// Its values as numbers.
 Field to_field(const Mask& mask, Precision precision);
 
-/// The smallest value of a field's cells inside the mask; NaN if one is NaN.
+/// The smallest value of a field's cells inside the mask. NaN if one is NaN.
 double smallest(const Field& field, const DomainMask* mask);
 /// The largest.
 double largest_value(const Field& field, const DomainMask* mask);
 
-/// The first value of each field: that of all cells where they are the same.
+/// The first value of each field, which is the value of all cells in uniform fields.
 std::vector<double> first_values(std::span<const Field> fields);
 
-/// Do all cells hold the same word?
+/// Whether all cells hold the same word.
 bool is_same_everywhere(const Field& field);
 
 }  // namespace cascade

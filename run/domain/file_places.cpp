@@ -1,4 +1,4 @@
-// Places are computed cell by cell in binary64 whenever they are asked for; slopes of formulas are
+// File positions are computed cell by cell in binary64 on every request. Slopes of formulas are
 // differences.
 #include "run/domain/file_places.h"
 
@@ -16,12 +16,12 @@ namespace cascade {
 
 namespace {
 
-constexpr double slope_width = 1e-4;         // Of longest sides, for slopes of formulas.
+constexpr double slope_width = 1e-4;         // In longest sides, for slopes of formulas.
 constexpr double shortest_direction = 0.01;  // 8-bit pixels have no ½.
-constexpr double rounded_component = 1e-9;   // Of one component relative to the other.
+constexpr double rounded_component = 1e-9;   // For one component relative to the other.
 
-/// A place along one side of a file as a position among `count` elements: the one before it, the
-/// one after, and the weight of the second.
+/// A position along one side of a file among `count` elements: the element before it, the one
+/// after, and the weight of the second.
 struct BetweenElements {
     std::size_t before = 0, after = 0;
     double part = 0;
@@ -41,13 +41,13 @@ struct BetweenElements {
     }
 };
 
-/// The number at a place of an array of slices × rows × columns.
+/// The number at a position of an array of slices × rows × columns.
 template <typename Number>
 double number_at(const std::vector<Number>& values, std::array<std::int64_t, 3> sides,
                  const FilePlace& place, bool repeats) {
     const BetweenElements column(place[0], sides[0], repeats), row(place[1], sides[1], repeats),
         slice(place[2], sides[2], repeats);
-    // std::lerp rounds in each library in its own way.
+    // std::lerp rounds differently in each library.
     const auto mix = [](double a, double b, double part) { return a + (b - a) * part; };
     const auto along = [&](std::size_t k, std::size_t j) {
         const std::size_t start =
@@ -65,7 +65,7 @@ void set(BuiltinValues& values, Builtin builtin, double value) {
     values[static_cast<std::size_t>(builtin)] = value;
 }
 
-/// Calls `visit(values)` with the built-in values of places in each cell of a grid.
+/// Calls `visit(values)` with the built-in position values in each cell of a grid.
 template <typename Visit>
 void each_of_grid(const Grid& grid, const Visit& visit) {
     const auto longest = static_cast<double>(grid.longest_side());
@@ -88,7 +88,7 @@ void each_of_grid(const Grid& grid, const Visit& visit) {
     }
 }
 
-/// The same of a model.
+/// Does the same for a model.
 template <typename Visit>
 void each_of_model(const ModelCells& model, const Visit& visit) {
     constexpr std::array builtins{Builtin::x,  Builtin::y,  Builtin::z,  Builtin::sx, Builtin::sy,
@@ -105,7 +105,7 @@ void each_of_model(const ModelCells& model, const Visit& visit) {
     }
 }
 
-/// Moves a place by a vector in longest sides; `extent` are the sides of the domain's box.
+/// Moves a position by a vector in longest sides. `extent` is the size of the domain's box.
 BuiltinValues moved(BuiltinValues place, Vector3d by, Vector3d extent) {
     const std::array<double, 3> way{by.x, by.y, by.z}, sides{extent.x, extent.y, extent.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -127,8 +127,8 @@ FilePlace minus(const FilePlace& a, const FilePlace& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// The vector in the plane of a triangle along which a value that is linear in it changes by
-/// |gradient|² a length.
+/// The vector in the plane of a triangle along which a value linear in it changes by |gradient|²
+/// per length.
 Vector3d gradient_in(const SurfaceMesh& mesh, std::uint32_t triangle,
                      const std::array<double, 3>& corners) {
     const auto& [a, b, c] = mesh.triangles[triangle];
@@ -147,13 +147,13 @@ double angle_of(double to_right, double upwards, std::array<double, 2> sides,
     if (!(to_right * to_right + upwards * upwards >= shortest_direction * shortest_direction)) {
         return 0;
     }
-    // The step along the surface that is this step in the picture: two linear equations.
+    // The step along the surface for this step in the picture: two linear equations.
     const double a = to_right / sides[0], b = -upwards / sides[1];
     const auto& [right, down] = slopes;
     const double sign = right[0] * down[1] - right[1] * down[0] < 0 ? -1 : 1;
     const double x = sign * (a * down[1] - b * down[0]);
     double y = sign * (b * right[0] - a * right[1]);
-    // To the left is π, whatever the rounding errors: −π is the same direction, but another number.
+    // To the left is π, whatever the rounding errors. −π is the same direction, but another number.
     if (std::abs(y) <= rounded_component * std::abs(x)) y = 0;
     return std::isfinite(x) && std::isfinite(y) ? std::atan2(y, x) : 0;
 }

@@ -1,5 +1,5 @@
-// /proc/meminfo, and the limits of both versions of control groups from this process's group up to
-// the top; file pages that can be given back count as free.
+// Reads /proc/meminfo, and the limits of both versions of control groups from this process's group
+// up to the top. File pages that can be given back count as free.
 #include "run/domain/free_memory.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The names of the files of a version of control groups.
+/// The file names of a version of control groups.
 struct GroupFiles {
     std::string_view limit, used, file_bytes_1, file_bytes_2;
 };
@@ -22,7 +22,7 @@ constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", 
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
                                "total_inactive_file", "total_active_file"};
 
-/// The number that a file consists of; nothing if there is none, as in "max".
+/// The number in a file. Empty if there is none, as in "max".
 std::optional<std::uint64_t> number_in(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -30,7 +30,7 @@ std::optional<std::uint64_t> number_in(const fs::path& path) {
     return std::nullopt;
 }
 
-/// The number after a key in a file of lines "KEY NUMBER …"; 0 if there is none.
+/// The number after a key in a file of lines "KEY NUMBER …". 0 if there is none.
 std::uint64_t number_of(const fs::path& path, std::string_view key) {
     std::ifstream file(path);
     std::string word, rest;
@@ -42,7 +42,7 @@ std::uint64_t number_of(const fs::path& path, std::string_view key) {
     return 0;
 }
 
-/// What is left below the limit of one group; nothing if it has none.
+/// The rest below the limit of one group. Empty if it has none.
 std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& names) {
     const auto limit = number_in(group / names.limit);
     const auto used = number_in(group / names.used);
@@ -54,12 +54,11 @@ std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& na
     return *limit - std::min(*limit, held);
 }
 
-/// The least that is left in a group or in one above it, up to `top`.
+/// The smallest rest in a group or in one above it, up to `top`.
 std::optional<std::uint64_t> left_up_to(const fs::path& top, const std::string& group,
                                         const GroupFiles& names) {
     std::optional<std::uint64_t> least;
-    // Inside a container, the path is often that of the host, of which only the last part is
-    // mounted, as the top.
+    // Inside a container, the path is often the host's. Only its last part is mounted, as the top.
     fs::path path = fs::path(group).lexically_normal().relative_path();
     while (true) {
         if (const auto left = left_in(top / path, names))

@@ -1,4 +1,4 @@
-// Every text is read once, through GrantedFiles. Faults are reported at the text in the script.
+// Reads every text once, through GrantedFiles. Reports faults at the text in the script.
 #include "run/domain/input_files.h"
 
 #include "core/check.h"
@@ -35,7 +35,7 @@ auto read_granted(const Script& script, const std::string& name, std::uint64_t l
                    parsed.error().hint);
 }
 
-/// The numbers of a NumPy file; nothing with a diagnostic.
+/// The numbers of a NumPy file, or empty with a diagnostic.
 std::optional<NpyArray> read_array(Script& script, const Node& node) {
     const std::string& name = script.program->literals->text(text_of(node));
     auto array = read_granted(script, name, largest_npy_file, [&](std::string_view bytes) {
@@ -46,7 +46,7 @@ std::optional<NpyArray> read_array(Script& script, const Node& node) {
     return std::nullopt;
 }
 
-/// Does an array have the rows and columns of a grid? A diagnostic if not.
+/// Whether an array has the rows and columns of a grid. If not, reports a diagnostic.
 bool fits_grid(Script& script, const Node& node, const NpyArray& array, const Grid& grid) {
     const std::string& name = script.program->literals->text(text_of(node));
     if (fits(array, grid)) return true;
@@ -65,7 +65,7 @@ bool fits_grid(Script& script, const Node& node, const NpyArray& array, const Gr
     return false;
 }
 
-/// A channel of a PNG; nothing with a diagnostic.
+/// A channel of a PNG, or empty with a diagnostic.
 std::optional<GreyPicture> read_picture(Script& script, const Node& node, PictureChannel channel) {
     const std::string& name = script.program->literals->text(text_of(node));
     auto picture = read_granted(script, name, largest_picture_file, [&](std::string_view bytes) {
@@ -76,13 +76,13 @@ std::optional<GreyPicture> read_picture(Script& script, const Node& node, Pictur
     return std::nullopt;
 }
 
-/// Reads the files that a script names, for its grid or its model.
+/// Reads the files named in a script, for its grid or its model.
 class FileReader {
 public:
     FileReader(Script& script, const ModelCells* model)
         : script_(script), model_(model), grid_(script.program->domain.grid) {}
 
-    /// Nothing with a diagnostic.
+    /// Empty with a diagnostic.
     std::optional<Field> read(const NamedPlane& name, const Node& text) const {
         const FileReading& reading = script_.program->literals->reading(name.reading);
         switch (name.function) {
@@ -92,7 +92,7 @@ public:
         }
     }
 
-    /// A file that a kernel reads. Nothing with a diagnostic.
+    /// A file for a kernel. Empty with a diagnostic.
     std::optional<KernelFile> read_kernel(const NamedPlane& name, const Node& text) const {
         const FileReading& reading = script_.program->literals->reading(name.reading);
         if (name.function == Function::image) {
@@ -106,7 +106,7 @@ public:
     }
 
 private:
-    /// A diagnostic if an array has slices, and the place does not say in which.
+    /// Reports a diagnostic if an array has slices, and the position does not choose one.
     bool knows_slices(const NpyArray& array, const FileReading& reading, const Node& text) const {
         if (array.slices == 1 || reading.place.size() == 3) return true;
         script_.diagnostics.error(
@@ -188,7 +188,7 @@ private:
     const Grid& grid_;
 };
 
-/// Calls `read(name, text)` for each text that a formula reads and that is not yet `known`.
+/// Calls `read(name, text)` for each text read by a formula that is not yet `known`.
 template <typename Read>
 void each_text_of(const Formula& formula, std::set<NamedPlane>& known, const Read& read) {
     for (const Node& node : formula.nodes) {
@@ -199,7 +199,7 @@ void each_text_of(const Formula& formula, std::set<NamedPlane>& known, const Rea
     }
 }
 
-/// The same for the kernels of all convolutions.
+/// Does the same for the kernels of all convolutions.
 template <typename Read>
 void each_kernel_file(const Script& script, const Read& read) {
     std::set<NamedPlane> known;
@@ -210,7 +210,7 @@ void each_kernel_file(const Script& script, const Read& read) {
     }
 }
 
-/// Calls `read(name, text)` for each text that the script's formulas read, once.
+/// Calls `read(name, text)` once for each text read by the script's formulas.
 template <typename Read>
 void each_text_read(const Script& script, const Read& read) {
     std::set<NamedPlane> known;

@@ -1,4 +1,4 @@
-// The files that a script names in quotes: arrays of `field("a.npy")`, pictures of `image("a.png")`
+// The files named in quotes in a script: arrays of `field("a.npy")`, pictures of `image("a.png")`
 // and, on models, `attr("name")`.
 #pragma once
 
@@ -26,10 +26,10 @@ public:
     void add_kernel(NamedPlane name, KernelFile file) {
         kernels_[name] = std::make_shared<const KernelFile>(std::move(file));
     }
-    /// What the kernel of a convolution reads.
+    /// The data of a convolution's kernel.
     const KernelFile& kernel(NamedPlane name) const { return *kernels_.at(name); }
 
-    /// Calls `look` with the name and the plane of each that this function reads.
+    /// Calls `look` with the name and the plane of each file read by this function.
     template <typename Look>
     void each_of(Function function, const Look& look) const {
         for (const auto& [name, plane] : planes_) {
@@ -50,18 +50,18 @@ private:
     std::map<NamedPlane, std::shared_ptr<const KernelFile>> kernels_;
 };
 
-/// The names of the files that the mask and the formulas of stages read, and of pictures the
-/// channels.
+/// The names of the files read by the mask and the formulas of stages, with the channels of
+/// pictures.
 std::map<std::string, std::set<PictureChannel>> input_files_of(const Script& script);
 
-/// Checks that a model's points have all that attr() reads; if not, there are diagnostics at the
+/// Checks that a model's points have everything read by attr(). If not, reports diagnostics at the
 /// text in the script.
 Result<void> check_attributes(Script& script, const SurfaceMesh& mesh);
 
-/// Reads every file that the mask or a formula names, relative to the script's folder, and the
-/// values of a model's points (null on a grid). A missing file, a wrong type, a shape other than
-/// the grid's, a name that the model does not know and a picture on a model without texture
-/// coordinates give diagnostics at the text in the script. Pictures are scaled to the grid.
+/// Reads every file named in the mask or a formula, relative to the script's folder, and the values
+/// of a model's points (null on a grid). A missing file, a wrong type, a shape other than the
+/// grid's, a name unknown to the model and a picture on a model without texture coordinates give
+/// diagnostics at the text in the script. Pictures are scaled to the grid.
 Result<InputFiles> read_input_files(Script& script, const ModelCells* model);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Places are computed in binary64, like those in files that cells read.
+// Computes positions in binary64, like those in files read by cells.
 #include "run/domain/kernel_file.h"
 
 #include "lang/program/evaluate.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The value of a formula of numbers, of a distance, and of components of a direction.
+/// The value of a formula of numbers, a distance, and components of a direction.
 double value_at(const Formula& formula, double distance, const std::array<double, 3>& direction) {
     double value = 0;
     const KnownValues known = [&](const Node& node, const OperandColumns& operands,
@@ -21,7 +21,7 @@ double value_at(const Formula& formula, double distance, const std::array<double
             values[0] = *lag == CellValue::distance ? distance : 0;
             return true;
         }
-        // Only the direction is a vector here; the second operand is the axis.
+        // Only the direction is a vector here. The second operand is the axis.
         if (!node.calls(Function::component)) return false;
         values[0] = direction[static_cast<std::size_t>(operands[1][0])];
         return true;

@@ -1,4 +1,4 @@
-// A file from which the kernel of a convolution takes its weights.
+// A file with the weights of a convolution's kernel.
 #pragma once
 
 #include "lang/program/program.h"
@@ -13,13 +13,13 @@ namespace cascade {
 
 class KernelFile {
 public:
-    /// The place in the file where a lag has its weight: formulas of numbers, distance and
+    /// `place` is the position of a lag's weight in the file: formulas of numbers, distance and
     /// direction (FileReading::place).
     KernelFile(const GreyPicture& picture, std::vector<Formula> place);
     KernelFile(const NpyArray& array, std::vector<Formula> place);
 
-    /// The number at a lag, of which `distance` is the length, in the script's unit, and
-    /// `direction` a unit vector. Interpolated as FilePlaces does.
+    /// The number at a lag. `distance` is its length in the script's unit, and `direction` a unit
+    /// vector. Interpolated as in FilePlaces.
     double at(double distance, const std::array<double, 3>& direction) const;
 
 private:

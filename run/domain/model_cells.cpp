@@ -1,5 +1,5 @@
-// Reads or makes the mesh, turns it upright, and makes its cells (run/domain/spread_cells), at once
-// or when they are read.
+// Reads or makes the mesh, turns it upright, and makes its cells (run/domain/spread_cells),
+// immediately or on the first reading.
 #include "run/domain/model_cells.h"
 
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// Directions come from surface/direction_field and surface/key_directions, one for each triangle;
-// then they are smoothed.
+// Directions come from surface/direction_field and surface/key_directions, one for each triangle,
+// and are then smoothed.
 #include "run/domain/model_directions.h"
 
 #include "lang/program/evaluate.h"

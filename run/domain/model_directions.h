@@ -1,5 +1,5 @@
-// Directions on a model, by the settings of scripts: those in which its cells are stretched
-// (`directions` and `stretch` of a domain), and those of `along`.
+// Directions on a model, by the settings of scripts: the directions in which its cells are
+// stretched (`directions` and `stretch` of a domain), and those of `along`.
 #pragma once
 
 #include "core/parallel.h"
@@ -11,9 +11,9 @@
 
 namespace cascade {
 
-/// A direction for each triangle. Directions are lines without a sign: v and −v are the same. Where
-/// the settings leave a direction open, such as an axis that is normal to the surface, it is filled
-/// from the neighbours. The same with any number of threads; meaningless if `cancel` became true.
+/// A direction for each triangle. Directions are lines without a sign: v and −v are the same. A
+/// direction left open by the settings, such as an axis normal to the surface, is filled from the
+/// neighbours. The same with any number of threads. Meaningless if `cancel` became true.
 std::vector<Vector3d> direction_lines(const DirectionSettings& settings, const SurfaceMesh& mesh,
                                       Team& team, const std::atomic<bool>& cancel);
 

@@ -12,16 +12,15 @@
 
 namespace cascade {
 
-/// What to change, in this order.
+/// The changes, applied in this order.
 struct Reshaping {
-    int subdivide = 0;                    ///< How often (mesh/subdivide.h).
-    std::optional<std::size_t> simplify;  ///< The number of triangles to leave (mesh/simplify.h).
+    int subdivide = 0;                    ///< Times (mesh/subdivide.h).
+    std::optional<std::size_t> simplify;  ///< The resulting number of triangles (mesh/simplify.h).
     bool changes() const { return subdivide > 0 || simplify.has_value(); }
 };
 
-/// Changes the mesh. Returns sentences about what became of it. Fails if it would take more memory
-/// than is free, and as subdivide() does. Throws std::bad_alloc. Meaningless if `cancel` became
-/// true.
+/// Changes the mesh. Returns sentences about the result. Fails if it would take more memory than is
+/// free, and as subdivide() does. Throws std::bad_alloc. Meaningless if `cancel` became true.
 Result<std::vector<std::string>> reshape(SurfaceMesh& mesh, const Reshaping& how,
                                          const std::atomic<bool>& cancel);
 

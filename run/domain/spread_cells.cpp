@@ -1,4 +1,4 @@
-// Sizes of cells, weights of links and the planes that formulas read, in units of the domain.
+// Sizes of cells, weights of links and the planes for formulas, in units of the domain.
 #include "run/domain/spread_cells.h"
 
 #include "core/check.h"
@@ -72,8 +72,8 @@ void report(const RunControl& control, std::string what) {
     control.report(progress);
 }
 
-/// Reads the cells from a file in the folder, or makes them and writes the file. Results are
-/// the same either way, so a file that cannot be written is no reason to stop.
+/// Reads the cells from a file in the folder, or makes them and writes the file. Results are the
+/// same either way, so an unwritable file is no reason to stop.
 Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache, const SurfaceMesh& mesh,
                                    const CellOptions& options, Team& team,
                                    const RunControl& control) {

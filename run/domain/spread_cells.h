@@ -1,5 +1,5 @@
-// How the cells of a model are made from its mesh: spread or taken from its faces and points, then
-// linked and laid out in the order of memory.
+// Making a model's cells from its mesh: spread or taken from its faces and points, then linked and
+// laid out in the order of memory.
 #pragma once
 
 #include "run/domain/model_cells.h"
@@ -9,13 +9,13 @@
 
 namespace cascade {
 
-/// What determines the cells besides the mesh.
+/// All that determines the cells besides the mesh.
 struct CellRequest {
     ModelSettings settings;
     std::uint32_t seed = 1;
     Precision precision = Precision::single;
     std::int64_t detail = 1;      ///< As in DomainSettings.
-    std::filesystem::path cache;  ///< Where spread cells are kept; empty: nowhere.
+    std::filesystem::path cache;  ///< Folder for spread cells. Empty: none.
 
     explicit CellRequest(const Program& program, std::filesystem::path kept_in = {})
         : settings(*program.domain.model),
@@ -29,10 +29,10 @@ struct CellRequest {
     /// Fails if there is not enough memory for them, or if a component of the surface would have
     /// none.
     Result<void> check(const SurfaceMesh& mesh) const;
-    /// The cells, read from the cache if they are there. Fails as make_cells() does, so never if
-    /// check() passed and cells are not stretched; meaningless if `control` cancels.
+    /// Reads the cells from the cache or makes them. Fails as make_cells() does, so never if
+    /// check() passed and cells are not stretched. Meaningless if `control` cancels.
     Result<SurfaceCells> make(const SurfaceMesh& mesh, Team& team, const RunControl& control) const;
-    /// With planes and links.
+    /// Adds planes and links.
     SpreadCells linked(const SurfaceMesh& mesh, SurfaceCells cells) const;
 };
 

@@ -1,4 +1,4 @@
-// Each value is made once, when it is first read; distances are capped where no path leads.
+// Makes each value once, on its first reading. Caps distances where no path leads.
 #include "run/domain/surface_values.h"
 
 #include "core/near_name.h"
@@ -26,11 +26,11 @@ namespace cascade {
 
 namespace {
 
-/// Of values that the script reads.
+/// For values read by the script.
 constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
 
-/// The farthest that a formula needs to know of a distance: the largest number with which it is
-/// compared, or infinity if something else is made of it.
+/// The largest distance that a formula needs to know: the largest number with which it is compared,
+/// or infinity if it is used otherwise.
 double reach_needed(const Formula& formula, SurfaceValueId id) {
     constexpr std::array comparisons = {Function::less, Function::less_equal, Function::greater,
                                         Function::greater_equal};
@@ -68,7 +68,7 @@ std::vector<double> key_values(const ModelCells& model, std::span<const double> 
 
 }  // namespace
 
-/// What the distances from all places have in common.
+/// The common data of distances from all positions.
 struct SurfaceValues::Paths {
     NearestPlace nearest;
     std::shared_ptr<const DistanceMesh> mesh;
@@ -144,7 +144,7 @@ void SurfaceValues::make(std::span<const Formula* const> formulas,
             if (!node.is<Builtin>()) continue;
             const auto read = model_plane_of(*node.as<Builtin>());
             if (read && is_made_when_read(*read)) (void)plane(*read);
-            // The cells of the model are made before the run if its formulas read them.
+            // Makes the cells of the model before the run if its formulas read them.
             if (read == ModelPlane::curvature) (void)model_.spread();
         }
     }

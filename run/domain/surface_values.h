@@ -1,4 +1,4 @@
-// Values of a model's cells that come from places on its surface: distances, values of keys,
+// Values of a model's cells derived from positions on its surface: distances, values of keys,
 // curvatures, directions, and attributes of its points.
 #pragma once
 
@@ -27,27 +27,27 @@ inline constexpr double unreachable_distance = 1000;
 /// The default smoothing of keys(…): a standard deviation in longest sides.
 inline constexpr double usual_smoothing = 0.1;
 
-/// Planes that are made when they are first read, and kept. Program, model and team must outlive
-/// this; values may be added to the program. Only one thread at a time.
+/// Planes that are made and stored on their first reading. Program, model and team must outlive
+/// this. Values may be added to the program. Not thread-safe.
 class SurfaceValues {
 public:
     SurfaceValues(const Program& program, const ModelCells& model, Team& team);
     ~SurfaceValues();
 
-    /// Computes the values that formulas read. They are meaningless if `cancel` became true.
+    /// Computes the values read by formulas. They are meaningless if `cancel` became true.
     void make(std::span<const Formula* const> formulas, const std::atomic<bool>& cancel);
 
     const Field& value(SurfaceValueId id);
-    /// Prepares for one evaluation of formulas of a picture or a stroke. These may name new places
-    /// without end, so values that make() did not make are released when none of the last
-    /// `evaluations_kept` evaluations has read them. And they are many a second, so of a distance
-    /// that formulas only compare with numbers, no more is found than these comparisons need.
+    /// Prepares for one evaluation of formulas of a picture or a stroke. These may name new
+    /// positions without end, so a value that make() did not make is released when none of the last
+    /// `evaluations_kept` evaluations has read it. They come many times a second, so distances that
+    /// formulas only compare with numbers are computed only as far as these comparisons need.
     void prepare(std::span<const Formula* const> formulas);
-    /// The number of values that are in memory.
+    /// The number of values in memory.
     std::size_t count() const { return values_.size(); }
     static constexpr std::int64_t evaluations_kept = 16;
 
-    /// One of the planes of a model that are made on demand.
+    /// A plane of the model, made on demand.
     const Field& plane(ModelPlane plane);
 
 private:
@@ -75,7 +75,7 @@ private:
     std::map<ModelPlane, Field> planes_;
 };
 
-/// The values that attr("name") reads. Fails if the points of the model have none of that name.
+/// The values read by attr("name"). Fails if the points of the model have none of that name.
 Result<const PointAttribute*> find_attribute(const std::string& name, const SurfaceMesh& mesh);
 
 /// attr("name") in the cells, interpolated linearly between points. Fails as find_attribute() does.

@@ -1,4 +1,4 @@
-// The arrays are read first. A place is then evaluated in them, or follows from the cube.
+// Reads the arrays first. A position is then evaluated in them, or follows from the cube.
 #include "run/domain/volume_surface.h"
 
 #include "core/printable.h"
@@ -21,10 +21,10 @@ namespace cascade {
 
 namespace {
 
-/// The length of the longest side of a cube, in edges of triangles: of one without volumes, and at
-/// most, since many more would take minutes.
+/// The length of the longest side of a cube, in edges of triangles: without volumes, and the limit,
+/// since many more would take minutes.
 constexpr double usual_edges = 50, most_edges = 100;
-/// The number of places whose values are computed together, so that they stay in the caches.
+/// The number of positions whose values are computed together, so that they stay in the caches.
 constexpr std::size_t places_together = 256;
 
 /// An array in the cube.
@@ -82,7 +82,7 @@ public:
         return {};
     }
 
-    /// Sets values[k] to that at points[k]: below 0 outside of the arrays that fill the cube.
+    /// Sets values[k] to the value at points[k]: below 0 outside of the arrays that fill the cube.
     void at(std::span<const Vector3d> points, std::span<double> values) const {
         std::vector<double> depths(points.size(), std::numeric_limits<double>::infinity());
         const KnownValues known = [&](const Node& node, const auto&, std::span<double> own) {
@@ -108,7 +108,7 @@ public:
         }
     }
 
-    /// The length of the smallest element; `otherwise` if no array fills the cube.
+    /// The length of the smallest element, or `otherwise` if no array fills the cube.
     double element(double otherwise) const {
         double smallest = std::numeric_limits<double>::infinity();
         for (const auto& [text, volume] : volumes_) smallest = std::min(smallest, volume.element);
@@ -117,8 +117,8 @@ public:
     bool reads_volumes() const { return !volumes_.empty(); }
 
 private:
-    /// In an array that fills the cube. Lowers `depth` to the distance from its nearest side, in
-    /// elements; below 0 outside.
+    /// The position in an array that fills the cube. Lowers `depth` to the distance from its
+    /// nearest side, in elements, below 0 outside.
     static FilePlace place_in_cube(const Volume& volume, const Vector3d& point, double& depth) {
         FilePlace place{0.5, 0.5, 0.5};
         const std::array along{point.x, point.y, point.z};
@@ -156,7 +156,7 @@ Result<SurfaceMesh> surface_of_formula(const ModelSettings& settings, const Lite
     ImplicitRequest request;
     request.edge = std::clamp(formula.element(2 * half / usual_edges), 2 * half / most_edges,
                               2 * half / usual_edges);
-    // What is closed by the sides of an array touches those of the cube.
+    // A surface closed by the sides of an array touches the sides of the cube.
     const double reach = formula.reads_volumes() ? half + 2 * request.edge : half;
     request.low = {-reach, -reach, -reach};
     request.high = {reach, reach, reach};

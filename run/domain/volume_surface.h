@@ -11,10 +11,10 @@
 namespace cascade {
 
 /// The surface where the formula of the model is 0, with values above 0 inside. `field` without a
-/// place fills the cube with its array, the longest side from side to side and the others in the
+/// position fills the cube with its array, the longest side from side to side and the others in the
 /// middle: x along rows, y along columns, z along slices. The sides of the array then close the
-/// surface, as they do that of a body (run/tissue/grown_body.h). Triangles are as large as elements
-/// of the largest array, within limits. Fails on a file that cannot be read.
+/// surface, as for a body (run/tissue/grown_body.h). Triangles are as large as elements of the
+/// largest array, within limits. Fails on an unreadable file.
 Result<SurfaceMesh> surface_of_formula(const ModelSettings& settings, const Literals& literals,
                                        const ModelAccess& access, const std::atomic<bool>& cancel);
 
