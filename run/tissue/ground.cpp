@@ -1,5 +1,5 @@
-// Whatever has a value in the cells of the domain can be sensed: it is interpolated at the place
-// nearest to the cell that crawls.
+// Crawling cells can sense everything with a value in the cells of the domain, interpolated at the
+// nearest position.
 #include "run/tissue/ground.h"
 
 #include "core/overloaded.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The mesh of a model in lengths of scripts.
+/// The mesh of a model in script lengths.
 SurfaceMesh in_script_lengths(const SurfaceMesh& mesh) {
     SurfaceMesh scaled = mesh;
     const ModelBox box(mesh);
@@ -19,7 +19,7 @@ SurfaceMesh in_script_lengths(const SurfaceMesh& mesh) {
     return scaled;
 }
 
-/// The sides of a grid's box; a plane has no depth.
+/// The sides of a grid's box. A plane has no depth.
 Vector3d extent_of(const Grid& grid) {
     const auto longest = static_cast<double>(grid.longest_side());
     const auto side = [&](std::int64_t cells) { return static_cast<double>(cells) / longest; };
@@ -53,7 +53,7 @@ std::vector<float> curvature_at_points(const SurfaceMesh& mesh, ModelPlane which
     return values;
 }
 
-/// Is it a plane of the cells themselves?
+/// Whether the plane belongs to the crawling cells themselves.
 bool is_of_tissue(ModelPlane plane) {
     return plane == ModelPlane::number || plane == ModelPlane::area;
 }
@@ -92,7 +92,7 @@ PlaceValue TissueGround::value_of(const Field& field) const {
     return of_cells(*filter_, std::vector<float>(values.begin(), values.end()));
 }
 
-/// The part of a side of the domain's box at which a cell is.
+/// A cell's position along a side of the domain's box, as a part of it.
 PlaceValue TissueGround::part_of_side(std::size_t axis) const {
     const Vector3d extent = model_ != nullptr ? surroundings_->extent() : extent_of(grid_);
     const double side = axis == 0 ? extent.x : axis == 1 ? extent.y : extent.z;

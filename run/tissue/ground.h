@@ -1,4 +1,4 @@
-// Where the cells of a script crawl: on its model, on its plane, in its box, or on a grown body.
+// The ground on which the cells of a script crawl: its model, plane or box, or a grown body.
 #pragma once
 
 #include "run/stage/bound_kernel.h"
@@ -10,20 +10,20 @@
 
 namespace cascade {
 
-/// The surroundings of tissues, in lengths of scripts.
+/// The surroundings of tissues, in script lengths.
 class TissueGround {
 public:
-    /// `model` is null on grids, else it must outlive the ground. Throws std::bad_alloc.
+    /// `model` is null on grids. Otherwise it must outlive the ground. Throws std::bad_alloc.
     TissueGround(const Grid& grid, const ModelCells* model);
-    /// On the surface of a body in the volume of a grid, in lengths of scripts.
+    /// On the surface of a body in the volume of a grid, in script lengths.
     TissueGround(const Grid& grid, SurfaceMesh body);
 
     const std::shared_ptr<const Surroundings>& surroundings() const { return surroundings_; }
-    /// The surface of a body; null elsewhere.
+    /// The surface of a body. Null without one.
     const SurfaceMesh* body() const { return model_ == nullptr ? mesh_.get() : nullptr; }
 
-    /// What a cell senses by the name of a plane. Values in the cells of the domain are those of
-    /// the moment, taken through `fields`, which reads the domain's own planes.
+    /// The value that a cell senses by the name of a plane. Values in the cells of the domain are
+    /// current, read through `fields`, which reads the domain's own planes.
     Sense sense_of(const PlaneSource& source, const BindingContext& fields) const;
 
 private:
@@ -32,8 +32,8 @@ private:
 
     Grid grid_;
     const ModelCells* model_;
-    std::unique_ptr<SurfaceMesh> mesh_;  ///< Of a model or a body; else null.
-    /// Of a model, made by the first value that is read in its cells.
+    std::unique_ptr<SurfaceMesh> mesh_;  ///< The model's or the body's. Otherwise null.
+    /// The model's filter, made for the first value read in its cells.
     mutable std::unique_ptr<CellFilter> filter_;
     std::shared_ptr<const Surroundings> surroundings_;
 };

@@ -1,4 +1,4 @@
-// An implicit surface, made of the values between the centres of the grid's cells.
+// An implicit surface by the values between the centres of the grid's cells.
 #include "run/tissue/grown_body.h"
 
 #include "mesh/implicit_surface.h"

@@ -1,4 +1,4 @@
-// The equations of a stage of cells that crawl, as the time loop of a tissue asks for them.
+// The equations of a stage of cells that crawl, for the time loop of a tissue.
 #pragma once
 
 #include "run/stage/stage_plans.h"
@@ -20,8 +20,8 @@ class ScriptRules : public TissueRules {
 public:
     struct Makers {
         StagePlans& plans;
-        Compile steps;   ///< Of steps and rates.
-        Compile seldom;  ///< Of what is evaluated at divisions.
+        Compile steps;   ///< For steps and rates.
+        Compile seldom;  ///< For formulas evaluated at divisions.
     };
     ScriptRules(TissueStage stage, Makers makers, std::shared_ptr<NearTriangles> near);
 
@@ -33,7 +33,7 @@ public:
     Restarts restarts() override { return {values_of(restarts_, makers_.seldom), restarted_}; }
 
 private:
-    /// Values that formulas give, bound when they are first asked for.
+    /// Values of formulas, bound on the first request.
     struct Values {
         std::optional<StepPlan> plan;
         std::unique_ptr<StepProblem> problem;
@@ -53,7 +53,7 @@ private:
         std::unique_ptr<StepProblem> problem;
         std::vector<RegisterId> states;
     };
-    std::map<std::uint32_t, Step> steps_;  ///< By the number of stages.
+    std::map<std::uint32_t, Step> steps_;  ///< By number of stages.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Sensing is a kernel of its own, made for all that the plans read.
+// Sensing is a separate kernel for everything that the plans read.
 #include "run/tissue/tissue_binding.h"
 
 #include "run/stage/plan_runner.h"
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// The links between cells as they lie in memory.
+/// The links between cells in the order of memory.
 Result<Links> links_between(const Tissue& tissue, const TissueStage& stage,
                             const NeighbourRule& rule, Team& team) {
     const auto number = [&](SpeciesId species, std::size_t cell) {

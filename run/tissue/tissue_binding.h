@@ -1,4 +1,4 @@
-// What plans of a stage of cells that crawl read of these cells, and values of such plans.
+// Data of crawling cells for the plans of their stage, and values of such plans.
 #pragma once
 
 #include "core/result.h"
@@ -13,12 +13,12 @@
 
 namespace cascade {
 
-/// A stage of cells that crawl, and all that it shares with others.
+/// A stage of cells that crawl, and everything it shares with others.
 struct TissueStage {
     const Program& program;
     std::uint32_t stage = 0;
     const TissueGround& ground;
-    BindingContext fields;  ///< Of the stage, without its tissue: what its cells sense.
+    BindingContext fields;  ///< The stage without its tissue, for the cells' senses.
 
     const System& system() const { return program.system_of(stage); }
     const CellRules& rules() const { return *system().cells; }
@@ -27,16 +27,15 @@ struct TissueStage {
     }
 };
 
-/// The binding of plans to a tissue. Links are left out. Values that cells sense are those of the
-/// moment.
+/// The binding of plans to a tissue, without links. Values that cells sense are current.
 TissueBinding binding_of(const TissueStage& stage, const Tissue& tissue,
                          std::span<const StepPlan* const> plans,
                          std::shared_ptr<NearTriangles> near);
 
-/// Does a plan read other cells by links?
+/// Whether a plan reads other cells by links.
 bool reads_links(const StepPlan& plan);
 
-/// Which cells are neighbours, given the distance of the widest `over near(d)`.
+/// The rule of neighbours, given the distance of the widest `over near(d)`.
 NeighbourRule neighbours_of(const TissueStage& stage, double near);
 
 /// The values of a plan in the cells of a tissue at its present state, in the order of memory.
