@@ -1,4 +1,4 @@
-// Scales the body and leaves the rest to the writer of levels.
+// Scales the body and calls the writer of levels.
 #include "run/pictures/body_file.h"
 
 #include "core/enough_memory.h"

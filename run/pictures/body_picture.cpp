@@ -1,4 +1,4 @@
-// A body is drawn as that on which cells crawl, without any cells.
+// A body is drawn like the body below crawling cells, without any cells.
 #include "run/pictures/body_picture.h"
 
 #include "core/counted_cells.h"
@@ -42,7 +42,7 @@ std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask
             value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
         },
         inside);
-    constexpr double coarsest = 64;  // Cells of an edge, with which every grid is small.
+    constexpr double coarsest = 64;  // Cells per edge. Every grid is small with these.
     for (double edge = 1; edge < coarsest; edge *= 2) {
         auto body = grown_body(inside, boundary, never_cancelled, edge);
         if (body) return std::make_shared<const SurfaceMesh>(*std::move(body));

@@ -1,5 +1,4 @@
-// The body of a volume: the surface around the cells in which the picture block's `body` is above
-// 0.
+// The body of a volume: the surface around the cells where the picture block's `body` is above 0.
 #pragma once
 
 #include "core/parallel.h"
@@ -16,18 +15,18 @@
 
 namespace cascade {
 
-/// Do pictures of the script show a body? --slice and --flat show a slice instead.
+/// Whether pictures of the script show a body. --slice and --flat show a slice instead.
 bool draws_body(const Script& script, const PictureRequest& request);
 
-/// The closed surface around the cells whose values are above 0, in lengths of scripts
+/// The closed surface around the cells whose values are above 0, in script lengths
 /// (run/tissue/grown_body.h). NaN and cells outside of `mask`, which may be null, are not inside.
-/// Its triangles are larger than cells where it would have more than implicit_surface() makes.
-/// Without points if no value is above 0. Throws std::bad_alloc.
+/// Its triangles are larger than cells where it would exceed implicit_surface()'s limit. Without
+/// points if no value is above 0. Throws std::bad_alloc.
 std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask* mask,
                                            Boundaries boundary);
 
 /// The values of a volume's cells, interpolated linearly to the points of a body: one row of
-/// binary32, a single NaN if there are none.
+/// binary32, or a single NaN if there are none.
 Field at_points(const Field& values, const SurfaceMesh& body, Boundaries boundary);
 
 /// Draws a body with these colours (sRGB) at its points. Throws std::bad_alloc.

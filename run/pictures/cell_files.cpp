@@ -1,4 +1,4 @@
-// Scripts know models upright and of length 1; files have the coordinates of the model's file.
+// Scripts use upright models of length 1. Files use the coordinates of the model's file.
 #include "run/pictures/cell_files.h"
 
 #include "core/file_format.h"
@@ -20,7 +20,7 @@ namespace cascade {
 
 namespace {
 
-/// From lengths of scripts to the coordinates of a file.
+/// Converts script lengths to the coordinates of a file.
 class FilePlaces {
 public:
     explicit FilePlaces(const ModelCells* model) {
@@ -46,7 +46,7 @@ private:
 /// Facets of the things in files are as fine as in a picture of this height.
 constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
-/// The things that a picture shows, in the coordinates of the model's file.
+/// The things in a picture, in the coordinates of the model's file.
 Instances things_in_file(const GrownCells& cells) {
     const auto model = cells.simulation.model();
     const FilePlaces in_file(model.get());
@@ -73,7 +73,7 @@ public:
         colours.coat = drawn.coat->painted();
     }
 
-    /// Gives the points of the mesh colours; they become more if there is a coat.
+    /// Colours the points of the mesh. A coat adds points.
     std::vector<Colour> colour_points() {
         if (!filter_) return std::vector<Colour>(mesh.points.size(), colours.colour);
         RefinedMesh fine = refined_for_colours(mesh, model_.spread().cells);

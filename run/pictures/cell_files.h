@@ -1,4 +1,4 @@
-// Cells that crawl as the files of `-o`: instances or triangles for other programs, and tables.
+// Crawling cells as files of `-o`: instances or triangles for other programs, and tables.
 #pragma once
 
 #include "core/result.h"
@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Cells, their colours (sRGB, by cell in the order of numbers) and where they are.
+/// Cells, their colours (sRGB, by cell in the order of numbers) and their surroundings.
 struct GrownCells {
     const Simulation& simulation;
     std::uint32_t stage = 0;
@@ -20,10 +20,10 @@ struct GrownCells {
 };
 
 /// Writes them in the coordinates of the model's file or, without a model, of scripts: .glb and
-/// .obj with the things that a picture shows, .npz and .cells.vtp with the cells and all their
-/// values; a .glb that is_baked() is the model alone, with maps that show the things, into which
-/// the texts are written. `texture` are the model's texture coordinates; if it is empty they stay
-/// as they are. Throws std::bad_alloc. Fails as the writers of export/ do.
+/// .obj with the things in a picture, .npz and .cells.vtp with the cells and all their values. A
+/// .glb that is_baked() is the model alone, with maps that show the things and carry the texts.
+/// `texture` are the model's texture coordinates. If it is empty they stay unchanged. Throws
+/// std::bad_alloc. Fails as the writers of export/ do.
 Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
                                  const MeshTexture& texture, const ModelFileOptions& options,
                                  const PngTexts& texts);

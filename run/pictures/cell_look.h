@@ -1,4 +1,4 @@
-// The look of cells in files and pictures: the values of a canvas, what colours they mean, and the
+// The appearance of cells in files and pictures: the values of a canvas, their colours, and the
 // material.
 #pragma once
 
@@ -19,15 +19,15 @@ struct CellLook {
     std::vector<float> values;  ///< `channels` numbers per cell, cell after cell.
     PlaceColour colour;
     ValueColours colours;
-    std::vector<float> heights;  ///< One per cell, in units of the model or plane; empty for none.
+    std::vector<float> heights;  ///< One per cell, in units of the model or plane. May be empty.
     Material material;
-    bool displaces = false;  ///< Heights move the surface; else they only bend its normals.
+    bool displaces = false;  ///< Heights move the surface. Otherwise they only bend its normals.
 
     /// A number for the palette, to which the range applies, or red, green and blue.
     CellLook(const Canvas& canvas, ValueRange range, const Palette& palette,
              const InOrder& in_order);
 
-    /// Refers to the look. Without occlusion, which depends on the surface.
+    /// Refers to this object. Without occlusion, which depends on the surface.
     PaintedCells painted() const {
         return {channels, values, colour, heights, material.cells(), displaces, colours};
     }

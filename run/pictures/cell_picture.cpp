@@ -1,5 +1,5 @@
-// Cells are blurred into levels, each twice as wide as the last, as in a mipmap; a sample blends
-// the two levels that match its footprint on the surface.
+// Blurs cells into levels, each twice as wide as the last, as in a mipmap. A sample blends the two
+// levels that match its footprint on the surface.
 #include "run/pictures/cell_picture.h"
 
 #include "core/check.h"
@@ -41,7 +41,7 @@ Colour mix(const Colour& a, const Colour& b, float part) {
     return result;
 }
 
-/// By cell: reflected light, and height in filter radii; with a material also emitted light,
+/// By cell: reflected light, and height in filter radii. With a material also emitted light,
 /// roughness and metalness.
 struct CellState {
     static constexpr std::size_t height = 3, glow = 4, roughness = 7, metalness = 8;
@@ -54,7 +54,7 @@ struct CellState {
     bool shines, glows;
     std::size_t size;
 
-    /// Sets what a cell has of a material.
+    /// Sets a cell's parts of a material.
     void take(const MaterialCells& material, std::size_t cell, float* state) const {
         const auto part = [&](MaterialPart each, float usual) {
             return material[each].empty() ? usual : material[each][cell];
@@ -69,7 +69,7 @@ struct CellState {
     }
 };
 
-/// Level 0 has the cells unfiltered; level k ≥ 1 has, together with the filter, the standard
+/// Level 0 has the cells unfiltered. Level k ≥ 1 has, together with the filter, the standard
 /// deviation 2^k / 2 spacings, that of a sample 2^k spacings wide.
 using Levels = std::vector<std::vector<float>>;
 
@@ -94,12 +94,12 @@ void add_levels(const SurfaceCells& cells, const CellState& parts, float highest
     }
 }
 
-/// The drawn mesh, which may be a refined copy of that on which cells lie.
+/// The drawn mesh, which may be a refined copy of the cells' mesh.
 struct Ground {
     const TriangleMesh& mesh;
-    std::span<const TriangleOrigin> origins;  ///< Of its triangles; empty if it is the same.
+    std::span<const TriangleOrigin> origins;  ///< By triangle. Empty if it is the same mesh.
 
-    /// Where cells see a hit.
+    /// The position of a hit for the cells.
     SurfacePlace place_of(const Hit& hit) const {
         const auto u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
         const std::array<double, 3> weights = {1 - u - v, u, v};
@@ -119,7 +119,7 @@ public:
           levels_(levels),
           spacing_(spacing) {}
 
-    /// The colour at a place seen from near, that of the filtered values.
+    /// The colour at a position seen from near, from the filtered values.
     Colour light_of_cell(const SurfacePlace& place) const {
         std::vector<CellShare> shares;
         filter_.shares(place, shares);
@@ -239,7 +239,7 @@ private:
     float spacing_;
 };
 
-/// The opacity at a hit, which is that of near places, however far the camera is. Holes have sharp
+/// The opacity at a hit, taken from near positions even if the camera is far. Holes have sharp
 /// edges, as in GLB files.
 class Opacity {
 public:
@@ -275,7 +275,7 @@ float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
 
 }  // namespace
 
-/// A raised surface, drawn where the surface is.
+/// A raised surface, drawn in place of the original one.
 struct CellScene::Raised {
     std::vector<float> heights;
     RefinedMesh fine;

@@ -23,9 +23,9 @@ public:
     /// cell, the colours of the cells are used, blurred by diffusion to the footprint's width. Sets
     /// `round_shadows` of the options. Bumps change the shading but not the outline. The picture
     /// does not depend on the number of threads. `copies` stand on the surface, in the coordinates
-    /// of drawn(). Throws std::bad_alloc.
-    /// If the look displaces, heights move the surface instead, and copies stay where they are. The
-    /// raised surface is kept for the next picture with the same heights.
+    /// of drawn(). If the look displaces, heights move the surface instead, and copies stay in
+    /// place. The raised surface is kept for the next picture with the same heights. Throws
+    /// std::bad_alloc.
     Image draw(const PaintedCells& look, DrawOptions options, Team& team,
                const Instances* copies = nullptr);
 
@@ -43,7 +43,7 @@ private:
     RayCaster caster_;
     CellFilter filter_;
     std::unique_ptr<const Raised> raised_;  ///< By the last heights that displaced it.
-    float spacing_ = 0;                     ///< Of cells, in units of the mesh.
+    float spacing_ = 0;                     ///< The cells' spacing, in units of the mesh.
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Rays are traced in the coordinates of the drawn mesh, in which the longest side is 1.
+// Traces rays in the coordinates of the drawn mesh, in which the longest side is 1.
 #include "run/pictures/cells_from_outside.h"
 
 #include "picture/srgb.h"
@@ -11,16 +11,16 @@ namespace cascade {
 
 namespace {
 
-/// Rays begin so far outside of the surface that they do not hit where they begin.
+/// Rays begin at this distance from the surface, so that they do not hit it there.
 constexpr float clearance = 1e-5F;
 
 Vector3d in_double(const Vector3& a) {
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
 
-/// How far the copies may reach from the surface, above which their places may lie.
+/// The copies' farthest reach from the surface. Their positions may lie above it.
 float farthest_of(const Instances& copies) {
-    std::vector<Vector3> corners;  // Of the meshes' boxes, the farthest along each axis.
+    std::vector<Vector3> corners;  // The farthest corners of the meshes' boxes along each axis.
     for (const TriangleMesh& mesh : copies.meshes) {
         Vector3 corner;
         for (const Vector3& p : mesh.positions) {

@@ -1,5 +1,5 @@
-// A surface and the things that stand on it, as rays from outside see them: for maps by which the
-// surface alone looks like both from far away.
+// A surface and the things on it, as seen by rays from outside: for maps with which the surface
+// alone resembles both from far away.
 #pragma once
 
 #include "export/painted_cells.h"
@@ -14,8 +14,8 @@
 namespace cascade {
 
 /// Rays go along the smooth normals of the surface, against their direction, and begin as far away
-/// as things reach; where another part of the surface is nearer, in the middle between both.
-/// Thread-safe. Refers to the mesh, which must outlive it.
+/// as things reach. Where another part of the surface is nearer, they begin in the middle between
+/// both. Thread-safe. Refers to the mesh, which must outlive it.
 class CellsFromOutside {
 public:
     /// Copies are in the coordinates of the mesh. Throws std::bad_alloc.
@@ -28,7 +28,7 @@ public:
         double height = 0;  ///< Above the surface, in the unit of the mesh.
         Vector3d normal;    ///< Of length 1.
     };
-    /// What is seen above a place; nothing if it is the surface itself.
+    /// The thing seen above a position. Empty for the surface itself.
     std::optional<Thing> above(const SurfacePlace& place) const;
 
 private:
@@ -43,11 +43,11 @@ private:
 /// The surface below the things: one colour, or a coat.
 struct SkinColours {
     Colour colour{};                     ///< sRGB.
-    const CellFilter* filter = nullptr;  ///< With a coat, else null.
+    const CellFilter* filter = nullptr;  ///< With a coat. Otherwise null.
     PaintedCells coat;
 };
 
-/// Paints what is seen from outside. What it is made from must outlive it.
+/// Paints the view from outside. Its sources must outlive it.
 class OutsideSamples : public SamplePainter {
 public:
     OutsideSamples(const CellsFromOutside& cells, const SkinColours& skin);

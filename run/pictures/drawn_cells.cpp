@@ -25,17 +25,17 @@ namespace cascade {
 
 namespace {
 
-/// Facets follow the form; their edges may be long.
+/// Facets follow the form. Their edges may be long.
 constexpr double longest_facet = 2 * largest_of_shape;
 
-/// The settings of the picture block that are numbers of every shape.
+/// The number settings of the picture block that every shape has.
 struct Measure {
     enum Kind : std::size_t { width, length, height, tilt };
 };
 constexpr std::array<std::string_view, 4> measure_names{"width", "length", "height", "tilt"};
 
-/// The values of settings of the picture block that are numbers, in the order of the cells'
-/// numbers; empty where the script does not say one.
+/// The values of the picture block's number settings, in the order of the cells' numbers. Empty
+/// where the script sets none.
 std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& simulation,
                                             std::uint32_t stage,
                                             std::span<const std::string> names) {
@@ -63,7 +63,7 @@ std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& si
     return numbers;
 }
 
-/// The colours of a body's points; those of a canvas are in the cells of its grid.
+/// The colours of a body's points. A canvas has colours in the cells of its grid.
 std::vector<Colour> colours_on(const SurfaceMesh& body, const Canvas& canvas, Boundaries boundary) {
     std::array<PlaceValue, 3> channels;
     for (std::size_t k = 0; k < channels.size(); ++k) {
@@ -83,7 +83,7 @@ std::vector<Colour> colours_on(const SurfaceMesh& body, const Canvas& canvas, Bo
     return colours;
 }
 
-/// The colours of the surface below the cells, where the script says them.
+/// The colours of the surface below the cells, where the script sets them.
 void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage,
                DrawnCells& drawn) {
     const auto expression = picture_expression(script.tree, "skin");
@@ -114,16 +114,16 @@ void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage
     }
 }
 
-/// About the x axis, from y towards z.
+/// A rotation about the x axis, from y towards z.
 Quaternion leaning(double degrees) {
     const double half = degrees * std::numbers::pi / 360;
     return {std::cos(half), std::sin(half), 0, 0};
 }
 
-/// The shape of each cell, and what is wrong with some.
+/// The shape of each cell, and the faults of some.
 struct CellShapes {
     SharedShapes shared;
-    std::vector<std::string> faults;  ///< By shape; "" for sound ones.
+    std::vector<std::string> faults;  ///< By shape. "" for sound ones.
 };
 
 CellShapes shapes_of(const ShapeForm& form, std::vector<QuantityValues> values, std::size_t count) {
@@ -292,7 +292,7 @@ DrawnCells drawn_cells(Script& script, const Simulation& simulation, std::uint32
 
 namespace {
 
-/// Facets are at most 2^-level from a shape of the usual size.
+/// Facets are at most 2^-level from a shape of the default size.
 constexpr int coarsest_level = 2, finest_level = 8;
 
 int level_of(const Vector3d& scale, double pixels, double detail) {
@@ -331,7 +331,7 @@ Instances instances_of(const DrawnCells& cells, double pixels, double detail) {
         const auto each = static_cast<std::size_t>(team.size());
         for (auto k = static_cast<std::size_t>(thread); k < wanted.size(); k += each) {
             const SweptDetail fineness{longest_facet, std::exp2(-wanted[k].level)};
-            // What is not sound after all has no triangles.
+            // A shape that turns out unsound has no triangles.
             auto mesh = mesh_of(parts_of(cells.form, cells.shapes[wanted[k].shape]), fineness);
             if (mesh) instances.meshes[k] = std::move(*mesh);
         }

@@ -1,4 +1,4 @@
-// Places the parts of a figure; picture/axes draws ticks and frames.
+// Arranges the parts of a figure. picture/axes draws ticks and frames.
 #include "run/pictures/figure.h"
 
 #include "core/check.h"
@@ -16,7 +16,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double figure_side = 480, least_figure_side = 40;  // Of pictures.
+constexpr double figure_side = 480, least_figure_side = 40;  // Sides of pictures.
 constexpr double title_height = 44, margin = 24;
 constexpr double numbers_left = 76, numbers_below = 52;
 constexpr double bar_gap = 22, bar_width = 15, bar_numbers = 76;
@@ -54,7 +54,7 @@ void draw_bar(Drawing& drawing, const ColourBar& bar, const AxisBox& box) {
         DrawnImage{{box.left, box.top}, bar_width, box.bottom - box.top, image_of(*bar.palette)});
     const AxisBox frame{box.left, box.top, box.left + bar_width, box.bottom};
     draw_frame(drawing, frame);
-    // A field that is the same everywhere has the middle of the palette.
+    // A uniform field has the middle of the palette.
     const AxisRange range =
         low == high ? AxisRange{low - 1, high + 1, {}} : AxisRange{low, high, {}};
     const std::vector<double> ticks = low == high ? std::vector<double>{low} : ticks_of(range, 6);

@@ -1,4 +1,4 @@
-// Figures of papers: a picture with axes in lengths and a bar of its colours, or a curve.
+// Figures for papers: a picture with axes in lengths and a bar of its colours, or a curve.
 #pragma once
 
 #include "core/palette.h"
@@ -12,21 +12,21 @@
 
 namespace cascade {
 
-/// What the colours of a picture mean.
+/// The meaning of a picture's colours.
 struct ColourBar {
     const Palette* palette = nullptr;
     ValueRange range;  ///< The values at the two ends of the palette.
-    std::string name;  ///< Of the number that is shown.
+    std::string name;  ///< The name of the number shown.
 };
 
-/// A rectangle of the plane in lengths, of which the picture is: x runs to the right and y down.
+/// The rectangle of the plane covered by a picture, in lengths: x runs to the right and y down.
 struct PlaneExtent {
     double width = 1, height = 1;
     std::string across = "x", down = "y";
 };
 
-/// The picture with its title above it, ticks at its sides if it is of a plane, and a bar at its
-/// right if its colours stand for numbers. A plane keeps its proportions up to 1 : 12.
+/// The picture with its title above it, ticks at its sides if it shows a plane, and a bar at its
+/// right if its colours represent numbers. A plane keeps its proportions up to 1 : 12.
 Drawing draw_figure(const Image& picture, const std::string& title,
                     const std::optional<PlaneExtent>& plane, const std::optional<ColourBar>& bar);
 

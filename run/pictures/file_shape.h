@@ -10,10 +10,10 @@
 namespace cascade {
 
 /// A model as a shape: moved and stretched so that it reaches from −1 to 1 in x and z, and from 0
-/// to 1 in y, which points upwards in the file. Where it is flat it stays so.
+/// to 1 in y, which points upwards in the file. Flat directions remain flat.
 struct FileShape {
     TriangleMesh mesh;
-    double length = 1, height = 1;  ///< Of the model, as multiples of its width.
+    double length = 1, height = 1;  ///< The model's, as multiples of its width.
 };
 
 /// Fails if the script may not read the file, and as read_model() and make_mesh() do. Throws

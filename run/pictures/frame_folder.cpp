@@ -1,4 +1,4 @@
-// Frames are recognised by the form of their names and by the script in their text chunks.
+// Recognises frames by the form of their names and by the script in their text chunks.
 #include "run/pictures/frame_folder.h"
 
 #include "core/file_format.h"

@@ -17,7 +17,7 @@ bool is_called_like_a_movie(const std::filesystem::path& path);
 /// "0012-large-0003400.png": the name of frame `number`.
 std::string frame_name(std::size_t number, const std::string& stage, std::int64_t step);
 
-/// The frames of an earlier run of a script with the same name in the folder, which are removed
+/// The frames of an earlier run of a script with the same name in the folder. They are removed
 /// after new ones have been written. Fails if there are frames of another script or of unknown
 /// origin, or any at all if the run is resumed. Other files are ignored.
 Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem::path& folder,

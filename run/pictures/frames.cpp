@@ -1,4 +1,4 @@
-// Planes are written to an unnamed temporary file and painted after the run, when their range is
+// Writes planes to an unnamed temporary file and paints them after the run, when their range is
 // known.
 #include "run/pictures/frames.h"
 
@@ -30,7 +30,7 @@ std::size_t plane_size(const PlaneLayout& layout) {
 const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
 
-/// The last of the planes, if it has this layout, else a new one.
+/// The last of the planes, if it has this layout. Otherwise a new one.
 Field reused_plane(const PlaneLayout& layout, std::vector<Field>& planes) {
     if (planes.empty()) return Field(layout);
     Field plane = std::move(planes.back());
@@ -168,9 +168,9 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame, std::vector<Field> p
     return canvas;
 }
 
-/// As many as have room for a picture and what it is encoded from, in half of the free memory.
+/// As many as have room for a picture and its encoder's input, in half of the free memory.
 int FrameRecorder::threads_for(const Painter& painter, int threads) const {
-    // Pictures of surfaces, and smooth ones, are drawn by all threads together.
+    // All threads together draw a picture of a surface, or a smooth one.
     if (frames_.empty() || !painter.has_square_cells() || shows_cells()) return 1;
     constexpr std::uint64_t bytes_of_pixel = 40;
     const auto [across, down] = painter.request().copies;
@@ -186,7 +186,7 @@ int FrameRecorder::threads_for(const Painter& painter, int threads) const {
 
 Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, int threads,
                                          const std::atomic<bool>& cancel, const UseCanvas& use) {
-    std::mutex mutex;  // Of the following, and of the file.
+    std::mutex mutex;  // For the following members and the file.
     std::condition_variable is_done;
     std::size_t begun = 0, done = 0;
     std::optional<Failure> failed;

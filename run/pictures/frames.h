@@ -18,20 +18,20 @@
 
 namespace cascade {
 
-/// Stores the values of frames in an unnamed temporary file, since those of a long run may not fit
-/// into memory, and draws them at the end.
+/// Stores the values of frames in an unnamed temporary file, since a long run may not fit into
+/// memory, and draws them at the end.
 class FrameRecorder {
 public:
-    /// `keep_values` is for pictures and films; `space_time` for a space-time picture, whose rows
-    /// are kept in memory.
+    /// `keep_values` is for pictures and films. `space_time` is for a space-time picture, whose
+    /// rows stay in memory.
     static Result<FrameRecorder> create(bool keep_values, bool space_time);
 
-    /// Adds a frame. A full disk is remembered for failure().
-    /// `label` is drawn into a corner of its picture, if it is not empty and the picture has room.
+    /// Adds a frame. A full disk is remembered for failure(). `label` is drawn into a corner of its
+    /// picture, if it is not empty and the picture has room.
     void record(const Canvas& canvas, const std::string& stage, std::int64_t step,
                 std::string label = "");
     std::optional<Failure> failure() const { return failure_; }
-    /// True if no frame is of a stage that has taken a step.
+    /// True if every frame shows a stage before its first step.
     bool holds_starts_alone() const;
 
     std::size_t count() const { return frames_.size(); }
@@ -40,7 +40,7 @@ public:
     /// The range of all frames.
     ValueRange range() const { return automatic_range(values_); }
 
-    /// What remains to be done with a picture once those before it are done.
+    /// The rest of a picture's work, done once the pictures before it are done.
     using InOrder = std::function<Result<void>()>;
     /// Takes the picture of frame `number`, on several threads at once.
     using UseImage = std::function<Result<InOrder>(std::size_t number, const Image& image)>;
@@ -50,8 +50,8 @@ public:
     Result<void> draw(Painter& painter, std::span<const std::size_t> numbers, int threads,
                       const std::atomic<bool>& cancel, const UseImage& use);
 
-    /// Draws every frame as NUMBER-STAGE-STEP.png into the folder. On failure there are those
-    /// before the one that failed, and no others.
+    /// Draws every frame as NUMBER-STAGE-STEP.png into the folder. A failure leaves only the frames
+    /// before the failed one.
     Result<std::vector<std::filesystem::path>> write(const std::filesystem::path& folder,
                                                      Painter& painter, const PngTexts& texts,
                                                      int threads);
@@ -65,29 +65,28 @@ private:
         std::int64_t step = 0;
         std::string label;
         std::size_t planes = 1;
-        std::bitset<2 + material_parts> extras;  ///< Which of extra_planes() follow.
+        std::bitset<2 + material_parts> extras;  ///< Marks those of extra_planes() that follow.
         PlaneLayout layout;
-        std::int64_t place = 0;  ///< Of its values in the file, in bytes.
-        /// Of a stage of cells that crawl; the vectors with an entry for each of them are in the
-        /// file.
+        std::int64_t place = 0;  ///< The offset of its values in the file, in bytes.
+        /// For a stage of crawling cells. Vectors with an entry for each of them are in the file.
         std::shared_ptr<const DrawnCells> cells;
         std::size_t placements = 0, colours = 0;  ///< The lengths of these vectors.
         bool has_body = false;                    ///< Canvas::body is in the file, …
-        std::size_t points = 0, triangles = 0;    ///< … with these.
+        std::size_t points = 0, triangles = 0;    ///< … with these counts.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
 
-    /// Takes the values of frame `number`, on several threads at once. `image` is its own for each
-    /// thread, and keeps its memory from frame to frame.
+    /// Takes the values of frame `number`, on several threads at once. Each thread has its own
+    /// `image`, which keeps its memory from frame to frame.
     using UseCanvas =
         std::function<Result<InOrder>(std::size_t number, const Canvas& canvas, Image& image)>;
     Result<void> use_canvases(std::span<const std::size_t> numbers, int threads,
                               const std::atomic<bool>& cancel, const UseCanvas& use);
     void draw_one(Painter& painter, std::size_t number, const Canvas& canvas, Image& image) const;
     int threads_for(const Painter& painter, int threads) const;
-    /// Is a frame of cells that crawl among them?
+    /// Whether any frame shows crawling cells.
     bool shows_cells() const;
     bool keep(const Field& field);
     bool keep_cells(const DrawnCells& cells, Frame& frame);
@@ -104,7 +103,7 @@ private:
     std::int64_t kept_ = 0;  ///< Bytes in the file.
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
-    Spread values_;  ///< Of all frames.
+    Spread values_;  ///< For all frames.
     std::optional<Failure> failure_;
 };
 

@@ -1,4 +1,4 @@
-// N × N texels, of which a part is covered, are shared by all cells.
+// All cells share N × N texels, of which a part is covered.
 #include "run/pictures/map_size.h"
 
 #include "atlas/texture_facts.h"
@@ -20,7 +20,7 @@ double side_needed(double texels_per_cell, std::int64_t cells, double covered) {
 
 double covered_by(const ModelCells& model, const MeshTexture& texture) {
     const SurfaceMesh mesh = mesh_in_files(model, texture);
-    // A texture that covers next to nothing is refused or warned of elsewhere.
+    // A texture that covers next to nothing is refused or reported elsewhere.
     return std::max(texture_facts(mesh).covered, 1e-4);
 }
 
@@ -36,7 +36,7 @@ MapSize map_size_for(double texels_per_cell, const Simulation& simulation,
                      const MeshTexture& texture) {
     constexpr std::int64_t most = ModelFileOptions::most_texels;
     std::int64_t wanted = 0;
-    double cells_along = 0;  // As many cells side by side are as wide as the map.
+    double cells_along = 0;  // The number of cells side by side that span the map.
     if (const auto model = simulation.model()) {
         const double covered = covered_by(*model, texture);
         const auto count = static_cast<std::int64_t>(model->count());

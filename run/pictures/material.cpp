@@ -1,4 +1,4 @@
-// Each setting is a formula of its own, like the colour.
+// Each setting is a separate formula, like the colour.
 #include "run/pictures/material.h"
 
 #include "lang/check/check.h"
@@ -15,11 +15,11 @@ namespace cascade {
 
 namespace {
 
-/// A setting that is a number of its own.
+/// A setting that is a single number.
 struct NumberSetting {
     std::string_view name;
     MaterialPart part;
-    float usual;  ///< Where a cell has none.
+    float usual;  ///< For cells without one.
 };
 constexpr std::array<NumberSetting, 3> number_settings = {{
     {"roughness", MaterialPart::roughness, 0.6F},
@@ -29,7 +29,7 @@ constexpr std::array<NumberSetting, 3> number_settings = {{
 constexpr std::array<MaterialPart, 3> emission_parts = {MaterialPart::red, MaterialPart::green,
                                                         MaterialPart::blue};
 
-/// The numbers from 0 to 1 of all cells, and in how many of those inside they had to be changed.
+/// The numbers from 0 to 1 of all cells, and in how many cells inside they had to change.
 std::vector<float> clamped(const std::vector<double>& values, float usual,
                            std::span<const std::uint8_t> inside, std::size_t& changed) {
     std::vector<float> result;
@@ -49,7 +49,7 @@ std::vector<Field> setting_values(const Script& script, std::string_view setting
                                   std::uint32_t last_stage) {
     const auto expression = picture_expression(script.tree, setting);
     if (!expression) return {};
-    Diagnostics unspoken;  // Errors were reported on loading; here a name may have no value yet.
+    Diagnostics unspoken;  // Errors were reported on loading. Here a name may have no value yet.
     const auto formula = check_view(script.tree, *expression, stage, last_stage, *script.program,
                                     script.sources, unspoken);
     return formula ? evaluate(*formula) : std::vector<Field>();
@@ -93,7 +93,7 @@ Material::Material(const MaterialFields& fields,
     }
     for (const MaterialPart part : emission_parts) {
         const Field& field = fields.parts[part];
-        std::size_t unspoken = 0;  // Colours are clamped without a word.
+        std::size_t unspoken = 0;  // Colours are clamped without a message.
         if (!field.empty()) parts[part] = clamped(in_order(field), 0, inside, unspoken);
     }
     if (fields.height.empty()) return;

@@ -1,4 +1,4 @@
-// If the picture shows colours, the stage's default number is measured.
+// If the picture shows colours, measures the stage's default number.
 #include "run/pictures/measured.h"
 
 #include "core/spread.h"

@@ -1,4 +1,4 @@
-// Features of what a picture shows, measured by measure/.
+// Features of a picture's number, measured by measure/.
 #pragma once
 
 #include "core/plane.h"
@@ -8,12 +8,12 @@
 
 namespace cascade {
 
-/// The number that a picture shows, in all cells, also of a volume. For a colour it is the number
-/// that the stage shows by default (its `show`, or its last species).
+/// The number in a picture, in all cells, also of a volume. For a colour it is the number that the
+/// stage shows by default (its `show`, or its last species).
 Field shown_number(Painter& painter, const Simulation& simulation);
 
-/// The features of shown_number(). Where cells have no rows and columns, on a model and where they
-/// crawl, only mean, deviation, smallest and largest are numbers.
+/// The features of shown_number(). Without rows and columns of cells, on a model and for crawling
+/// cells, only mean, deviation, smallest and largest are numbers.
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

@@ -1,5 +1,4 @@
-// Chooses between refined, retiled and baked models; meshes and filters are made once for all
-// files.
+// Chooses between refined, retiled and baked models. Makes meshes and filters once for all files.
 #include "run/pictures/model_files.h"
 
 #include "core/enough_memory.h"
@@ -27,7 +26,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double usual_cover = 0.6;  ///< The part of a map that an atlas of ours covers.
+constexpr double usual_cover = 0.6;  ///< The part of a map that our own atlases cover.
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Bakes the model, then each simplified one from what lies nearest on it.
+// Bakes the model, then each simplified one from the nearest positions on it.
 #include "run/pictures/model_maps.h"
 
 #include "core/run_control.h"
@@ -23,11 +23,11 @@ namespace {
 
 static_assert(ModelFileOptions::most_texels == BakeOptions::largest_texture);
 
-constexpr std::int64_t least_texels = 16;  ///< Of the side of a level's maps.
+constexpr std::int64_t least_texels = 16;  ///< The least side of a level's maps.
 
-/// A sentence about maps of this side that are far finer than what cells show; "" if they are not.
+/// A sentence about maps of this side that are far finer than the cells. "" if they are not.
 std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
-    constexpr double most = 16, enough = 4;  // Along a side of a cell.
+    constexpr double most = 16, enough = 4;  // Per side of a cell.
     const double along = std::sqrt(texels_of_cell);
     if (!(along > most)) return {};
     const auto needed = static_cast<std::uint64_t>(static_cast<double>(side) * enough / along);

@@ -1,4 +1,4 @@
-// The points of a refined mesh are raised, and rays are cast among its triangles.
+// Raises the points of a refined mesh, and casts rays among its triangles.
 #include "run/pictures/model_occlusion.h"
 
 #include "core/check.h"
@@ -18,7 +18,7 @@ namespace cascade {
 namespace {
 
 constexpr std::uint32_t rays = 64;
-constexpr float occlusion_clearance = 1e-4F;  ///< Of the model's longest side.
+constexpr float occlusion_clearance = 1e-4F;  ///< In longest sides of the model.
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& 
         const Vector3d top =
             position_of(mesh, place) + outwards * static_cast<double>(finite[cell]);
         const Vector3 normal = single(outwards);
-        // The raised triangles lie a little above or below the cell's own height.
+        // The raised triangles lie slightly above or below the cell's own height.
         Vector3 begin = single((top - drawn.middle) * drawn.scale) + normal * nearby;
         const auto hit = caster.nearest({begin, -normal});
         begin = begin - normal * (hit && hit->distance < 2 * nearby ? hit->distance : nearby);

@@ -1,4 +1,4 @@
-// Values of cells are blurred on all cells, and then taken at those that are left.
+// Blurs values on all cells, and then takes them at the remaining ones.
 #include "run/pictures/nested_tiling.h"
 
 #include "core/run_control.h"
@@ -44,7 +44,7 @@ public:
             }
             auto level = level_of(kept, k == 0 ? 0 : std::exp2(k) / 2);
             if (!level) return tl::unexpected(level.error());
-            // The topology may need nearly all points that were left.
+            // The topology may need nearly all remaining points.
             if (k > 0 && 2 * level->mesh.triangles.size() > levels.back().mesh.triangles.size()) {
                 break;
             }
@@ -54,8 +54,8 @@ public:
     }
 
 private:
-    /// The numbers of all cells, blurred by `sigma` spacings. Those that are not finite count
-    /// nowhere, and stay where there is nothing else.
+    /// The numbers of all cells, blurred by `sigma` spacings. Non-finite ones count nowhere, and
+    /// remain where there are no others.
     std::vector<float> blurred(const std::vector<float>& numbers, double sigma) const {
         if (sigma == 0) return numbers;
         std::vector<float> sums;  // A number and its weight for each cell.

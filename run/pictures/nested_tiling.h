@@ -12,11 +12,11 @@
 namespace cascade {
 
 /// Levels of detail by retiling at several densities (G. Turk, "Re-Tiling Polygonal Surfaces",
-/// SIGGRAPH 1992, section 5): points of level 0 are the cells, those of a level a quarter of those
-/// of the level before, spread evenly (nested_order). Colours, channels and heights are blurred to
-/// the distance of the level's points, colours in linear light (G. Turk, "Texturing Surfaces Using
-/// Reaction-Diffusion", thesis, 1992, section 5.4). Up to `count` levels, fewer where the topology
-/// needs the points that are left. Fails as retile() does. Throws std::bad_alloc.
+/// SIGGRAPH 1992, section 5): the points of level 0 are the cells, and each next level has a
+/// quarter of the points, spread uniformly (nested_order). Colours, channels and heights are
+/// blurred to the distance of the level's points, colours in linear light (G. Turk, "Texturing
+/// Surfaces Using Reaction-Diffusion", thesis, 1992, section 5.4). Up to `count` levels, fewer
+/// where the topology needs the remaining points. Fails as retile() does. Throws std::bad_alloc.
 Result<std::vector<ModelLevel>> nested_tiling(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                               const ModelLook& look,
                                               std::span<const Channel> channels, int count,

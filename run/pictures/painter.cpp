@@ -1,5 +1,5 @@
-// Checks --show once, evaluates it in the stage that is shown, and paints a plane, a slice, a
-// surface or a model.
+// Checks --show once, evaluates it in the stage shown, and paints a plane, a slice, a surface or a
+// model.
 #include "run/pictures/painter.h"
 
 #include "core/near_name.h"
@@ -26,13 +26,13 @@ namespace cascade {
 
 namespace {
 
-/// A field for painting: in binary32, and of a volume only the requested slice.
+/// A field for painting: in binary32, and only the requested slice of a volume.
 Field shown(Field field, const PictureRequest& request) {
     if (field.precision() != Precision::single) field = field.converted(Precision::single);
     return field.layout().depth > 1 ? cut(field, request.slice) : std::move(field);
 }
 
-/// The last stage that formulas can read: that which is shown, or a later one that has started.
+/// The last stage that formulas can read: the stage shown, or a later one that has started.
 std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
     std::uint32_t last = stage;
     while (last + 1 < simulation.program().stages.size() && simulation.state(last + 1).started) {
@@ -45,7 +45,7 @@ std::uint32_t shown_stage_of(const Simulation& simulation) {
     return simulation.shown_stage().value_or(0);
 }
 
-/// In the stage that is shown.
+/// In the stage shown.
 EvaluateFormula evaluation_in(const Simulation& simulation) {
     return [&simulation](const Formula& formula) {
         return simulation.evaluate(formula, shown_stage_of(simulation));
@@ -100,7 +100,7 @@ std::optional<Formula> Painter::formula(const Simulation& simulation) {
     const auto expression = show_ ? show_ : picture_expression(script_->tree);
     if (!expression) return std::nullopt;
     const std::uint32_t stage = shown_stage_of(simulation);
-    // Errors were reported on loading; here a name may have no value yet.
+    // Errors were reported on loading. Here a name may have no value yet.
     Diagnostics unspoken;
     return check_view(script_->tree, *expression, stage, last_to_read(simulation, stage),
                       *script_->program, script_->sources, unspoken);
@@ -119,7 +119,7 @@ Canvas Painter::values(const Simulation& simulation) {
     return {evaluate(simulation, evaluation_in(simulation))};
 }
 
-/// What the canvas is of.
+/// Records the domain of the canvas.
 void Painter::look_at_domain(const Simulation& simulation) {
     model_ = simulation.model();
     shows_cells_ = simulation.state(shown_stage_of(simulation)).tissue != nullptr;
@@ -215,7 +215,7 @@ Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range, Im
     return image;
 }
 
-/// Of one copy.
+/// Draws one copy.
 Image Painter::smooth(const Canvas& canvas, std::optional<ValueRange> range) const {
     const PlaneLook look = plane_look(canvas, range);
     const PictureSize size = copy_size(script_->program->domain.grid, request_);
@@ -271,8 +271,7 @@ bool Painter::is_plane() const {
     return !model_ && (!script_->program->domain.surface || request_.flat);
 }
 
-/// The body, and the values at its points. If its formula names a stage that has not run, it is
-/// empty.
+/// The body, and the values at its points. Empty if its formula names a stage that has not run.
 Canvas Painter::canvas_of_body(const Simulation& simulation, Canvas values) {
     const std::uint32_t stage = shown_stage_of(simulation);
     const auto inside = setting_values(*script_, "body", evaluation_in(simulation), stage,

@@ -15,12 +15,12 @@ namespace cascade {
 
 namespace {
 
-/// Larger grids are skipped: their spectrum would cost as much as many steps.
+/// Skips larger grids: their spectrum would cost as much as many steps.
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
-/// The part of a pattern's variance in short waves from which on the grid is blamed. White noise on
-/// a plane has 0.8.
+/// The part of a pattern's variance in short waves above which the grid is blamed. White noise on a
+/// plane has 0.8.
 constexpr double mostly_unresolved = 0.7;
-/// Of a picture with 8 bits.
+/// For a picture with 8 bits.
 constexpr double levels = 256;
 
 constexpr const char* is_one_colour = "the picture is of one colour";

@@ -1,4 +1,4 @@
-// Counts pixels, and what is in memory while a picture is painted.
+// Counts pixels, and the memory in use while a picture is painted.
 #include "run/pictures/picture_size.h"
 
 #include "core/quantities.h"
@@ -20,7 +20,7 @@ PictureSize cells_of(const Grid& grid, const Slice& slice) {
     return {shown.width, shown.height};
 }
 
-/// What `scale` multiplies: a pixel for each cell, or the size that was asked for.
+/// The size that `scale` multiplies: a pixel for each cell, or the requested size.
 PictureSize unscaled_copy(const Grid& grid, const PictureRequest& picture) {
     const PictureSize cells = cells_of(grid, picture.slice);
     if (!picture.size) return cells;

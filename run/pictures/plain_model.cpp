@@ -1,4 +1,4 @@
-// Attributes called red, green and blue are the colour; normals are made anew; others are numbers.
+// Attributes called red, green and blue are the colour. Normals are recomputed. Others are numbers.
 #include "run/pictures/plain_model.h"
 
 #include "core/enough_memory.h"
@@ -22,7 +22,7 @@ const PointAttribute* attribute_called(const SurfaceMesh& mesh, std::string_view
     return found == mesh.attributes.end() ? nullptr : &*found;
 }
 
-/// What a mesh has at its points, as files hold it.
+/// The data of a mesh at its points, as in files.
 struct PlainResults {
     std::vector<Colour> colours;
     std::vector<Channel> channels;

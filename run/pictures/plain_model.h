@@ -1,4 +1,4 @@
-// A model as it is, with what its file had at points, as a file of another program.
+// An unchanged model, with its file's data at points, as a file for another program.
 #pragma once
 
 #include "core/result.h"
@@ -11,7 +11,7 @@
 namespace cascade {
 
 /// Writes a mesh with its colours and numbers, as write_model() of export/ does. Returns sentences
-/// about what the format cannot hold. Fails if memory is short, too.
+/// about data that the format cannot hold. Fails if memory is short, too.
 Result<std::vector<std::string>> write_plain_model(const std::filesystem::path& path,
                                                    const SurfaceMesh& mesh);
 

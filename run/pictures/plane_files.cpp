@@ -1,4 +1,4 @@
-// The maps are made in export/.
+// Calls export/, which makes the maps.
 #include "run/pictures/plane_files.h"
 
 #include "core/enough_memory.h"

@@ -12,8 +12,8 @@ namespace cascade {
 struct ModelFileOptions;
 struct PlaneLook;
 
-/// Writes a rectangle with maps, of which the longer side has options.bake texels, as a GLB file,
-/// and the maps beside it (export/material_maps.h).
+/// Writes a rectangle with maps, the longer side with options.bake texels, as a GLB file, and the
+/// maps beside it (export/material_maps.h).
 Result<WrittenFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
                                  const ModelFileOptions& options, const PngTexts& texts);
 

@@ -1,4 +1,4 @@
-// Cells are copied row by row.
+// Copies cells row by row.
 #include "run/pictures/plane_look.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// The look of a plane, or of a slice of a volume, for maps.
+// The appearance of a plane, or of a slice of a volume, in maps.
 #pragma once
 
 #include "export/flat_cells.h"

@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double colour_distance = 0.75;  ///< In cell spacings; the filter's radius is two.
+constexpr double colour_distance = 0.75;  ///< In cell spacings. The filter's radius is two.
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
 
 }  // namespace

@@ -33,7 +33,7 @@ std::string name_of_file(const std::filesystem::path& list, std::size_t number, 
     return fmt::format("{}/{:06}.{}", list.stem().string(), number, is_model ? "vtp" : "vti");
 }
 
-/// Is it a name that a series of this list gives?
+/// Whether a series of this list gives this name.
 bool is_own(const std::filesystem::path& list, const std::string& file) {
     const std::string begin = list.stem().string() + "/";
     if (!file.starts_with(begin) || file.size() != begin.size() + 10) return false;
@@ -43,7 +43,7 @@ bool is_own(const std::filesystem::path& list, const std::string& file) {
            (name.ends_with(".vti") || name.ends_with(".vtp"));
 }
 
-/// The files of its own that a list names.
+/// The list's own files that it names.
 std::vector<std::string> files_in(const std::filesystem::path& list) {
     std::vector<std::string> files;
     const auto text = read_file(list, largest_list);
@@ -57,7 +57,7 @@ std::vector<std::string> files_in(const std::filesystem::path& list) {
     return files;
 }
 
-/// The time of all stages up to the one that is shown.
+/// The time of all stages up to the one shown.
 double time_since_start(const Simulation& simulation) {
     double time = 0;
     const std::uint32_t last = simulation.shown_stage().value_or(0);
@@ -183,7 +183,7 @@ Result<void> SeriesWriter::write_surface(const std::filesystem::path& path,
 }
 
 Result<std::size_t> SeriesWriter::finish() {
-    // Moments without a time are numbered.
+    // Numbers moments without a time.
     const bool has_times = std::all_of(moments_.begin(), moments_.end(), [](const Moment& moment) {
         return std::isfinite(moment.time);
     });

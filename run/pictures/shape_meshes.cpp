@@ -1,4 +1,4 @@
-// Each part has functions of its own, which keep values between points.
+// Each part has its own functions, which keep values between points.
 #include "run/pictures/shape_meshes.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double steps_of_range = 16;
 
-/// Functions are copied along with what they are part of, and share what they keep.
+/// Functions are copied along with their owner, and share what they keep.
 std::shared_ptr<ShapeFunction> function_of(const Formula& formula, std::span<const double> values,
                                            double part) {
     return std::make_shared<ShapeFunction>(formula, values, part);
@@ -40,7 +40,7 @@ SweptSurface surface_of(const ShapeForm& form, std::span<const double> values, d
     return surface_of(std::move(tube));
 }
 
-/// How values of a quantity are rounded.
+/// The rounding of a quantity's values.
 struct Rounding {
     double low = 0, high = 0, step = 0;
 

@@ -1,4 +1,4 @@
-// The shapes that a script's formulas give cells that crawl, as meshes.
+// The shapes of crawling cells by a script's formulas, as meshes.
 #pragma once
 
 #include "lang/program/shape_form.h"
@@ -19,23 +19,24 @@ inline constexpr double largest_of_shape = 1000;
 /// The parts of a shape with these values.
 std::vector<ShapePart> parts_of(const ShapeForm& form, std::span<const double> values);
 
-/// Why a shape cannot be drawn, such as "is not finite at t = 0.5, s = 0"; "" if nothing is wrong
-/// at the places where it is tried.
+/// Why a shape cannot be drawn, such as "is not finite at t = 0.5, s = 0". "" if it is sound at the
+/// points tested.
 std::string fault_of(const ShapeForm& form, std::span<const double> values);
 
 /// The values of quantities for many cells at once.
 struct QuantityValues {
     ItemId quantity;
-    std::vector<double> of_cells;  ///< Finite or not, one for each cell.
+    std::vector<double> of_cells;  ///< One for each cell, possibly not finite.
 };
 
 /// The shapes of cells. Values are clamped to the ranges of quantities and rounded, so that many
-/// cells share one: to the step of the range, else to sixteenths of it or, without a range, of the
-/// span of the cells' values; if there are still more than `most` shapes, to twice as much, and so
-/// on.
+/// cells share one shape: to the step of the range, or to sixteenths of it or, without a range, of
+/// the span of the cells' values. If there are still more than `most` shapes, the rounding is
+/// doubled repeatedly.
 struct SharedShapes {
     std::vector<ShapeValues> shapes;
-    std::vector<std::uint32_t> of_cells;  ///< Which of them; `none` where a value is not finite.
+    std::vector<std::uint32_t> of_cells;  ///< Indices of shapes. `none` where a value is not
+                                          ///< finite.
     static constexpr std::uint32_t none = UINT32_MAX;
 };
 inline constexpr std::size_t most_shapes = 1000;

@@ -1,4 +1,4 @@
-// Many cells have few facets each: what is seen of one is small then.
+// Many cells have few facets each, because each one appears small.
 #include "run/pictures/shown_cells.h"
 
 #include "run/pictures/tissue_picture.h"
@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// Facets are at most this many pixels from their shapes, as in pictures that say nothing.
+/// Facets are at most this many pixels from their shapes, the default of pictures.
 constexpr double shown_detail = 0.5;
 
 /// The pixels of a length of 1 that meshes are made for.

@@ -1,5 +1,5 @@
-// Cells that crawl for a program that draws them itself, such as a page: a few meshes, and where
-// their copies stand.
+// Crawling cells for a program that draws them itself, such as a page: a few meshes, and the
+// positions of their copies.
 #pragma once
 
 #include "mesh/instances.h"
@@ -14,16 +14,16 @@ namespace cascade {
 
 /// The cells of a moment.
 struct ShownCells {
-    std::size_t count = 0;  ///< Of all cells, also of those that are not drawn.
+    std::size_t count = 0;  ///< All cells, including those not drawn.
     std::vector<TriangleMesh> meshes;
-    /// By mesh: its copies are placements[ends[k − 1]] up to placements[ends[k]]. Lengths are those
-    /// of scripts; without a model everything lies flat, as in pictures.
+    /// By mesh: its copies are placements[ends[k − 1]] up to placements[ends[k]]. Lengths are in
+    /// script units. Without a model everything lies flat, as in pictures.
     std::vector<std::uint32_t> ends;
     std::vector<Placement> placements;
     /// By placement: the column of its cell in the row of values.
     std::vector<std::uint32_t> cells;
-    Colour skin;      ///< Of the surface below them, sRGB.
-    Vector3d extent;  ///< Without a model: of the plane, whose z is 0, or of the box of space.
+    Colour skin;      ///< The surface below them, sRGB.
+    Vector3d extent;  ///< Without a model: the plane's, whose z is 0, or the box's in space.
     bool is_on_model = false, is_on_body = false;
 };
 

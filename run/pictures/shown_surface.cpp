@@ -1,4 +1,4 @@
-// Models are refined as for files with vertex colours; their values are those of the cell filter.
+// Refines models as for files with vertex colours. Their values are those of the cell filter.
 #include "run/pictures/shown_surface.h"
 
 #include "export/refine.h"
@@ -48,7 +48,7 @@ SurfaceMesh cut_at_creases(const SurfaceMesh& mesh, const CornerNormals& corners
     return cut;
 }
 
-/// A copy with fewer triangles; none if the mesh is small, or cannot be copied.
+/// A copy with fewer triangles. Empty if the mesh is small, or cannot be copied.
 std::optional<SurfaceMesh> reduced(const SurfaceMesh& mesh) {
     if (mesh.triangles.size() <= most_shown_triangles) return std::nullopt;
     // A collapsed mesh has triangles of this area, and some smaller ones.

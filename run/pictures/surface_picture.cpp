@@ -1,4 +1,4 @@
-// A mesh of triangles over the parameters; texels are interpolated bilinearly where rays hit it.
+// A mesh of triangles over the parameters. Texels are interpolated bilinearly where rays hit it.
 #include "run/pictures/surface_picture.h"
 
 #include "run/pictures/surface_lattice.h"
@@ -24,8 +24,8 @@ const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
                       texel(quadrilateral / facets, texture.height));
 }
 
-/// Removes triangles on transparent parts of the texture. Returns the original indices of those
-/// that remain.
+/// Removes triangles on transparent parts of the texture. Returns the original indices of the
+/// remaining ones.
 std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     std::vector<std::uint32_t> numbers;
     std::size_t kept = 0;
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     return numbers;
 }
 
-/// Interpolates between the visible ones of four texels; `otherwise` if none is visible.
+/// Interpolates between the visible ones of four texels, or returns `otherwise` if none is visible.
 Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels, const Colour& otherwise) {
     Colour sum{};
     float weights = 0;

@@ -1,4 +1,4 @@
-// The surface below the cells is a model, a body or a floor; in a box there is none.
+// The surface below the cells is a model, a body or a floor. In a box there is none.
 #include "run/pictures/tissue_picture.h"
 
 #include "picture/srgb.h"
@@ -30,7 +30,7 @@ void lay_flat(TriangleMesh& mesh) {
 
 namespace {
 
-/// The corners of the floor are those of the plane, (0, 0), (0, 1), (1, 1) and (1, 0).
+/// The corners of the floor are the plane's, (0, 0), (0, 1), (1, 1) and (1, 0).
 TriangleMesh floor_of(Vector3d extent) {
     const auto point = [](double x, double z) {
         return Vector3{static_cast<float>(x), 0, static_cast<float>(z)};

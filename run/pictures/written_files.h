@@ -1,4 +1,4 @@
-// What the writers of models, cells and maps report.
+// Reports of the writers of models, cells and maps.
 #pragma once
 
 #include <filesystem>
