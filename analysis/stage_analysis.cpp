@@ -1,3 +1,4 @@
+// Stable steps, and the analysis of each flat state.
 #include "analysis/stage_analysis.h"
 
 #include <algorithm>

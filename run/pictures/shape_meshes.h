@@ -35,8 +35,7 @@ struct QuantityValues {
 /// doubled repeatedly.
 struct SharedShapes {
     std::vector<ShapeValues> shapes;
-    std::vector<std::uint32_t> of_cells;  ///< Indices of shapes. `none` where a value is not
-                                          ///< finite.
+    std::vector<std::uint32_t> of_cells;  ///< Indices. `none` where a value is not finite.
     static constexpr std::uint32_t none = UINT32_MAX;
 };
 inline constexpr std::size_t most_shapes = 1000;
