@@ -1,4 +1,4 @@
-// What a user does to a cascade while it runs, as values.
+// Changes that a user makes to a running cascade, as values.
 #pragma once
 
 #include <cstdint>
@@ -7,30 +7,30 @@
 
 namespace cascade {
 
-/// Another script. Stages, species and parameters of the same name keep their values.
+/// Sets another script. Stages, species and parameters of the same name keep their values.
 struct SetText {
     std::string text;
     bool operator==(const SetText&) const = default;
 };
 
-/// Another value of a parameter or setting, as `--set NAME=EXPR` gives it; replaces an earlier one
-/// of the same name.
+/// Sets a parameter or setting, as `--set NAME=EXPR` does. Replaces an earlier one of the same
+/// name.
 struct SetNumber {
     std::string name;  ///< `ka`, or `spots.ka` for one stage.
     std::string expression;
     bool operator==(const SetNumber&) const = default;
 };
 
-/// Other values in the cells of the current stage: of a species, or of a parameter or `frozen` that
-/// varies. A stroke blends them into the old ones: `b: mix(b, 8, disc(20, 30, 5))`. In a stage of
-/// cells that crawl `remove` takes the cells away where the expression is not 0.
+/// Sets other values in the cells of the current stage: of a species, or of a parameter or `frozen`
+/// that varies. A stroke blends them into the old ones: `b: mix(b, 8, disc(20, 30, 5))`. In a stage
+/// of crawling cells `remove` removes the cells where the expression is not 0.
 struct Paint {
     std::string item;
     std::string expression;  ///< Over the present state, as for pictures.
     bool operator==(const Paint&) const = default;
 };
 
-/// The current stage ends at its present step, and the next one begins.
+/// Ends the current stage at its present step and begins the next one.
 struct NextStage {
     bool operator==(const NextStage&) const = default;
 };

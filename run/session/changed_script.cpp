@@ -1,4 +1,4 @@
-// Numbers that a session sets are settings from outside, as those of --set.
+// Numbers set in a session are settings from outside, like those of --set.
 #include "run/session/changed_script.h"
 
 #include "run/script/embedded_script.h"

@@ -1,4 +1,4 @@
-// What is kept of a stage is what starting it would not give again.
+// Keeps only the values of a stage that starting it would not reproduce.
 #include "run/session/kept_state.h"
 
 #include "run/stage/stage_time.h"
@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-// Cells that crawl, kept at one moment, and a changed stage that goes on with them.
+// Crawling cells, kept at one moment, and a changed stage that continues with them.
 
 using Values = std::vector<double>;
 
@@ -61,13 +61,13 @@ private:
         return species ? record_.species[species->index()] : record_.kept[item.index()];
     }
 
-    /// The place of an item among all items that were kept, or their number.
+    /// The index of an item among all kept items, or their number.
     std::size_t kept_item(ItemId item) const {
         const auto found = std::ranges::find(kept_.items, system().item_name(item));
         return static_cast<std::size_t>(found - kept_.items.begin());
     }
 
-    /// The values that have been kept by this name; none if it was the same in all cells.
+    /// The values kept by this name. None if it was the same in all cells.
     Values kept_values(ItemId item) const {
         const auto found = std::ranges::find(kept_.species, system().item_name(item));
         const auto species = static_cast<std::size_t>(found - kept_.species.begin());
@@ -97,14 +97,14 @@ private:
         record_.time.estimated_at = -1;
     }
 
-    /// The number that the kept stage has in its program.
+    /// The number of the kept stage in its program.
     std::uint32_t stage_of(const Simulation& before) const {
         const auto& stages = before.program().stages;
         const auto found = std::ranges::find(stages, kept_.name, &Stage::name);
         return static_cast<std::uint32_t>(found - stages.begin());
     }
 
-    /// Does a parameter start with other values than it did?
+    /// Whether a parameter starts with other values than before.
     bool is_changed(ItemId item, const std::vector<Values>& now,
                     const std::vector<Values>& then) const {
         const auto& restarts = system().cells->restarts;
@@ -119,21 +119,21 @@ private:
     std::uint32_t stage_;
     const KeptStage& kept_;
     TissueRecord record_;
-    std::vector<ItemId> missing_;  ///< Those that had no values.
+    std::vector<ItemId> missing_;  ///< Items without values.
 };
 
-/// Gives a started stage of a changed program the cells that were kept: quantities take the values
-/// of those of the same name. Those that have none start where the cells are now, and so do
+/// Gives a started stage of a changed program the kept cells: quantities take the values of those
+/// of the same name. Quantities without one start at the cells' present positions, and so do
 /// parameters that were not painted and whose start gives other values than in `before` (may be
-/// null). A value that starts again after a division is left to divisions. Fails if a quantity has
-/// no value and cannot start.
+/// null). A value that restarts after a division is left to divisions. Fails if a quantity has no
+/// value and cannot start.
 Result<void> go_on_with_cells(Simulation& simulation, const Simulation* before, std::uint32_t stage,
                               const KeptStage& kept, const StageMoment& moment) {
     return CellChange(simulation, stage, kept).make(before, moment);
 }
 
-/// The kept stage that stage `k` of a program goes on from; null if there is none. Cells that crawl
-/// do not go on as a field, nor the other way round.
+/// The kept stage that stage `k` of a program continues from. Null if there is none. Crawling cells
+/// do not continue as a field, nor the reverse.
 const KeptStage* counterpart(const Program& program, std::uint32_t k, const KeptState& state) {
     if (k >= state.stages.size()) return nullptr;
     const KeptStage& kept = state.stages[k];
@@ -152,7 +152,7 @@ bool is_over(const Program& program, std::uint32_t k, const StageState& state,
     return then.t >= duration_of(stage, program.system_of(k), state);
 }
 
-/// Are two expressions the same but for the places where they were written?
+/// Whether two expressions are the same except for their source locations.
 bool is_same(const Formula& first, const Formula& second) {
     return std::equal(first.nodes.begin(), first.nodes.end(), second.nodes.begin(),
                       second.nodes.end(), [](const Node& a, const Node& b) {
@@ -176,7 +176,7 @@ bool is_same(const std::optional<DirectionSettings>& first,
            is_same(first->height, second->height) && first->smoothing == second->smoothing;
 }
 
-/// Do two programs grow on the same model, but for its seed? False if there is none.
+/// Whether two programs grow on the same model, except for its seed. False if there is none.
 bool have_same_model(const Program& before, const Program& after) {
     const auto& first = before.domain.model;
     const auto& second = after.domain.model;

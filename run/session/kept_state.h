@@ -1,5 +1,5 @@
-// The values of a run at one moment, apart from its simulation, and a simulation that goes on from
-// them.
+// The values of a run at one moment, separate from its simulation, and their use in another
+// simulation.
 #pragma once
 
 #include "core/result.h"
@@ -15,42 +15,41 @@
 
 namespace cascade {
 
-/// The names of items of a stage whose values were painted.
+/// The names of a stage's items with painted values.
 using PaintedNames = std::set<std::string>;
 
 /// A stage that has started.
 struct KeptStage {
     std::string name;
-    StageRecord record;    ///< With those parameters that were painted.
+    StageRecord record;    ///< Includes the painted parameters.
     PaintedNames painted;  ///< Species and parameters.
     /// The names of all items and of the species, for cells that crawl.
     std::vector<std::string> items, species;
 };
 
 struct KeptState {
-    std::vector<KeptStage> stages;  ///< The last one is that in which steps are taken.
+    std::vector<KeptStage> stages;  ///< The last one is the stage that takes steps.
 
     std::size_t bytes() const;
 };
 
-/// Copies all values that a simulation cannot compute anew. `painted` has an entry for each stage.
+/// Copies all values that a simulation cannot recompute. `painted` has an entry for each stage.
 KeptState keep(const Simulation& simulation, const std::vector<PaintedNames>& painted);
 
-/// How a simulation goes on from a kept state.
+/// How a simulation continues from a kept state.
 enum class Continuation {
-    same,     ///< Of the same program, with the same bits as if nothing had happened.
-    changed,  ///< Of a changed program: lengths of steps are chosen anew.
+    same,     ///< With the same program, and the same bits as without interruption.
+    changed,  ///< With a changed program: lengths of steps are chosen anew.
 };
 
-/// Starts the stages of `simulation`, of which none has started, that have a counterpart in
-/// `state`: that of the same name, or at the same place where it was given another name. Parameters
-/// are computed anew but where they were painted; species take the values of those of the same
-/// name, the others those of their start. The current stage is started anew where it has taken no
-/// step, but for what was painted. At most `count` stages are started. Returns what is painted, for
-/// each stage that was started. Cells that crawl go on with their own values of parameters, too,
-/// unless their start would give them others than in `before`, whose state was kept (null: none
-/// was). Fails if a stage cannot be started, if cells have no value to go on with, and when
-/// `cancel` becomes true while a stage is started.
+/// Starts those stages of `simulation`, none of them started, that have a counterpart in `state`:
+/// the stage of the same name, or at the same index if it was renamed. Computes parameters anew
+/// except where they were painted. Species take the values of the same name, or else their start.
+/// The current stage is restarted if it has taken no step, except for painted values. Starts at
+/// most `count` stages. Returns the painted names for each started stage. Crawling cells continue
+/// with their own values of parameters, too, unless their start would give others than in `before`,
+/// the source of the kept state (null: none). Fails if a stage cannot be started, if cells have no
+/// value to continue with, and when `cancel` becomes true while a stage is started.
 Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation* before,
                                         const KeptState& state, Continuation how,
                                         const std::atomic<bool>& cancel,
@@ -59,8 +58,8 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation
 /// The item of a system with this name.
 std::optional<ItemId> find_item(const System& system, std::string_view name);
 
-/// Can a run of `after` go on from the values of a run of `before`? Their cells must be the same:
-/// the grid, the mask, the model, and the precision and seed of the run.
+/// Whether a run of `after` can continue from the values of a run of `before`. Their cells must be
+/// the same: the grid, the mask, the model, and the precision and seed of the run.
 bool have_same_cells(const Program& before, const Program& after);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Every change ends in a script and kept values, from which a new simulation goes on. Kernels and
-// the cells of a model pass from one simulation to the next, so that only what differs is made.
+// Every change yields a script and kept values, from which a new simulation continues. Kernels and
+// the cells of a model pass from one simulation to the next, so that only the differences are made.
 #include "run/session/live_run.h"
 
 #include "lang/check/check.h"
@@ -49,7 +49,7 @@ Accepted<std::unique_ptr<Simulation>> LiveRun::simulate(Script& script, RunContr
     return std::move(*made);
 }
 
-/// Goes on with another script from the values of at most `stages` stages, or from its start if
+/// Continues with another script from the values of at most `stages` stages, or from its start if
 /// there are none.
 Accepted<void> LiveRun::adopt(Script changed, const KeptState& values, Continuation how,
                               RunControl& control, std::size_t stages) {
@@ -98,7 +98,7 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const Simulatio
     if (!run) return run;
     auto started = (*run)->adopt(std::move(script), {}, Continuation::changed, control);
     if (!started) return tl::unexpected(std::move(started.error()));
-    // From now on the cells are those of the present simulation, while they are the same.
+    // From now on the cells are the present simulation's, as long as they stay the same.
     (*run)->options_.known_model = nullptr;
     return run;
 }
@@ -319,10 +319,9 @@ Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
 }
 
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
-    // Of values of one number at one step the last one counts, as a slider gives many. With strokes
-    // it does not: a number that is the same in all cells drops what was painted, for good. Nor in
-    // a stage of cells that crawl: a number that changes and changes back replaces values of their
-    // own.
+    // Of several values of one number at one step only the last counts, since a slider gives many.
+    // Not after strokes: a uniform number drops painted values for good. Not in a stage of crawling
+    // cells either: a number that changes and changes back replaces their own values.
     const bool has_strokes =
         std::any_of(log_.changes.begin(), log_.changes.end(), [](const auto& logged) {
             return std::holds_alternative<Paint>(logged->change);
@@ -355,7 +354,7 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
     if (is_remembered || is_of_script(change)) before = present();
     const RunPlace at = place();
     if (std::holds_alternative<NextStage>(change) && control.checks_later && !is_over()) {
-        // What would be looked for at the end of the stage.
+        // Checks that would happen at the end of the stage.
         control.checks_later = false;
         const auto good = check(control);
         control.checks_later = true;
@@ -365,7 +364,7 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
         return made;
     }
     if (place() == RunPlace() && at != RunPlace()) {
-        // The run began anew, so what was done before no longer matters.
+        // The run began anew, so everything before no longer matters.
         log_ = {script_->name, script_->text, script_->overrides, {}, {}};
     } else {
         add_to_log(change, at);

@@ -1,5 +1,5 @@
-// A cascade that runs and is changed while it runs: the one class under the prompt, the page and
-// the public library.
+// A cascade that runs and changes while it runs: the class behind the prompt, the page and the
+// public library.
 #pragma once
 
 #include "core/run_control.h"
@@ -29,83 +29,83 @@ struct Watching {
     bool begins_next = false;
 };
 
-/// Owns a script and its simulation. Every change is logged with the step at which it was made, so
-/// that the log, played again, gives the same bits. What is done can be undone. One thread at a
-/// time; a RunControl may cancel what takes long, from any thread.
+/// Owns a script and its simulation. Logs every change with its step, so that the log, played
+/// again, gives the same bits. Changes can be undone. Not thread-safe, but a RunControl may cancel
+/// long work from any thread.
 class LiveRun {
 public:
     /// Starts the first stage of a checked script. Refused if there is none.
     static Accepted<std::unique_ptr<LiveRun>> begin(Script script, const SimulationOptions& options,
                                                     RunControl& control);
-    /// Goes on from values that `restore` gives a simulation of the script, such as a saved run.
+    /// Continues from values that `restore` gives a simulation of the script, such as a saved run.
     static Accepted<std::unique_ptr<LiveRun>> resume(
         Script script, const SimulationOptions& options, RunControl& control,
         const std::function<Result<void>(const Script&, Simulation&)>& restore);
-    /// Plays a session again up to its end. Files of its script are looked up in `folder`.
+    /// Plays a session again up to its end. Searches `folder` for the files of its script.
     static Accepted<std::unique_ptr<LiveRun>> play(const SessionLog& log,
                                                    const std::filesystem::path& folder,
                                                    const SimulationOptions& options,
                                                    RunControl& control);
 
     const Script& script() const { return *script_; }
-    /// For painters, which add what they are asked to draw to the sources of the script.
+    /// For painters, which add their expressions to the sources of the script.
     Script& script() { return *script_; }
     const Simulation& simulation() const { return *simulation_; }
     RunPlace place() const { return {stage_, state().steps}; }
-    /// Has every stage ended?
+    /// Whether every stage has ended.
     bool is_over() const;
-    /// Did it begin with the values of a saved run? Then its log alone does not grow it again.
+    /// Whether it began with the values of a saved run. Then its log alone does not grow it again.
     bool is_resumed() const { return is_resumed_; }
     /// All values, from which go_on() continues.
     KeptState values() const { return keep(*simulation_, painted_); }
 
-    /// Takes up to `count` steps, from stage to stage. `stopped`: all of them were taken;
-    /// `finished`: the last stage has ended. If values are not finite it fails, and the run is back
-    /// at the last step at which they were.
+    /// Takes up to `count` steps, from stage to stage. `stopped`: all of them were taken.
+    /// `finished`: the last stage has ended. Fails if values are not finite, and returns to the
+    /// last step at which they were.
     Result<StageEnd> advance(std::int64_t count, RunControl& control,
                              const Watching& watching = {});
 
-    /// Are all values of the present step finite? Fails as advance() does where they are not, which
-    /// matters after calls with RunControl::checks_later.
+    /// Checks that all values of the present step are finite. Otherwise fails as advance() does.
+    /// Matters after calls with RunControl::checks_later.
     Result<void> check(RunControl& control);
 
-    /// Makes a change at the present step. Where it is refused, nothing has changed. With
-    /// `joins_last`, undo() takes it back together with the change before, as the parts of one
-    /// stroke or of one move of a slider. A change of the domain's cells begins the run anew.
+    /// Makes a change at the present step. A refused change has no effect. With `joins_last`,
+    /// undo() reverts it together with the change before, as the parts of one stroke or of one move
+    /// of a slider. A change of the domain's cells restarts the run.
     Accepted<void> apply(const Change& change, RunControl& control, bool joins_last = false);
 
-    /// The checked expression of a number over the state of the current stage; null, with errors,
-    /// if it is wrong. `name` stands for its text in messages.
+    /// The checked expression of a number over the state of the current stage. Null, with errors,
+    /// if it is wrong. `name` represents its text in messages.
     std::optional<Formula> number(const std::string& name, const std::string& expression,
                                   Diagnostics& errors);
 
-    /// Goes to the start of a stage: back, where texts and numbers stay as they are and strokes
-    /// made since are taken back, or on, where the stages before it end as they are.
+    /// Goes to the start of a stage. Going back leaves texts and numbers unchanged and reverts
+    /// strokes made since. Going on ends the stages before it in their present state.
     Accepted<void> go_to(std::uint32_t stage, RunControl& control);
 
     /// Goes back to the moment before the last change, or forward again. Refused if there is none.
-    /// Values of many changes ago are grown again.
+    /// Values from many changes ago are grown again.
     Accepted<void> undo(RunControl& control);
     Accepted<void> redo(RunControl& control);
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
 
-    /// All that was done, up to the present place.
+    /// All changes up to the present moment.
     SessionLog log() const;
 
     /// Called after every change, and with `is_step` after every advance(): with the log, whose end
-    /// is not kept up to date, and the present place.
+    /// is outdated, and the present moment.
     using Listener = std::function<void(const SessionLog& log, RunPlace now, bool is_step)>;
     void tell(Listener listener) { listener_ = std::move(listener); }
 
-    /// The most bytes of values that are kept for undo(), and of texts with logs. Older values are
-    /// grown again; moments with older texts are forgotten.
+    /// The most bytes of values kept for undo(), and of texts with logs. Older values are grown
+    /// again. Moments with older texts are forgotten.
     void set_undo_memory(std::size_t values, std::size_t texts = most_texts) {
         undo_memory_ = values;
         undo_texts_ = texts;
     }
 
-    /// Texts that undo() and the log hold, in bytes; with more texts a change is refused.
+    /// The most bytes of texts in undo() and the log. With more texts a change is refused.
     static constexpr std::size_t most_texts = std::size_t{256} << 20;
 
 private:
@@ -147,7 +147,7 @@ private:
     std::uint32_t stage_ = 0;
     bool is_resumed_ = false;
     std::vector<PaintedNames> painted_;  ///< By stage.
-    SessionLog log_;                     ///< Its end is not kept up to date.
+    SessionLog log_;                     ///< Its end may be outdated.
     Listener listener_;
     std::vector<Moment> past_, future_;
     std::size_t undo_memory_ = std::size_t{256} << 20, undo_texts_ = most_texts;

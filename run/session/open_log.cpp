@@ -1,5 +1,5 @@
-// A change is known by its address: while two logs share one at the same number, they share all
-// before it, because logs only grow and shrink at their ends.
+// A change is identified by its address: while two logs share one at the same number, they share
+// all before it, because logs only grow and shrink at their ends.
 #include "run/session/open_log.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The thread of a session: it obeys what is queued, takes turns, and keeps the newest snapshot.
+// The thread of a session: it runs queued commands, takes turns, and keeps the newest snapshot.
 #include "run/session/session.h"
 
 #include <condition_variable>
@@ -20,14 +20,14 @@ struct Session::Implementation {
         thread = std::thread([this] { work(); });
     }
 
-    Turns turns;  ///< Of the session's thread, but for its cancellation.
+    Turns turns;  ///< Used by the session's thread, except for its cancellation.
 
     // Shared with other threads.
     std::mutex mutex;
     std::condition_variable has_task, has_snapshot;
     std::deque<Task> tasks;
     std::shared_ptr<const Snapshot> newest;
-    bool is_wanted = false;  ///< Has the newest snapshot been read?
+    bool is_wanted = false;  ///< Whether the newest snapshot has been read.
     bool is_ending = false;
     std::thread thread;
 
@@ -52,7 +52,7 @@ void Session::Implementation::work() {
         if (!tasks.empty()) {
             Task task = std::move(tasks.front());
             tasks.pop_front();
-            // A cancellation has ended what was being done before.
+            // A cancellation has ended earlier work.
             turns.control().cancel = false;
             lock.unlock();
             obey(std::move(task));

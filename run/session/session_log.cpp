@@ -1,4 +1,4 @@
-// A line for each change. Scripts, which have several lines, follow a line with their number.
+// A line for each change. A script, which has several lines, follows a line with their number.
 #include "run/session/session_log.h"
 
 #include "run/script/embedded_script.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view first_line = "cascade session 1";
 
-/// Line breaks of an expression are blanks.
+/// Line breaks of an expression become blanks.
 std::string in_one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     std::replace(text.begin(), text.end(), '\r', ' ');
@@ -40,14 +40,14 @@ std::string print(const Change& change) {
     return "next\n";
 }
 
-/// Reads the lines of a log one after the other.
+/// Reads the lines of a log one by one.
 class LogReader {
 public:
     explicit LogReader(std::string_view text) : rest_(text) {}
 
     bool at_end() const { return rest_.empty(); }
 
-    /// Leaves out a last line that does not end.
+    /// Drops an unterminated last line.
     void leave_out_cut_line() { rest_ = rest_.substr(0, rest_.rfind('\n') + 1); }
 
     std::string_view line() {
@@ -98,7 +98,7 @@ private:
     int number_ = 0;
 };
 
-/// The word before the first blank, and what follows it.
+/// The word before the first blank, and the text after it.
 std::pair<std::string_view, std::string_view> split(std::string_view line) {
     const std::size_t blank = line.find(' ');
     if (blank == std::string_view::npos) return {line, {}};
@@ -112,7 +112,7 @@ std::optional<std::pair<std::string, std::string>> assignment(std::string_view w
     return std::pair(std::string(words.substr(0, equals)), std::string(words.substr(equals + 1)));
 }
 
-/// The change of a line; nothing if the line is none.
+/// The change in a line. Empty if the line is none.
 std::optional<Change> read_change(std::string_view word, std::string_view rest, LogReader& reader) {
     if (word == "next" && rest.empty()) return NextStage{};
     if (word == "text") {

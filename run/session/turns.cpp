@@ -1,4 +1,4 @@
-// What a session does in a turn, and how long a turn is.
+// The work of a session in a turn, and the length of a turn.
 #include "run/session/turns.h"
 
 #include "core/failure_line.h"
@@ -14,7 +14,7 @@
 namespace cascade {
 namespace {
 
-/// What is shown of the cells themselves: of a volume a slice, also where its picture is a body.
+/// The cells themselves: for a volume a slice, even if its picture is a body.
 PictureRequest cells_of(std::string expression) {
     PictureRequest request = picture_of(std::move(expression));
     request.flat = true;
@@ -23,15 +23,15 @@ PictureRequest cells_of(std::string expression) {
 
 using Seconds = std::chrono::duration<double>;
 
-/// Steps are taken for about this long before the queue is looked at.
+/// The approximate time of steps before the queue is checked.
 constexpr double turn_seconds = 0.015;
-/// With fewer steps several of them a pass through memory gain too little, so a turn takes at least
-/// these, unless that takes longer than longest_turn_seconds.
+/// A turn takes at least this many steps, unless that takes longer than longest_turn_seconds,
+/// because with fewer, taking several steps per pass through memory gains too little.
 constexpr std::int64_t least_steps = 32;
 constexpr double longest_turn_seconds = 0.2;
-/// Steps in which nothing happens take no time.
+/// Steps without any work take no time.
 constexpr double most_steps_of_turn = 1e9;
-/// Snapshots are at least this far apart, and take at most this part of the time.
+/// The least time between snapshots, and their largest part of the time.
 constexpr double snapshot_seconds = 1.0 / 60;
 constexpr double part_of_snapshots = 0.02;
 constexpr std::size_t most_remarks = 20;
@@ -58,7 +58,7 @@ Accepted<void> Turns::carry_out(const SessionCommand& command) {
     }
     if (const auto* go = std::get_if<GoToStage>(&command)) return run_->go_to(go->stage, control_);
     if (std::holds_alternative<Undo>(command)) {
-        // What was undone should be looked at before it changes again.
+        // The user should see an undone state before it changes again.
         is_going_on_ = false;
         return run_->undo(control_);
     }
@@ -136,7 +136,7 @@ Canvas Turns::canvas() {
     return painter_->canvas(run_->simulation());
 }
 
-/// A surface that stays the same keeps its number, through changes of numbers and texts.
+/// An unchanged surface keeps its number, through changes of numbers and texts.
 void Turns::look_at_surface(std::shared_ptr<const SurfaceMesh> body) {
     const bool is_same_body = (surface_ ? surface_->body : nullptr) == body;
     if (std::exchange(looked_at_, script_number_) == script_number_ && is_same_body) return;
@@ -184,7 +184,7 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     look_at_surface(seen.cells ? simulation.body(simulation.shown_stage().value_or(0)) : nullptr);
     made->surface = surface_;
     if (seen.cells) {
-        // A function's surface is one of fields: cells crawl on the plane of its parameters.
+        // A function's surface is for fields: cells crawl on the plane of its parameters.
         if (surface_ && surface_->function) made->surface = nullptr;
         made->cells =
             std::make_shared<const ShownCells>(shown_cells(*seen.cells, made->surface.get()));
