@@ -1,13 +1,13 @@
 // Numeric functions for other kinds of numbers, such as intervals: a kind has a function of the
-// same name for each that it knows.
+// same name for each one that it supports.
 #pragma once
 
 #include "lang/vocabulary/functions.h"
 
 namespace cascade {
 
-/// Calls add(a, b), sqrt(a) or if_(a, b, c) of a kind of numbers; `otherwise` if it has none of
-/// this name.
+/// Calls add(a, b), sqrt(a) or if_(a, b, c) of a kind of numbers, or returns `otherwise` if the
+/// kind has none of this name.
 template <typename Value>
 Value call_by_name(Function function, const Value& a, const Value& b, const Value& c,
                    const Value& otherwise = {}) {

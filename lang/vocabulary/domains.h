@@ -12,8 +12,8 @@ enum class Domains : std::uint8_t {
     model = 4,
     straight = plane | model,  ///< Axes are straight.
     bent = surface | model,
-    fields = plane | surface | model,  ///< Cells have a place for ever.
-    crawling = 8,                      ///< Cells move: those of a `cells` system, on any domain.
+    fields = plane | surface | model,  ///< Cells have a fixed position.
+    crawling = 8,                      ///< Cells of a `cells` system move, on any domain.
     all = fields | crawling,
 };
 constexpr bool includes(Domains set, Domains one) {

@@ -56,7 +56,7 @@ ValueType type_of_result(Function function, std::span<const ValueType> operands)
         case ResultKind::colour: return ValueType::colour;
         case ResultKind::like: break;
     }
-    // A tensor times a vector is one.
+    // A tensor times a vector is a vector.
     for (const ValueType type : {ValueType::vector, ValueType::tensor, ValueType::colour}) {
         if (std::ranges::find(operands, type) != operands.end()) return type;
     }

@@ -40,7 +40,7 @@ enum class Contexts : std::uint8_t { any, cells, rates, steps, values, noisy, pi
 struct Arity {
     int least;
     int most;
-    bool is_groups = false;  ///< Groups of `least` values; most − least values may follow them.
+    bool is_groups = false;  ///< Groups of `least` values, then up to most − least values.
     bool is_range = false;   ///< Any number from `least` to `most`.
 
     constexpr Arity(int count) : least(count), most(count) {}
@@ -58,20 +58,20 @@ constexpr Arity up_to(int least, int most) {
     arity.is_range = true;
     return arity;
 }
-/// Groups of `size` values; `after` more may follow them.
+/// Groups of `size` values, optionally followed by `after` more.
 constexpr Arity groups_of(int size, int after = 0) {
     Arity arity{size, size + after};
     arity.is_groups = true;
     return arity;
 }
 
-/// The most operands that a function takes.
+/// The most operands of a function.
 inline constexpr std::size_t most_operands = 6;
 
 struct FunctionInfo {
     std::string_view spelling;
     Arity arity;
-    int precedence;  ///< Of an operator; other functions have that of a name.
+    int precedence;  ///< For operators. Other functions have a name's.
     FunctionKind kind;
     ResultKind result;
     Linear linear;
@@ -84,27 +84,27 @@ struct FunctionInfo {
 
     bool is_operator = precedence < of_a_name;  ///< Spelled between or before its operands.
     bool is_aggregate = kind == FunctionKind::aggregate;
-    /// It makes one number of many cells, such as `sum over near`.
+    /// It computes one number from many cells, such as `sum over near`.
     bool is_reduction = spelling.find(" over ") != std::string_view::npos;
-    /// Called by its name, f(…); not an operator, `sum over domain`, or one that lowering makes.
+    /// Called by its name, f(…): no operator, `sum over domain`, or product of lowering.
     bool is_named = !is_operator && spelling.find_first_of(" (") == std::string_view::npos;
 
     static constexpr int of_a_name = 9;
 };
 const FunctionInfo& info(Function function);
 
-/// The function that is called by a name; nothing for operators and unknown names.
+/// The function called by a name. Empty for operators and unknown names.
 std::optional<Function> function_named(std::string_view name);
-/// The function that sums (sum, mean, min, max) over `domain`, `touching` or `near`; nothing for
+/// The function that sums (sum, mean, min, max) over `domain`, `touching` or `near`. Empty for
 /// other words.
 std::optional<Function> function_over(std::string_view name, std::string_view over);
 
-/// True if it makes a number of numbers only; those are the rows of elementary.def.
+/// True if it computes a number from numbers only. These functions are the rows of elementary.def.
 inline bool is_elementary(Function function) { return info(function).kind <= FunctionKind::choice; }
 inline bool is_comparison(Function function) {
     return info(function).kind == FunctionKind::comparison;
 }
-/// True if it sums values of neighbours, or finds their mean, least or greatest.
+/// True if it computes the sum, mean, least or greatest of neighbours' values.
 inline bool is_over_neighbours(Function function) {
     return info(function).kind == FunctionKind::link && info(function).is_reduction;
 }
@@ -120,8 +120,8 @@ inline bool is_stencil(Function function) {
     const FunctionKind kind = info(function).kind;
     return kind == FunctionKind::derivative || kind == FunctionKind::stencil;
 }
-/// True for operators of derivatives and the vectors that they take, whose values vary by cell only
-/// if an operand does.
+/// True for operators of derivatives and their vectors, whose values vary by cell only if an
+/// operand does.
 inline bool differentiates(Function function) {
     return is_stencil(function) || info(function).kind == FunctionKind::flux;
 }
@@ -132,10 +132,10 @@ inline bool varies_by_cell(Function function) {
     return (kind >= FunctionKind::derivative && kind <= FunctionKind::landmarks) ||
            function == Function::along;
 }
-/// True if it reads what a string names (a file, an attribute of a model), which is stored in a
-/// plane of its own.
+/// True if it reads data named by a string (a file, an attribute of a model), stored in a separate
+/// plane.
 inline bool reads_file(Function function) { return info(function).kind == FunctionKind::text; }
-/// True if it is about positions on the surface of a model, which a plane does not have.
+/// True if it needs positions on the surface of a model, which a plane lacks.
 inline bool needs_model(Function function) { return info(function).domains == Domains::model; }
 /// True if the value jumps where operand `n` passes some number.
 inline bool jumps_by(Function function, std::size_t n) {
@@ -143,23 +143,23 @@ inline bool jumps_by(Function function, std::size_t n) {
     return behaviour == Behaviour::jumps || (behaviour == Behaviour::chooses && n == 0);
 }
 
-/// Is a function of `count` operands linear in operand `n` while the others stay?
+/// Whether a function of `count` operands is linear in operand `n` while the others are constant.
 bool is_linear_in(Function function, std::size_t n, std::size_t count);
-/// Is it linear in all its linear operands together, as a sum is and a product is not?
+/// Whether it is linear in all its linear operands together, as a sum is and a product is not.
 inline bool is_jointly_linear(Function function) {
     const Linear linear = info(function).linear;
     return linear == Linear::together || linear >= Linear::after_first;
 }
 
-/// What a value is. In a system of fields a vector has a value in each cell and, inside of div, a
-/// value at each face between cells (lang/program/field_vectors.h). In a system of cells that crawl
-/// it is three numbers, a place or a direction in space; lowering takes it apart first of all
+/// The type of a value. In a system of fields a vector has a value in each cell and, inside of div,
+/// a value at each face between cells (lang/program/field_vectors.h). In a system of crawling cells
+/// it is three numbers, a position or a direction in space, which lowering splits first
 /// (lang/lower/tissue_pass.cpp). No formula has both.
 enum class ValueType : std::uint8_t { number, colour, text, vector, tensor };
-/// What a function makes of operands of these types, if it has a meaning for them.
+/// The type of a function's result for operands of these types, if it has a meaning for them.
 ValueType type_of_result(Function function, std::span<const ValueType> operands);
 
-/// The axis of the component that a vector calls x, y or z.
+/// The axis of a vector's component called x, y or z.
 std::optional<int> component_named(std::string_view name);
 
 /// A derivative along the axes `first` and, if of second order, `second`: 0 is x, 1 y, 2 z.
@@ -171,7 +171,7 @@ struct Derivative {
     constexpr bool is_mixed() const { return order == 2 && first != second; }
 };
 inline constexpr std::array first_derivatives{Function::dx, Function::dy, Function::dz};
-/// Which derivative dx, dxx or dxy is; of order 0 for any other function.
+/// Which derivative dx, dxx or dxy is. Of order 0 for any other function.
 Derivative derivative_of(Function function);
 
 /// Values that every expression may read. `pi` is folded into a number.
@@ -189,17 +189,17 @@ inline constexpr std::array<std::string_view, builtin_count> builtin_names{
     "curvature", "curvature_mean", "curvature_gauss", "curvature_high", "curvature_low"};
 // clang-format on
 std::optional<Builtin> builtin_named(std::string_view name);
-/// True for values that vary by cell on models only; on a plane they are constant.
+/// True for values that vary by cell on models only. On a plane they are constant.
 constexpr bool is_of_model(Builtin builtin) { return builtin >= Builtin::nx; }
 
-/// Values that only cells that crawl have. Other systems may declare their names.
+/// Values that only crawling cells have. Other systems may declare their names.
 // clang-format off
 enum class CellValue : std::uint8_t {
-    off, feature, normal,  ///< Of the surface at the cell.
+    off, feature, normal,  ///< The surface's at the cell.
     ex, ey, ez,            ///< The axes of the cell's frame, of length 1.
-    // Of a link to a neighbour:
+    // For a link to a neighbour:
     distance,   ///< Between the centres.
-    direction,  ///< The unit vector from the cell to the neighbour; 0 if both are in one place.
+    direction,  ///< The unit vector from the cell to the neighbour. 0 if both are at one position.
     gap,        ///< distance − (r + r'): below 0 where the cells overlap.
     overlap,    ///< max(−gap, 0).
     contact,    ///< 1 up to the distance r + r', falling linearly to 0 at `reach` times that.
@@ -216,7 +216,7 @@ constexpr bool is_vector(CellValue value) {
 constexpr bool is_of_frame(CellValue value) {
     return value >= CellValue::ex && value <= CellValue::ez;
 }
-/// True for values of a link, which are known inside of sums over neighbours only.
+/// True for values of a link, which are only known inside of sums over neighbours.
 constexpr bool is_of_link(CellValue value) { return value >= CellValue::distance; }
 
 }  // namespace cascade

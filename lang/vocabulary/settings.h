@@ -1,4 +1,4 @@
-// The settings of the language, and the values they take.
+// The settings of the language, and their values.
 #pragma once
 
 #include "lang/vocabulary/domains.h"
@@ -76,8 +76,8 @@ struct SettingInfo {
     std::string_view hint = "";
 };
 const SettingInfo& info(Setting setting);
-/// All rows of the table: those of `Setting` in its order, then those of words that another block
-/// has, too.
+/// All rows of the table: the rows of `Setting` in its order, then words that another block has,
+/// too.
 std::span<const SettingInfo> setting_rows();
 
 std::optional<Setting> setting_named(std::string_view word);
@@ -90,7 +90,7 @@ std::vector<std::string> words_taken_by(const SettingInfo& setting);
 inline std::vector<std::string> words_taken_by(Setting setting) {
     return words_taken_by(info(setting));
 }
-/// Where a setting of another block belongs; "" for words that are not settings.
+/// The block of a setting that belongs to another one. "" for words that are not settings.
 std::string_view home_of(std::string_view word);
 
 /// Words that begin statements and blocks or separate the parts of an expression.

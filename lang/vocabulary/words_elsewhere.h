@@ -1,7 +1,7 @@
-// Terms of papers, other programs and other languages, and what they are called here.
+// Terms of papers, other programs and other languages, and their names in this language.
 //
-// One table holds the words that a newcomer is likely to try. It is consulted only for words that
-// have no meaning in a script, so it reserves no names.
+// One table holds the words that a newcomer is likely to try. Only words without a meaning in a
+// script are looked up, so it reserves no names.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@
 
 namespace cascade {
 
-/// Where an unknown word stands.
+/// Where an unknown word occurs.
 enum class WordContext : std::uint8_t {
-    stage,      ///< `dt: 0.1` in a stage, or of an option such as --set
+    stage,      ///< `dt: 0.1` in a stage, or in an option such as --set
     domain,     ///< `size: 100` in the domain
     picture,    ///< `palette: "grey"` in the picture
     boundary,   ///< `boundary: neumann`
     side,       ///< `left: neumann`
     function,   ///< `laplacian(u)`
     value,      ///< `time` in an expression
-    statement,  ///< `import "a.cascade"`, where a statement begins
+    statement,  ///< `import "a.cascade"` at the beginning of a statement
 };
 
-/// A row: `words`, separated by blanks, and what to write instead. The text in quotes after `write`
-/// replaces the word and passes the checker as it stands (tests/unit/lang/hints_test.cpp); the word
-/// after `did you mean` replaces the name alone.
+/// A row: `words`, separated by blanks, and the advice. The text in quotes after `write` replaces
+/// the word and passes the checker unchanged (tests/unit/lang/hints_test.cpp). The word after `did
+/// you mean` replaces only the name.
 struct WordElsewhere {
     WordContext context;
     std::string_view words;
@@ -33,8 +33,7 @@ struct WordElsewhere {
 
 std::span<const WordElsewhere> words_elsewhere();
 
-/// The advice about a word, regardless of case; empty if there is none.
-/// The `u` of u_t, u_dot, dudt and du_dt, the names of a rate in other programs; else empty.
+/// The `u` of u_t, u_dot, dudt and du_dt, the names of a rate in other programs. Otherwise empty.
 std::string_view species_of_rate(std::string_view name);
 
 std::string_view advice_about(std::string_view word, WordContext context);
