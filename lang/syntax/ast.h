@@ -20,7 +20,7 @@ namespace cascade::ast {
 /// An index into Script::expressions.
 using ExprId = std::uint32_t;
 
-/// A word of the script and its place. The view points into the Sources.
+/// A word of the script and its source location. The view points into the Sources.
 struct Word {
     Span span;
     std::string_view text;
@@ -38,17 +38,17 @@ struct Unary { Function op; ExprId operand; };
 struct Binary { Function op; ExprId left, right; };
 /// The arguments are Script::arguments[first_argument …], in order.
 struct Call { Word function; std::uint32_t first_argument, argument_count; };
-/// sum(operand over index); `index` is the word `domain`, `touching` or `near`, or an index of the
-/// system. Of near(d) the distance stands after the nodes of the operand.
+/// sum(operand over index). `index` is the word `domain`, `touching` or `near`, or an index of the
+/// system. The distance of near(d) follows the nodes of the operand.
 struct Over { Word function; ExprId operand; Word index; std::optional<ExprId> distance; };
-/// u[index], A[index, second], [u[index]], large.u[index], u[index]': `base` is the Name, Bracketed,
-/// Qualified or RateOf of the family, directly before the nodes of the indices.
+/// u[index], A[index, second], [u[index]], large.u[index], u[index]': `base` is the Name,
+/// Bracketed, Qualified or RateOf of the family, directly before the nodes of the indices.
 struct Indexed { ExprId base, index; std::optional<ExprId> second = {}; };
-/// J.x; `axis` is the number 0, 1 or 2, the node before this. No stage has a value of that name.
+/// J.x. `axis` is the number 0, 1 or 2, the node before this. No stage has a value of that name.
 struct Component { ExprId operand, axis; Word name; };
 // clang-format on
-/// Stands for what could not be parsed. An error has been reported; later passes report nothing
-/// about it.
+/// Replaces text that could not be parsed. An error has been reported, and later passes report no
+/// other.
 struct Garbage {};
 
 struct Expr {
@@ -71,8 +71,8 @@ enum class StatementKind : std::uint8_t {
     rate_term,   ///< name' += e
     at_least,    ///< name >= e
     at_most,     ///< name <= e
-    index,       ///< name: low .. high; the values are the two ends
-    constraint,  ///< 0 = e; the name is the 0
+    index,       ///< name: low .. high. The values are the two ends.
+    constraint,  ///< 0 = e. The name is the 0.
 };
 
 /// in low .. high [step e], after the value of a parameter.
@@ -85,12 +85,12 @@ struct Range {
 struct Statement {
     StatementKind kind = StatementKind::value;
     Word name;
-    Word index;   ///< i of `u[i]: e`, a name or a number; i,j of `A[i, j]: e`
-                  ///< (lang/syntax/index_words.h); empty without an index.
-    Word side;    ///< left of `u.left: e`; empty if there is none.
-    Word second;  ///< u of `u'' = e`, which becomes u_t' = e (lang/syntax/second_rates.h); else
-                  ///< empty.
-    Word after;   ///< divide of `u: e after divide`; empty if there is none.
+    Word index;   ///< i of `u[i]: e`, a name or a number, or i,j of `A[i, j]: e`
+                  ///< (lang/syntax/index_words.h). Empty without an index.
+    Word side;    ///< left of `u.left: e`. Empty if there is none.
+    Word second;  ///< u of `u'' = e`, which becomes u_t' = e (lang/syntax/second_rates.h).
+                  ///< Otherwise empty.
+    Word after;   ///< divide of `u: e after divide`. Empty if there is none.
     std::vector<Expression> values;  ///< At least one.
     std::optional<Range> range;      ///< Only for kind `value`.
     Span span;                       ///< From the name to the end of the last value.
@@ -108,18 +108,18 @@ enum class BlockKind : std::uint8_t {
 
 struct Block {
     BlockKind kind = BlockKind::system;
-    bool is_cells = false;  ///< Of a system: one of cells that crawl.
-    Word keyword;  ///< `system`, `stage`, `system_name`, …: the place of the block in messages.
-    Span span;     ///< From the keyword to the `}`; empty for a classic stage.
-    Word name;     ///< Of a system, a stage or a shape; empty otherwise.
-    /// Of a stage: its system, empty if it could not be parsed. Of a system or a shape: its base,
+    bool is_cells = false;  ///< A system of crawling cells.
+    Word keyword;  ///< `system`, `stage`, `system_name`, …: the location of the block in messages.
+    Span span;     ///< From the keyword to the `}`. Empty for a classic stage.
+    Word name;     ///< Of a system, a stage or a shape. Otherwise empty.
+    /// For a stage: its system, empty if it could not be parsed. For a system or a shape: its base,
     /// empty if it has none.
     Word base;
-    std::vector<Word> joined;  ///< Of cells: the bases after the first.
+    std::vector<Word> joined;  ///< For cells: the bases after the first.
     std::vector<Statement> statements;
     std::vector<Statement> sides;  ///< `u.left: …`, `u[1].left: …`.
     std::string doc;               ///< The text of its doc comments, joined to one line.
-    /// A part could not be parsed and is missing from these lists; an error has been reported.
+    /// A part could not be parsed and is missing from these lists. An error has been reported.
     bool is_damaged = false;
 };
 
@@ -128,20 +128,20 @@ struct FunctionDefinition {
     Word name;
     std::vector<Word> parameters;
     Expression body;
-    Span span;  ///< From the keyword to the end of the body; empty if it could not be parsed.
+    Span span;  ///< From the keyword to the end of the body. Empty if it could not be parsed.
     bool is_constant = false;  ///< `let`.
     std::string doc;
 };
 
 /// use "file.cascade"
 struct Use {
-    Span span;         ///< Of the string.
+    Span span;         ///< The string's.
     std::string path;  ///< As written.
 };
 
 /// A value from outside the script (`--set large.ka=1/400`). It replaces the statement of that name
-/// in one stage; if no stage has that name, in all stages of the system of that name; if `stage` is
-/// empty, in all stages with such a statement.
+/// in one stage, or, if no stage has that name, in all stages of the system of that name. If
+/// `stage` is empty, in all stages with such a statement.
 struct Override {
     Word stage;
     Statement statement;
@@ -153,14 +153,14 @@ struct Script {
     std::vector<Use> uses;
     std::vector<Override> overrides;
     /// Settings of the domain and of all stages given as options: --grid 64x32 is `grid: 64, 32`.
-    /// They override the script. Each has a source of its own, the text of the option; --fast has
-    /// no value.
+    /// They override the script. Each has its own source, the text of the option. --fast has no
+    /// value.
     std::vector<Statement> options;
     std::vector<Expr> expressions;
     std::vector<ExprId> arguments;
 };
 
-/// The place of an expression of the script.
+/// The source location of an expression of the script.
 inline Span span_of(const Script& script, Expression expression) {
     return script.expressions[expression.root].span;
 }

@@ -88,7 +88,7 @@ private:
         }
         return false;
     }
-    /// `over` and `in` stand between operands; within bars they can only be names.
+    /// `over` and `in` come between operands. Within bars they can only be names.
     bool is_after_operand(bool is_open) const {
         if (at_ == 0) return false;
         const Token& before = in_[at_ - 1];

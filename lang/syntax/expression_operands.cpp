@@ -125,7 +125,7 @@ ExpressionParser::Progress ExpressionParser::read_name() {
     return Progress::going_on;
 }
 
-/// [name]. Anything else in such brackets is skipped up to the closing one.
+/// [name]. Skips anything else in such brackets up to the closing one.
 ExpressionParser::Progress ExpressionParser::read_bracketed() {
     const bool is_range = cursor_.previous().kind == TokenKind::name;
     const Token open = cursor_.take();
@@ -169,7 +169,7 @@ ExpressionParser::Progress ExpressionParser::read_bracketed() {
     return Progress::going_on;
 }
 
-/// [name[index]]: the outer bracket is open; the index follows.
+/// [name[index]]: the outer bracket is open, and the index follows.
 ExpressionParser::Progress ExpressionParser::read_own_member() {
     const Token outer = cursor_.previous();
     const Token name = cursor_.take();

@@ -195,7 +195,7 @@ ExpressionParser::Progress ExpressionParser::close_near() {
     return close_over(near, distance);
 }
 
-/// The cursor is after what `over` names; then a bracket closes the sum.
+/// The cursor is after the word that follows `over`. Then a bracket closes the sum.
 ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
                                                         std::optional<ast::ExprId> distance) {
     cursor_.skip_newlines_in_brackets();
@@ -216,7 +216,7 @@ ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
     return Progress::going_on;
 }
 
-/// Closes the innermost bracket; reports a `]` in place of a `)` and accepts it.
+/// Closes the innermost bracket. Reports a `]` in place of a `)` and accepts it.
 ExpressionParser::Progress ExpressionParser::read_close_round() {
     const Token close = cursor_.peek();
     if (open_brackets_ == 0) {

@@ -46,7 +46,7 @@ void ExpressionParser::push_bracket(PendingKind kind, Token bracket, ast::Word n
     expects_operand_ = true;
 }
 
-/// Pushes an operator; operators on its left that bind tighter are reduced first.
+/// Pushes an operator, after reducing operators on its left that bind tighter.
 void ExpressionParser::push_binary(Function op, const Token& sign) {
     Pending pending;
     pending.kind = PendingKind::binary;

@@ -22,11 +22,11 @@ class ExpressionParser {
 public:
     ExpressionParser(TokenCursor& cursor, ast::Script& script) : cursor_(cursor), script_(script) {}
 
-    /// Parses one expression and leaves the cursor at what ends it: a line break, `;`, `}`, `,` or
-    /// the end of the text. On an error, reports it, skips to the end of the statement and returns
-    /// Garbage. `owner` names what lacks a value in messages: `the value of 'ka'`. Outside of
-    /// brackets the expression also ends at `..`, and at one of the words `ends` where an operator
-    /// could stand.
+    /// Parses one expression and leaves the cursor at its end: a line break, `;`, `}`, `,` or the
+    /// end of the text. On an error, reports it, skips to the end of the statement and returns
+    /// Garbage. `owner` names the holder of a missing value in messages: `the value of 'ka'`.
+    /// Outside of brackets the expression also ends at `..`, and at one of the words `ends` in the
+    /// position of an operator.
     ast::Expression parse(const std::string& owner, std::span<const std::string_view> ends = {});
 
 private:
@@ -41,16 +41,16 @@ private:
         Chain chain = Chain::none;
         Function op{};
         Token token;                       ///< The operator or the bracket.
-        ast::Word detail;                  ///< Name of a call or `near`; middle operand of a chain.
-        std::uint32_t argument_count = 0;  ///< Of a call: complete arguments so far.
-        bool is_own = false;               ///< Of an index: the inner bracket of [u[i]].
+        ast::Word detail;                  ///< Name of a call or `near`. Middle operand of a chain.
+        std::uint32_t argument_count = 0;  ///< For a call: complete arguments so far.
+        bool is_own = false;               ///< For an index: the inner bracket of [u[i]].
         int precedence() const { return info(op).precedence; }
         bool is_bracket() const {
             return kind == PendingKind::group || kind == PendingKind::call ||
                    kind == PendingKind::index || kind == PendingKind::near;
         }
     };
-    /// A complete operand; `outer` is its place including brackets.
+    /// A complete operand. `outer` is its source location including brackets.
     struct Operand {
         ast::ExprId id = 0;
         Span outer;

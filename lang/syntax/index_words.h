@@ -1,4 +1,4 @@
-// The indices of a family in a statement: of `A[i, 2]: e` the words i and 2.
+// The indices of a family in a statement: the words i and 2 of `A[i, 2]: e`.
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// The words of Statement::index with their places; none if it is empty.
+/// The words of Statement::index with their source locations. None if it is empty.
 inline std::vector<ast::Word> words_of_index(const ast::Word& index) {
     if (index.empty()) return {};
     const std::size_t comma = index.text.find(',');
@@ -23,17 +23,17 @@ inline std::vector<ast::Word> words_of_index(const ast::Word& index) {
     return words;
 }
 
-/// Is it the number of a member, not the name of an index?
+/// Whether it is the number of a member, not the name of an index.
 inline bool is_number(const ast::Word& word) {
     return !word.empty() && word.text.front() >= '0' && word.text.front() <= '9';
 }
 
-/// Is a statement with this index about some members of a family only?
+/// Whether a statement with this index is only about some members of a family.
 inline bool is_of_some_members(const ast::Word& index) {
     return std::ranges::any_of(words_of_index(index), is_number);
 }
 
-/// The token after an index, if one like [i] or [i, 2] begins at a token, or else this token.
+/// The token after an index, if one like [i] or [i, 2] begins at a token. Otherwise this token.
 template <typename KindAt>
 std::size_t after_index(const KindAt& kind, std::size_t at) {
     if (kind(at) != TokenKind::open_square) return at;

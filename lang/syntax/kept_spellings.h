@@ -1,4 +1,4 @@
-// Spellings that are not in a source as they stand.
+// Spellings that do not occur in a source.
 #pragma once
 
 #include <string>
@@ -6,12 +6,11 @@
 
 namespace cascade {
 
-/// A copy of the text that lives as long as the process; equal texts share one. Any thread may call
-/// it.
+/// A copy of the text that lives as long as the process. Equal texts share one. Thread-safe.
 std::string_view kept_spelling(const std::string& text);
 
-/// Is this the spelling of a number? That of a number which the parser has added, such as the
-/// starting value of u_t for u'' = e, is not: its place is that of other words.
+/// Whether this is the spelling of a number in the source. A number added by the parser, such as
+/// the starting value of u_t for u'' = e, has the location of other words and does not count.
 bool is_spelling_of_number(std::string_view text);
 
 }  // namespace cascade

@@ -27,7 +27,7 @@ bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 
 bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// A hint for `0x10` of other languages and `100x100` of screens; nothing for other words.
+/// A hint for `0x10` of other languages and `100x100` of screens. Empty for other words.
 std::optional<std::string> hint_of_other_number(std::string_view word) {
     constexpr std::size_t longest = 18;
     const std::size_t cross = word.find_first_of("xX");
@@ -54,7 +54,7 @@ std::optional<std::string> hint_of_other_number(std::string_view word) {
     return std::nullopt;
 }
 
-/// A letter or digit of a name, and how it is spelled in ASCII.
+/// A letter or digit of a name, and its spelling in ASCII.
 struct NamePart {
     std::uint32_t size = 0;  ///< Bytes in the text.
     std::string_view spelling;
@@ -125,7 +125,7 @@ private:
     std::vector<Span>* docs_;
     std::vector<Token> tokens_;
     std::size_t offset_ = 0;
-    bool has_signs_of_papers_ = false;  ///< Among the tokens, besides operators and letters.
+    bool has_signs_of_papers_ = false;  ///< In the tokens, besides operators and letters.
 };
 
 bool Lexer::begins_operator(std::size_t offset) const {
@@ -134,7 +134,7 @@ bool Lexer::begins_operator(std::size_t offset) const {
                        [&](const Operator& known) { return rest.starts_with(known.spelling); });
 }
 
-/// True if the character at `offset` is not ASCII but would be taken for a letter of the name.
+/// True if the character at `offset` is not ASCII but resembles a letter of the name.
 bool Lexer::joins_a_name(std::size_t offset) const {
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return false;
     const CodePoint point = decode_utf8(text_, offset);
@@ -142,7 +142,7 @@ bool Lexer::joins_a_name(std::size_t offset) const {
            !superscript_digit(point.value) && !begins_operator(offset);
 }
 
-/// The letter or digit of a name at `offset`; of size 0 if there is none.
+/// The letter or digit of a name at `offset`. Its size is 0 if there is none.
 NamePart Lexer::name_part(std::size_t offset) const {
     if (is_name_part(at(offset))) return {1, text_.substr(offset, 1)};
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return {};
@@ -177,7 +177,7 @@ void Lexer::read_token() {
     }
 }
 
-/// Several line breaks in a row are one token, whatever blanks and comments are between them.
+/// Several line breaks in a row are one token, despite blanks and comments between them.
 void Lexer::read_line_end() {
     const std::size_t size = text_.substr(offset_).starts_with("\r\n") ? 2 : 1;
     if (!tokens_.empty() && tokens_.back().kind == TokenKind::newline) {
@@ -296,7 +296,7 @@ void Lexer::read_number() {
     push(TokenKind::garbage, begin, end);
 }
 
-/// A string, which ends on its line. Other quotation marks have been reported; their string is
+/// A string, which ends on its line. Other quotation marks have been reported. Their string is
 /// garbage.
 void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     const std::size_t begin = offset_;
@@ -317,7 +317,7 @@ void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     push(TokenKind::garbage, begin, end);
 }
 
-/// A run of raised digits, which may begin with a raised minus.
+/// A run of superscript digits, which may begin with a superscript minus.
 bool Lexer::read_superscript() {
     std::size_t end = offset_;
     while (end < text_.size()) {
@@ -379,14 +379,14 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
         const bool is_guillemet = point.value == U'\u00ab';
         return read_text(point.size, is_guillemet ? "\u00bb" : closing);
     }
-    if (is_power) {  // The parser continues as if the power were not there.
+    if (is_power) {  // The parser continues as if there were no power.
         offset_ += point.size;
         return;
     }
     push(look_alike.meant, begin, begin + point.size);
 }
 
-/// Reads what is neither a name, a number nor an operator.
+/// Reads anything except a name, a number or an operator.
 void Lexer::read_other() {
     const std::size_t begin = offset_;
     std::size_t end = begin;

@@ -8,7 +8,7 @@ namespace cascade {
 
 namespace {
 
-/// What its author means by a character.
+/// The author's meaning of a character.
 using Meant = TokenKind;
 
 // clang-format off

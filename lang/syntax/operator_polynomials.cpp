@@ -1,4 +1,4 @@
-// Looks for a `lap` without brackets where it makes a product an application.
+// Finds a `lap` without brackets that makes a product an application.
 #include "lang/syntax/operator_polynomials.h"
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The spellings of operators and brackets, and those of other languages.
+// The spellings of operators and brackets, including those of other languages.
 #pragma once
 
 #include "lang/syntax/token.h"
@@ -12,7 +12,7 @@ struct Operator {
     TokenKind kind;
 };
 
-/// A longer operator comes before its prefixes.
+/// A longer operator precedes its prefixes.
 inline constexpr Operator operators[] = {
     {"=\u0338", TokenKind::not_equal},
     {"+=", TokenKind::plus_assign},
@@ -40,8 +40,8 @@ inline constexpr Operator operators[] = {
     {"*", TokenKind::star},
     {"/", TokenKind::slash},
     {"^", TokenKind::caret},
-    // Signs of papers. A '=' with a stroke laid over it and the Greek semicolon are by Unicode the
-    // same as ≠ and ·.
+    // Signs of papers. Unicode treats a '=' with a combining stroke and the Greek semicolon as
+    // equal to ≠ and ·.
     {"≤", TokenKind::less_equal},
     {"≥", TokenKind::greater_equal},
     {"≠", TokenKind::not_equal},
@@ -63,7 +63,7 @@ inline constexpr Operator operators[] = {
     {"∣", TokenKind::bar},
 };
 
-/// Operators of other languages, and what they mean here.
+/// Operators of other languages, and their equivalents.
 struct ForeignOperator {
     std::string_view spelling;
     TokenKind meant;

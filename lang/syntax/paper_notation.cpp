@@ -35,18 +35,18 @@ public:
     }
 
 private:
-    /// An open bracket, and what goes on after it.
+    /// An open bracket, and the state to resume after it.
     struct Open {
-        std::size_t closings = 0;   ///< Brackets of operators that end with it.
+        std::size_t closings = 0;   ///< Operators' brackets that end with it.
         bool is_divisor = false;    ///< The product around it has been divided.
-        bool is_operators = false;  ///< The bracket of an operator.
+        bool is_operators = false;  ///< The bracket belongs to an operator.
     };
-    /// What stands for `/∂t` or `/∂x` of a derivative.
+    /// The `/∂t` or `/∂x` of a derivative.
     struct DerivativeEnd {
         TokenKind kind = TokenKind::prime;
-        bool is_second_prime = false;  ///< Of ∂²u/∂t², with two primes.
+        bool is_second_prime = false;  ///< For ∂²u/∂t², with two primes.
         Token last;
-        std::size_t size = 0;  ///< Tokens of the source.
+        std::size_t size = 0;  ///< In tokens of the source.
     };
 
     void read() {
@@ -89,7 +89,7 @@ private:
         put(token(at_++));
     }
 
-    /// The sign of a product that the source leaves out before the token here.
+    /// Adds the product sign that the source omits before this token.
     void multiply() {
         const Token& here = token(at_);
         if (is_after_application() || is_divisor_) {
@@ -111,7 +111,7 @@ private:
         if (is_name && goes_on()) return;
         end_operand();
     }
-    /// True if the operand that ends before this token goes on with it.
+    /// True if the operand that ends before this token continues with it.
     bool goes_on() const {
         switch (kind(at_)) {
             case TokenKind::open_round:
@@ -213,7 +213,7 @@ private:
             closings_ += times;
         }
     }
-    /// How many Laplacians ∇², ∇⁴ or Δ² is.
+    /// The number of Laplacians in ∇², ∇⁴ or Δ².
     std::size_t times_applied(const Token& sign, const Token& power) {
         const std::string digits = digits_of(source(power.span));
         constexpr std::array<std::string_view, 4> even{"2", "4", "6", "8"};
@@ -285,7 +285,7 @@ private:
                            "put the operator with its operand, or the power, in brackets");
     }
 
-    /// ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x², ∂²u/∂x∂y; u may be u[i].
+    /// ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x², ∂²u/∂x∂y. u may be u[i].
     void read_partial() {
         const std::size_t begin = at_;
         if (at_ > 0 && ends_operand(at_ - 1)) multiply();
@@ -344,7 +344,7 @@ private:
 
     Diagnostics& diagnostics_;
     std::vector<Open> open_;
-    std::size_t closings_ = 0;  ///< Brackets to close where the operand here ends.
+    std::size_t closings_ = 0;  ///< Brackets to close at the end of the present operand.
     bool is_divisor_ = false;   ///< The product so far has been divided.
     std::map<std::size_t, DerivativeEnd> derivative_ends_;
 };

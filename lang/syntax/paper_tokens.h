@@ -1,5 +1,5 @@
-// What the notation of papers asks about tokens: which end or begin an operand, and where they
-// stand in the text. Of this folder only.
+// Questions about tokens for the notation of papers: which end or begin an operand, and their
+// location in the text. For this folder only.
 #pragma once
 
 #include "lang/syntax/index_words.h"
@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// Reads tokens from left to right and writes the tokens that replace them.
+/// Reads tokens from left to right and writes their replacements.
 class PaperTokens {
 protected:
     PaperTokens(const std::vector<Token>& in, std::string_view text) : in_(in), text_(text) {}
@@ -50,7 +50,7 @@ protected:
             case TokenKind::close_round:
             case TokenKind::close_square:
             case TokenKind::prime: return true;
-            case TokenKind::superscript: return at == power_end_;  // Not of ∇².
+            case TokenKind::superscript: return at == power_end_;  // Not for ∇².
             default: return false;
         }
     }
@@ -90,7 +90,7 @@ protected:
         }
         return open;
     }
-    /// x of `/∂x`; empty if something else stands here.
+    /// x of `/∂x`. Empty if there is something else here.
     std::string_view axis_of(std::size_t slash) const {
         const bool is_there = kind(slash) == TokenKind::slash &&
                               kind(slash + 1) == TokenKind::partial && is_width(token(slash + 2));
@@ -110,7 +110,7 @@ protected:
     std::string_view text_;
     std::vector<Token> out_;
     std::size_t at_ = 0;
-    std::size_t power_end_ = no_token;        ///< The last raised number that is a power.
+    std::size_t power_end_ = no_token;        ///< The last superscript that is a power.
     std::size_t application_end_ = no_token;  ///< The last token of an operator and its operand.
 };
 

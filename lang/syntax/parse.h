@@ -14,15 +14,15 @@
 
 namespace cascade {
 
-/// The largest script in bytes; a larger one is refused before it is read.
+/// The largest script in bytes. A larger one is refused before it is read.
 inline constexpr std::size_t largest_script = 16u << 20;
 
-/// Parses a whole script. Errors go to `diagnostics`; after each, parsing continues at the next
+/// Parses a whole script. Errors go to `diagnostics`. After each, parsing continues at the next
 /// statement, so that one call finds them all.
 ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics);
 
 /// Parses a text that another script uses: adds its systems and functions, and those of the texts
-/// that it uses, to `script`; ignores its stages, domain and picture.
+/// that it uses, to `script`. Ignores its stages, domain and picture.
 void parse_used(SourceId source, const Sources& sources, ast::Script& script,
                 Diagnostics& diagnostics);
 

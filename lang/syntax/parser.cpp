@@ -39,7 +39,7 @@ ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnost
     }
     script.expressions.reserve(cursor.token_count());
     ScriptParser(cursor, script).parse_script();
-    // After an error, a doc comment may belong to what could not be parsed.
+    // After an error, a doc comment may belong to text that could not be parsed.
     if (diagnostics.error_count() == errors_before) cursor.report_lost_docs();
     return script;
 }
@@ -76,7 +76,7 @@ void parse_override(SourceId source, const Sources& sources, ast::Script& script
     ScriptParser(cursor, script).parse_override();
 }
 
-/// Reports text after what should be the end, unless the expression has been reported.
+/// Reports text after the expected end, unless the expression has been reported.
 void ScriptParser::report_rest(const std::string& what, ast::Expression expression,
                                const std::string& hint) {
     cursor_.skip_newlines();
@@ -97,7 +97,7 @@ std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
     return expression;
 }
 
-/// Parses the word after a '.', if there is one; reports an error and returns false if it is
+/// Parses the word after a '.', if there is one. Reports an error and returns false if it is
 /// missing.
 bool ScriptParser::parse_word_after_dot(ast::Word& word, const std::string& form) {
     if (!cursor_.take_if(TokenKind::dot)) return true;

@@ -21,7 +21,7 @@ ast::BlockKind kind_of_keyword(std::string_view keyword) {
     return keyword == "domain" ? ast::BlockKind::domain : ast::BlockKind::picture;
 }
 
-/// What messages say of a block with a name of its own and a base.
+/// The words of messages about a block with a name and a base.
 struct HeaderWords {
     std::string_view nameless, base, named_form, derived_form;
 };
@@ -56,7 +56,7 @@ void ScriptParser::parse_item() {
         }
         return;
     }
-    // Here the name of a block tells `cells` from a quantity, whatever follows it.
+    // Here the name of a block distinguishes `cells` from a quantity, whatever follows it.
     const bool begins_named = !in_classic_stage_ && cursor_.kind(1) == TokenKind::name &&
                               (cursor_.at_name("cells") || cursor_.at_name("shape"));
     if (cursor_.begins_block() || begins_named) return parse_block(cursor_.text(cursor_.peek()));
@@ -68,7 +68,7 @@ void ScriptParser::parse_item() {
     }
 }
 
-/// `System s {`: parsed as the block that is meant, so that nothing else seems to be missing.
+/// `System s {`: parsed as the block that is meant, so that no other part seems to be missing.
 bool ScriptParser::parse_misspelt_block() {
     if (!cursor_.at(TokenKind::name) || !has_shape_of_block(1)) return false;
     const std::string meant = report_no_block(cursor_.word(cursor_.peek()));
@@ -102,7 +102,7 @@ void ScriptParser::parse_block(std::string_view keyword) {
     script_.blocks.push_back(std::move(block));
 }
 
-/// Of a system, cells or a shape: NAME, or NAME: BASE; for cells also NAME: BASE, BASE.
+/// The header of a system, cells or a shape: NAME, or NAME: BASE. For cells also NAME: BASE, BASE.
 void ScriptParser::parse_header_of_system(ast::Block& block) {
     if (cursor_.at(TokenKind::name)) {
         block.name = cursor_.word(cursor_.take());

@@ -1,4 +1,4 @@
-// What a script has outside of blocks: functions, constants, and the files that it uses.
+// The parts of a script outside of blocks: functions, constants, and used files.
 #include "lang/syntax/script_parser.h"
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// What follows a value: the end of an index, the range of a parameter, `after divide`.
+// The parts after a value: the end of an index, the range of a parameter, `after divide`.
 #include "lang/syntax/script_parser.h"
 
 #include <fmt/core.h>
@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-// Words that end a part of a range where an operator could stand.
+// Words that end a part of a range in the position of an operator.
 constexpr std::array<std::string_view, 2> ends_of_range{"step", "after"};
 constexpr std::array<std::string_view, 1> ends_of_step{"after"};
 

@@ -18,13 +18,13 @@ namespace cascade {
 
 namespace {
 
-/// Words that end a value where an operator could stand.
+/// Words that end a value in the position of an operator.
 constexpr std::array<std::string_view, 2> ends_of_value{"in", "after"};
 
 }  // namespace
 
 /// Parses the statement at the cursor and moves to its end. Reports an error and returns nothing if
-/// its name or relation is wrong; a value that is wrong becomes Garbage.
+/// its name or relation is wrong. A wrong value becomes Garbage.
 std::optional<ast::Statement> ScriptParser::parse_statement() {
     if (!cursor_.at(TokenKind::name) && !cursor_.begins_constraint()) {
         report_no_statement();
@@ -59,7 +59,7 @@ void ScriptParser::parse_side(ast::Statement& statement) {
     statement.side = cursor_.word(cursor_.take());
 }
 
-/// Statements about sides are kept in a list of their own.
+/// Statements about sides go into a separate list.
 void ScriptParser::add_statement(ast::Block& block, ast::Statement statement) {
     if (!statement.after.empty() && !block.is_cells) {
         cursor_.error(statement.after.span, "only cells that crawl divide",
@@ -115,7 +115,7 @@ bool ScriptParser::parse_index(ast::Statement& statement) {
     return false;
 }
 
-/// Reports that no statement begins here; returns false.
+/// Reports that no statement begins here. Returns false.
 bool ScriptParser::report_no_statement() {
     const Token token = cursor_.peek();
     const std::string word = cursor_.describe(token);
@@ -142,8 +142,8 @@ bool ScriptParser::report_no_statement() {
     return false;
 }
 
-/// Parses what is between the name and the value. Relations of other languages are reported and
-/// taken for what they mean. False if there is no value to parse.
+/// Parses the text between the name and the value. Reports relations of other languages and takes
+/// them for their equivalents. False if there is no value to parse.
 bool ScriptParser::parse_relation(ast::Statement& statement) {
     using Kind = ast::StatementKind;
     const Token token = cursor_.peek();
@@ -213,13 +213,13 @@ bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
                       "a rate is written with '=' or '+='",
                       fmt::format("write {}' = …", shortened(statement.name.text)));
     }
-    // A colon is a likely slip: what follows is the rate.
+    // A colon is a likely slip: the rate follows.
     if (cursor_.take_if(TokenKind::colon) || cursor_.take_if(TokenKind::equal)) return true;
     cursor_.skip_statement();
     return false;
 }
 
-/// `u''' = e`: reports it and skips the value, since no second derivative means the same.
+/// `u''' = e`: reports it and skips the value, since no second derivative is equivalent.
 bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
     const std::string name = shortened(cursor_.text(statement.name.span));
@@ -267,7 +267,7 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
                   "a statement is 'name: expression'");
     const std::size_t next = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
     if (next > 0 && cursor_.kind(next) != TokenKind::newline) {
-        cursor_.skip_statement();  // `u [i]: e`: what follows the name is not a value.
+        cursor_.skip_statement();  // `u [i]: e`: no value follows the name.
         return false;
     }
     switch (cursor_.kind()) {
@@ -300,7 +300,7 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     return cursor_.kind(ahead) == TokenKind::open_curly;
 }
 
-/// Reports that a word does not begin a block; returns the keyword that was probably meant, or "".
+/// Reports that a word does not begin a block. Returns the keyword that was probably meant, or "".
 std::string ScriptParser::report_no_block(const ast::Word& word) {
     const std::array<std::string, 6> of_blocks = {"system", "cells",   "stage",
                                                   "domain", "picture", "shape"};

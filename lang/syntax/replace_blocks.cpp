@@ -1,4 +1,4 @@
-// Both texts are parsed, and pieces of the one put into the other from its end to its beginning.
+// Parses both texts, and puts pieces of one into the other from its end to its beginning.
 #include "lang/syntax/replace_blocks.h"
 
 #include "lang/syntax/parse.h"
@@ -46,10 +46,10 @@ struct ParsedText {
     Diagnostics errors;
     ast::Script tree;
     std::vector<TextPiece> pieces;
-    bool is_of_blocks = true;  ///< And of nothing else?
+    bool is_of_blocks = true;  ///< Whether it contains nothing else.
 };
 
-/// The tokens outside of pictures and shapes; line breaks one at a time, and none at the ends.
+/// The tokens outside of pictures and shapes. Line breaks are single, with none at the ends.
 std::vector<std::string_view> words_without_pictures(const ParsedText& parsed) {
     Diagnostics never_any;
     std::vector<std::string_view> words;

@@ -75,10 +75,10 @@ private:
     ast::Expression parse_after_operator(const std::string& owner,
                                          std::span<const std::string_view> ends);
 
-    /// The doc comments that belong to what begins at the cursor.
+    /// The doc comments before the cursor that belong to the item that begins there.
     std::string docs_before();
-    /// The doc comments that belong to what began at `begin` and was just parsed, also after it on
-    /// its line.
+    /// The doc comments of the item that began at `begin` and was just parsed, including those
+    /// after it on its line.
     std::string docs_after(std::uint32_t begin);
     static void add_docs(std::string& doc, const std::string& more);
 

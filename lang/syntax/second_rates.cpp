@@ -1,4 +1,4 @@
-// Adds statements that have the place of the one they stand for, so that messages point there.
+// Adds statements with the source location of the original one, so that messages point there.
 #include "lang/syntax/second_rates.h"
 
 #include "lang/syntax/index_words.h"
@@ -36,7 +36,7 @@ ast::Expression read(ast::Script& script, const ast::Word& name, const ast::Word
     return {base, append(script, name.span, ast::Indexed{base, which[0], second})};
 }
 
-/// Is there a value for it? That of a family is one for each member.
+/// Whether it has a value. A family needs one for each member.
 bool has_value(const ast::Block& block, const ast::Word& name, const ast::Word& index) {
     return std::ranges::any_of(block.statements, [&](const ast::Statement& each) {
         return each.kind == ast::StatementKind::value && each.name.text == name.text &&

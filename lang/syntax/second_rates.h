@@ -11,7 +11,7 @@ namespace cascade {
 std::string_view name_of_rate(std::string_view species);
 
 /// The parser has read each u'' = e of the block as u_t' = e. Adds u' = u_t, and u_t: 0 if the
-/// block gives u_t no value; a block with a base leaves the value to that.
+/// block gives u_t no value. A block with a base leaves the value to the base.
 void complete_second_rates(ast::Script& script, ast::Block& block);
 
 }  // namespace cascade

@@ -66,25 +66,24 @@ std::string_view spelling(TokenKind kind);
 
 struct Token {
     TokenKind kind = TokenKind::end_of_text;
-    /// Its place in the source. Empty for a token that the notation of papers leaves out, such as
-    /// the `*` of `D ∇²u`.
+    /// Its source location. Empty for a token omitted by the notation of papers, such as the `*` of
+    /// `D ∇²u`.
     Span span;
-    /// Its spelling in ASCII, as the parser reads it: `beta` of β, `lap` of ∇². A view into the
-    /// source or into memory that lives as long as the process.
+    /// Its spelling in ASCII for the parser: `beta` of β, `lap` of ∇². A view into the source or
+    /// into memory that lives as long as the process.
     std::string_view text = {};
 };
 
-/// The most tokens of a script, which bounds the memory of later passes; a longer one is refused
+/// The most tokens of a script, which bounds the memory of later passes. A longer one is refused
 /// with one message.
 inline constexpr std::size_t most_tokens = 1u << 22;
 
-/// Splits a source into tokens; the last one is end_of_text. A line break is a token (several in a
-/// row are one); comments and blanks are not. What is written in the notation of papers becomes the
-/// tokens that mean the same (paper_notation.h). Bad input (a stray character, invalid UTF-8, NUL,
-/// an unclosed string, a look-alike such as ’ – ÷) is reported once per run of characters and
-/// yields `garbage`, or for a look-alike the token that was meant, so that one mistake gives one
-/// message. The places of doc comments (`## text`; `###` begins an ordinary one) are added to
-/// `docs` if it is given.
+/// Splits a source into tokens. The last one is end_of_text. A line break is a token (several in a
+/// row are one). Comments and blanks are not. The notation of papers becomes equivalent tokens
+/// (paper_notation.h). Bad input (a stray character, invalid UTF-8, NUL, an unclosed string, a
+/// look-alike such as ’ – ÷) is reported once per run of characters and yields `garbage`, or for a
+/// look-alike the token that was meant, so that one mistake gives one message. The locations of doc
+/// comments (`## text`; `###` begins an ordinary one) are added to `docs` if it is given.
 std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
                        std::vector<Span>* docs = nullptr);
 

@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t longest_shown = 40;  // Bytes of a script's words in a message.
+constexpr std::size_t longest_shown = 40;  // In bytes of a script's words in a message.
 
 }  // namespace
 

@@ -20,9 +20,9 @@ public:
     TokenKind kind(std::size_t ahead = 0) const { return peek(ahead).kind; }
     bool at(TokenKind kind) const { return peek().kind == kind; }
     bool at_end() const { return at(TokenKind::end_of_text); }
-    /// The last token taken that is not a line break; the first token before any was taken.
+    /// The last token taken that is not a line break, or the first token before any was taken.
     const Token& previous() const;
-    /// The end of the last token taken, line breaks included; 0 if only line breaks were taken.
+    /// The end of the last token taken, line breaks included. 0 if only line breaks were taken.
     std::uint32_t taken_up_to() const;
     Token take();
     bool take_if(TokenKind kind);
@@ -37,7 +37,7 @@ public:
     std::size_t position() const { return position_; }
     std::size_t token_count() const { return tokens_.size(); }
 
-    /// As the parser reads it; ASCII of a script without errors.
+    /// As the parser reads it: ASCII in a script without errors.
     std::string_view text(const Token& token) const { return token.text; }
     std::string_view text(Span span) const { return sources_.text(span); }
     ast::Word word(const Token& token) const { return {token.span, text(token)}; }
@@ -55,15 +55,15 @@ public:
     /// True if a block begins here. `system`, `cells`, `stage`, `domain` and `picture` are names
     /// elsewhere.
     bool begins_block(std::size_t ahead = 0) const;
-    /// True if `0 = ` stands here.
+    /// True if `0 = ` begins here.
     bool begins_constraint(std::size_t ahead = 0) const;
     /// True if a statement or a block begins here, in a way that no correct expression contains.
     bool begins_statement(std::size_t ahead = 0) const;
     /// True if the token here is a name with this text.
     bool at_name(std::string_view name, std::size_t ahead = 0) const;
 
-    /// True if an unclosed string lies between `from` and here and contains `swallowed`, which is
-    /// then not to be reported as missing.
+    /// True if an unclosed string lies between `from` and here and contains `swallowed`, which must
+    /// not be reported as missing then.
     bool lost_in_text(const Token& from, std::string_view swallowed) const;
 
     /// Moves to the end of the statement, out of `open_brackets` open brackets and past whole { }.
@@ -71,9 +71,9 @@ public:
 
     void error(Span span, std::string message, std::string hint = "");
     void error(Diagnostic diagnostic);
-    /// Of the whole check so far.
+    /// The number of errors in the whole check so far.
     std::size_t error_count() const { return diagnostics_.error_count(); }
-    /// While true, errors are dropped, since the mistake has been reported.
+    /// Drops errors while true, since the mistake has been reported.
     void mute(bool muted) { muted_ = muted; }
 
 private:
