@@ -1,9 +1,8 @@
-// Places words on their lines. What an author has aligned in a column (`=` and `+` of neighbouring
-// equations, comments after statements) stays aligned; all other extra blanks are removed.
+// Places words on their lines. Columns aligned by an author (`=` and `+` of neighbouring equations,
+// comments after statements) stay aligned. All other extra blanks are removed.
 //
-// An aligned column never moves left of where its widest line needs it, and otherwise stays as far
-// from the words before it as the author wrote it, so that formatting the result again changes
-// nothing.
+// An aligned column is never to the left of its widest line's minimum, and otherwise stays at the
+// author's distance from the words before it, so that formatting the result again changes nothing.
 #include "lang/format/format_lines.h"
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t before_comment = 2;   // Blanks, at least.
+constexpr std::size_t before_comment = 2;   // In blanks, at least.
 constexpr std::size_t goes_on_by = 4;       // Beyond its statement, if no bracket decides.
 constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
 constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
@@ -30,13 +29,13 @@ struct Column {
     bool was_stretched = false;  ///< One of them had more than one blank before it.
 };
 
-/// Where a column of words goes, from the words before them.
+/// The position of a column of words, from the words before them.
 class Place {
 public:
     explicit Place(bool respelled) : respelled_(respelled) {}
 
-    /// A word of the column: where the word before it ends, the blanks between them in the source,
-    /// and the blanks that are needed.
+    /// Adds a word of the column: the end of the word before it, the blanks between them in the
+    /// source, and the blanks required.
     void add(std::size_t end_before, std::size_t blanks, std::size_t gap) {
         kept_ = std::min(kept_, end_before + blanks);
         needed_ = std::max(needed_, end_before + gap);
@@ -177,7 +176,7 @@ private:
     // none is open, below the beginning of the statement's value.
     struct Bracket {
         std::size_t inside = 0;  ///< Column of lines inside it.
-        std::size_t close = 0;   ///< Column of a closing bracket on a line of its own.
+        std::size_t close = 0;   ///< Column of a closing bracket at the beginning of a line.
     };
 
     void place_continued(std::size_t line) {
@@ -263,7 +262,7 @@ private:
 
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine>& lines_;
-    std::vector<std::size_t> placed_;  ///< By line: the number of cells that are placed.
+    std::vector<std::size_t> placed_;  ///< By line: the number of cells placed.
     bool respelled_;
     std::vector<Bracket> brackets_;
     std::size_t value_column_ = no_column;

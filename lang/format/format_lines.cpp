@@ -22,7 +22,7 @@ public:
             breaks_ = std::max(breaks_, word.breaks);
             if (word.kind == TokenKind::semicolon) {
                 semicolon_ = k;
-                continue;  // It is written only where a statement follows on the line.
+                continue;  // It is written only if a statement follows on the line.
             }
             if (word.is_comment()) add_comment(k);
             else if (word.kind == TokenKind::open_curly) open_block(k);
@@ -144,7 +144,7 @@ private:
     std::size_t open_brackets_ = 0;
     bool in_block_ = false;
     bool in_one_line_block_ = false;
-    bool block_begins_ = false;  ///< Only `{` and its comment are written so far.
+    bool block_begins_ = false;  ///< Only `{` and its comment have been written so far.
     bool needs_line_ = false;
     bool splits_at_semicolons_ = false;
 };

@@ -20,16 +20,16 @@ struct FormatLine {
     std::vector<Cell> cells;
     std::optional<std::size_t> comment;  ///< The word after the cells, or alone on the line.
     std::size_t comment_column = 0;
-    std::size_t indentation = 0;  ///< Where the line begins; not set if it continues a statement.
+    std::size_t indentation = 0;  ///< The line's first column. Not set if it continues a statement.
     bool goes_on = false;         ///< Continues a statement of an earlier line.
     bool blank_line_before = false;
 };
 
-/// Splits words into lines; sets no column but the indentation.
+/// Splits words into lines. Sets no column but the indentation.
 std::vector<FormatLine> format_lines(const std::vector<FormatWord>& words);
 
-/// Sets the columns of all cells and comments. Words that are spelled in another way than in the
-/// source (`respelled`) keep their distance from the widest words before their column.
+/// Sets the columns of all cells and comments. Words spelled differently from the source
+/// (`respelled`) keep their distance from the widest words before their column.
 void place_words(const std::vector<FormatWord>& words, std::vector<FormatLine>& lines,
                  bool respelled);
 

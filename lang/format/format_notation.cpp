@@ -1,5 +1,5 @@
-// Respells words in ASCII or in the notation of papers. What a notation leaves out becomes an empty
-// text: brackets after ∇, the sign of a product, the ^ of a raised number.
+// Respells words in ASCII or in the notation of papers. Words that a notation omits become empty:
+// brackets after ∇, the sign of a product, the ^ of a superscript.
 #include "lang/format/format_notation.h"
 
 #include "lang/syntax/kept_spellings.h"
@@ -35,7 +35,7 @@ private:
     TokenKind kind(std::size_t k) const {
         return k < words_.size() ? words_[k].kind : TokenKind::end_of_text;
     }
-    /// True if no line end and no comment stands before any of the words [first, last].
+    /// True if there is no line end and no comment before any of the words [first, last].
     bool is_on_one_line(std::size_t first, std::size_t last) const {
         for (std::size_t k = first; k <= last; ++k) {
             if (k >= words_.size() || words_[k].breaks > 0 || words_[k].is_comment()) return false;
@@ -70,7 +70,7 @@ private:
             default: break;
         }
     }
-    /// u' = … becomes ∂u/∂t = …, u'' = … becomes ∂²u/∂t² = …; other primes become ′.
+    /// u' = … becomes ∂u/∂t = …, and u'' = … becomes ∂²u/∂t² = …. Other primes become ′.
     void write_prime(std::size_t k) {
         words_[k].text = "′";
         const TokenKind next = kind(k + 1);
@@ -87,7 +87,7 @@ private:
         if (is_second) words_[k - 1].text = "";
     }
 
-    /// The sign of a function with one operand; empty for other words.
+    /// The sign of a function with one operand. Empty for other words.
     static std::string_view sign_of(std::string_view function) {
         constexpr std::array<std::pair<std::string_view, std::string_view>, 4> signs{
             {{"lap", "∇²"}, {"div", "∇·"}, {"grad", "∇"}, {"sqrt", "√"}}};
@@ -114,7 +114,7 @@ private:
         }
         return is_on_one_line(open, open + 1);
     }
-    /// True for what needs no brackets after a sign: u, u[i], u' and another application.
+    /// True for operands that need no brackets after a sign: u, u[i], u' and another application.
     bool is_plain_operand(std::size_t first, std::size_t end) const {
         if (kind(first) == TokenKind::number) return first + 1 == end;
         if (kind(first) != TokenKind::name) return false;
@@ -167,7 +167,7 @@ private:
         if (is_negative) words_[caret + 1].text = "⁻";
     }
 
-    /// A product before ∇ or √, or after a raised number, needs no sign.
+    /// A product before ∇ or √, or after a superscript, needs no sign.
     void leave_out_products() {
         std::vector<bool> divisors;
         bool is_divisor = false;
@@ -195,7 +195,7 @@ private:
                 case TokenKind::caret:
                 case TokenKind::prime:
                 case TokenKind::dot:
-                case TokenKind::newline: break;  // Of comments: a line end would go on, too.
+                case TokenKind::newline: break;  // A comment. A line end would continue, too.
                 default: is_divisor = false;
             }
         }
@@ -211,7 +211,7 @@ private:
     }
 
     std::vector<FormatWord>& words_;
-    std::vector<std::size_t> partner_;  ///< Of a bracket: the other one.
+    std::vector<std::size_t> partner_;  ///< For a bracket: the other one.
     std::vector<bool> is_operator_, ends_application_;
 };
 

@@ -1,4 +1,4 @@
-// The notation of a formatted script (internal to the formatter): how its words are spelled.
+// The notation of a formatted script (internal to the formatter): the spelling of its words.
 #pragma once
 
 #include "lang/format/format_script.h"
@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// The words that are written, with their texts in this notation.
+/// The words to write, with their texts in this notation.
 std::vector<FormatWord> written_words(std::vector<FormatWord> words, ScriptNotation notation);
 
 }  // namespace cascade

@@ -40,7 +40,7 @@ bool same_words(const std::vector<FormatWord>& before, const std::vector<FormatW
         left = std::find_if(left, before.end(), is_written);
         right = std::find_if(right, after.end(), is_written);
         if (left == before.end() || right == after.end()) break;
-        // The product before an operand of (1 + lap)² has no sign, nor has (1 + lap)^2 u.
+        // The product before an operand of (1 + lap)² has no sign, nor does (1 + lap)^2 u.
         const auto is_left_out = [](const FormatWord& word) {
             return word.kind == TokenKind::star && word.text.empty();
         };

@@ -1,8 +1,8 @@
-// The canonical style of scripts: blanks, line breaks and indentation; spec/formatting.md defines
+// The canonical style of scripts: blanks, line breaks and indentation. spec/formatting.md defines
 // it.
 //
 // Formatting works on words (tokens and comments), not on the tree, so that every word of a script
-// is kept; only line breaks and `;` are exchanged where both mean the same.
+// remains. Only line breaks and `;` are exchanged where both mean the same.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -17,7 +17,7 @@ namespace cascade {
 /// Width beyond which a block or several statements on one line are split into lines.
 inline constexpr std::size_t widest_script_line = 100;
 
-/// How a formatted script is spelled: as its author wrote it, in ASCII alone, or in the notation of
+/// The spelling of a formatted script: as its author wrote it, in ASCII only, or in the notation of
 /// papers where there is one (∂u/∂t = D ∇²u + u²v).
 enum class ScriptNotation { as_written, ascii, papers };
 

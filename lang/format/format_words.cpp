@@ -81,8 +81,8 @@ bool ends_operand(TokenKind kind) {
            kind == TokenKind::close_square;
 }
 
-/// True for operators that may have blanks around them or not, to show what belongs together: `a*b
-/// + 1/8`, `1..n`.
+/// True for operators whose blanks, or their absence, show what belongs together: `a*b + 1/8`,
+/// `1..n`.
 bool is_author_spaced(const FormatWord& word) {
     return word.kind == TokenKind::star || word.kind == TokenKind::slash ||
            word.kind == TokenKind::dots;
@@ -93,7 +93,7 @@ bool is_apart(const FormatWord& word) { return word.blanks > 0 || word.breaks > 
 /// Sets the roles of words from their neighbours.
 void find_roles(std::vector<FormatWord>& words) {
     const FormatWord* before = nullptr;  // The last word that is not a comment.
-    FormatWord* waiting = nullptr;       // An operator whose right side is next.
+    FormatWord* waiting = nullptr;       // An operator that waits for its right side.
     for (FormatWord& word : words) {
         if (waiting != nullptr) waiting->is_spaced = waiting->is_spaced || is_apart(word);
         waiting = nullptr;
