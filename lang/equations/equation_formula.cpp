@@ -1,5 +1,5 @@
-// Writes an expression from left to right with a stack of what is still to come, so that neither
-// its depth nor its length matters.
+// Writes an expression from left to right with a stack of the pieces still to write, so that
+// neither its depth nor its length matters.
 #include "lang/equations/equation_formula.h"
 
 #include "core/utf8.h"
@@ -67,7 +67,7 @@ private:
     }
     /// Pushes an operator's pieces, in brackets if `own` binds more loosely than `least`.
     void push_operator(std::vector<Piece> pieces, int own, int least) {
-        // What is pushed last comes first.
+        // The last piece pushed comes first.
         if (own < least) stack_.emplace_back(both(")", "\\right)"));
         push(std::move(pieces));
         if (own < least) stack_.emplace_back(both("(", "\\left("));
@@ -165,12 +165,12 @@ private:
                        Operand{node.right, right}},
                       own, least);
     }
-    /// A sign directly after `+` or `−` stands in brackets.
+    /// A sign directly after `+` or `−` is put in brackets.
     int right_of_sum(ast::ExprId right, int least) const {
         return as<ast::Unary>(right) != nullptr ? a_power : least;
     }
 
-    /// A sum over an index would take in the factors after it.
+    /// A sum over an index would include the factors after it.
     int factor(ast::ExprId id, int least) const {
         const auto* const over = as<ast::Over>(id);
         return over && (over->function.text == "sum" || over->function.text == "product") ? a_sign
@@ -341,7 +341,7 @@ private:
     void write_over(const ast::Over& node, int least) {
         const std::string_view function = node.function.text;
         const bool of_domain = node.index.text == "domain";
-        // `sum`, what stands below it, and the operand in brackets.
+        // `sum`, the text below it, and the operand in brackets.
         const auto with_under = [&](std::vector<Piece> pieces, std::vector<Piece> after) {
             for (Piece& piece : under(node)) pieces.push_back(std::move(piece));
             for (Piece& piece : after) pieces.push_back(std::move(piece));
@@ -363,7 +363,7 @@ private:
                         {both("(", "\\left("), Operand{node.operand, anything},
                          both(")", "\\right)")}));
     }
-    /// What an aggregate is taken over.
+    /// The domain, neighbours or index of an aggregate.
     std::vector<Piece> under(const ast::Over& node) const {
         const std::string over(node.index.text);
         if (over == "domain") return {both("_Ω", "_{\\Omega}")};

@@ -1,5 +1,5 @@
-// Breaks sums at their top-level terms and fills lines up to an estimated width; of a fraction with
-// a long numerator the numerator is broken.
+// Breaks sums at their top-level terms and fills lines up to an estimated width. Breaks the
+// numerator of a fraction if it is long.
 #include "lang/equations/equation_lines.h"
 
 #include <algorithm>

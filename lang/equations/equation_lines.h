@@ -7,7 +7,7 @@
 
 namespace cascade {
 
-/// The number of signs of a formula that fit on a line of a page.
+/// The largest number of signs of a formula on a line of a page.
 inline constexpr int signs_of_a_line = 60;
 
 /// The approximate width of a TeX formula: the number of its letters, digits and signs. Both parts

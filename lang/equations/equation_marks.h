@@ -7,7 +7,7 @@
 
 namespace cascade {
 
-/// What surrounds the only operand of a call. In TeX brackets grow with their contents.
+/// The marks around the only operand of a call. In TeX brackets grow with their contents.
 struct Around {
     std::string_view function, unicode_open, unicode_close, tex_open, tex_close;
 };
@@ -26,7 +26,7 @@ inline constexpr Around arounds[] = {
     {"tanh", "tanh(", ")", "\\tanh\\left(", "\\right)"},
 };
 
-/// What stands between two operands.
+/// The mark between two operands.
 struct Infix {
     std::string_view function, unicode, tex;
 };
@@ -37,7 +37,7 @@ inline constexpr Infix infixes[] = {
     {"-", " − ", " - "},       {"dot", " · ", " \\cdot "},   {"cross", " × ", " \\times "},
 };
 
-/// What stands before the only operand of a call.
+/// The mark before the only operand of a call.
 struct Prefix {
     std::string_view function, unicode, tex;
 };
@@ -48,7 +48,7 @@ inline constexpr Prefix prefixes[] = {
     {"curl", "∇×", "\\nabla \\times "},
 };
 
-/// The row of a function by its spelling; null if there is none.
+/// The row of a function by its spelling. Null if there is none.
 template <typename Row, std::size_t count>
 const Row* find(const Row (&rows)[count], std::string_view function) {
     const auto* const end = rows + count;

@@ -1,4 +1,4 @@
-// Splits a name into stem, digits and subscript; names of Greek letters become those letters.
+// Splits a name into stem, digits and subscript. Names of Greek letters become those letters.
 #include "lang/equations/equation_symbols.h"
 
 #include "lang/vocabulary/greek_letters.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// A letter, digit or sign of a raised or lowered text.
+/// A superscript or subscript letter, digit or sign.
 struct SmallLetter {
     std::string_view name;
     std::string_view unicode;

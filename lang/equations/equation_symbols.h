@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// How to write the names of one system.
+/// The notation for the names of one system.
 struct Symbols {
     Notation notation = Notation::unicode;
     /// Unicode has few subscript letters: names get subscripts only if all names of the system can.
@@ -24,7 +24,7 @@ struct Symbols {
     std::string member(std::string_view family, std::string_view index) const;
     /// The name in TeX, in a form that can take an index as subscript.
     std::string family_in_tex(std::string_view family) const;
-    /// 1e-3: 10⁻³, 10^{-3}; other numbers as written.
+    /// 1e-3: 10⁻³, 10^{-3}. Other numbers as written.
     std::string number(std::string_view digits) const;
 };
 
@@ -34,7 +34,7 @@ std::string tex_text(std::string_view text);
 /// True if Unicode can write the part of a name after its first `_` as a subscript.
 bool has_subscript(std::string_view name);
 
-/// In Unicode's superscripts or subscripts; nothing if a character has no such form.
+/// The text in Unicode's superscripts or subscripts. Empty if a character has no such form.
 std::optional<std::string> superscript(std::string_view text);
 std::optional<std::string> subscript(std::string_view text);
 

@@ -24,12 +24,12 @@ namespace cascade {
 
 namespace {
 
-// Which definitions of a system are vectors, as far as their texts say (internal to the printing of
-// equations, which does not check the script).
+// Finds the vectors among a system's definitions, as far as their texts tell (internal to the
+// printing of equations, which does not check the script).
 
 using Names = std::set<std::string, std::less<>>;
 
-/// Is the expression a vector, if these names are?
+/// Whether the expression is a vector if these names are.
 bool is_vector(const ast::Script& script, ast::Expression expression, const Names& names) {
     std::vector<bool> known(expression.root - expression.first + 1, false);
     const auto of = [&](ast::ExprId id) { return bool(known[id - expression.first]); };
@@ -58,7 +58,7 @@ bool is_vector(const ast::Script& script, ast::Expression expression, const Name
     return known.back();
 }
 
-/// The names of definitions, and families of them, that are made of gradients and other vectors.
+/// The names of definitions, and families of them, made of gradients and other vectors.
 Names vector_names(const SystemStatements& system) {
     Names names;
     for (bool grows = true; grows;) {
@@ -99,7 +99,7 @@ public:
         return symbols_.notation == Notation::tex ? run_tex(all) : run_unicode(all);
     }
 
-    /// Of an equation in TeX.
+    /// The MathML of an equation in TeX.
     std::string mathml(std::string_view name) const {
         const std::string symbol = symbols_.name(name);
         for (const auto* lines : {&rates_, &definitions_, &parameters_}) {
@@ -169,7 +169,7 @@ private:
         return is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t";
     }
 
-    /// Takes what only cells have: divide, die, reach, values that start again.
+    /// Takes statements that only cells have: divide, die, reach, restarted values.
     bool take_of_cells(const SaidStatement& said, const std::string& symbol) {
         const ast::Statement& statement = *said.statement;
         if (statement.kind != ast::StatementKind::value) return false;
@@ -207,8 +207,8 @@ private:
         sum += is_negative ? term.substr(sign.size()) : term;
     }
 
-    /// Adds the script's own functions and constants that are read, each once, in the order in
-    /// which they are first read.
+    /// Adds the script's own functions and constants that are read, each once, in the order of
+    /// first use.
     void add_functions() {
         for (const SaidStatement& said : system_.all()) {
             for (const ast::Expression& value : said.statement->values) note_calls(said, value);
@@ -321,7 +321,7 @@ private:
     std::vector<std::pair<SaidStatement, const ast::FunctionDefinition*>> called_;
     std::unordered_set<std::string_view> called_names_;
     std::vector<Line> rates_, indices_, definitions_, bounds_, parameters_, starts_;
-    std::vector<Line> events_, restarts_;  ///< Of cells.
+    std::vector<Line> events_, restarts_;  ///< For cells.
 };
 
 }  // namespace

@@ -18,14 +18,14 @@ enum class Notation : std::uint8_t {
     tex,      ///< Align environments of the package amsmath.
 };
 
-/// What to print of a system.
+/// The parts of a system to print.
 enum class EquationParts : std::uint8_t {
     rates,  ///< Rates, definitions and invariants.
     all,    ///< Also parameters and starting values.
 };
 
-/// The equations of a system of the script or else of the library, with all that it inherits. Lines
-/// end with a newline. Empty if there is no such system. The script must be free of errors.
+/// The equations of a system of the script or else of the library, including everything inherited.
+/// Lines end with a newline. Empty if there is no such system. The script must be free of errors.
 std::string print_equations(const ast::Script& script, const Sources& sources,
                             std::string_view system, Notation notation, EquationParts parts);
 
@@ -34,8 +34,9 @@ std::vector<std::string> print_equations(const ast::Script& script, const Source
                                          std::span<const std::string_view> systems,
                                          Notation notation, EquationParts parts);
 
-/// What a system of the script or else of the library says about one name, in MathML: the rate of a
-/// species, a definition, or the value of a parameter. Empty if it says nothing.
+/// The equation or value of one name in a system of the script or else of the library, in MathML:
+/// the rate of a species, a definition, or the value of a parameter. Empty if the system does not
+/// set it.
 std::string equation_in_mathml(const ast::Script& script, const Sources& sources,
                                std::string_view system, std::string_view name);
 

@@ -1,5 +1,5 @@
-// Reads TeX from left to right. A stack of rows that are not complete holds what braces, fractions
-// and brackets wait for, so that depth does not matter.
+// Reads TeX from left to right. A stack of incomplete rows holds the state of open braces,
+// fractions and brackets, so that depth does not matter.
 #include "lang/equations/mathml.h"
 
 #include "lang/equations/equation_symbols.h"
@@ -113,7 +113,7 @@ private:
         const bool is_above = row.use == Use::superscript;
         add(element(is_above ? "msup" : is_under ? "munder" : "msub", base + one));
     }
-    /// A row that a single sign fills is complete after it.
+    /// Completes a row that takes a single sign.
     void add_and_close(std::string part) {
         add(std::move(part));
         if (is_single_) {
