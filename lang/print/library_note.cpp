@@ -1,4 +1,4 @@
-// The comments at the top of a text are its description; they are found among its words, without a
+// Takes the comments at the top of a text as its description, found among its words without a
 // syntax tree.
 #include "lang/print/library_note.h"
 
@@ -27,7 +27,7 @@ std::string_view said_in(std::string_view comment) {
     return comment;
 }
 
-/// What a text without a stage needs besides its first block to be run and drawn.
+/// The parts that a text without a stage needs besides its first block to be run and drawn.
 std::string rest_of_script(const ast::Block& block, std::string_view name) {
     if (block.kind == ast::BlockKind::shape) {
         return fmt::format(

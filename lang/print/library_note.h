@@ -18,11 +18,11 @@ struct LibraryNote {
     bool mentions(std::string_view word) const;
 };
 
-/// Reads the description of a text; its head is the comment at its top.
+/// Reads the description of a text. Its head is the comment at its top.
 LibraryNote note_of(const LibraryText& text);
 
-/// A script to start from: the library's text of a system, of cells or of a shape, with what it
-/// needs to be run if it has no stage.
+/// A script to start from: the library's text of a system, of cells or of a shape, completed to run
+/// if it has no stage.
 std::string starting_script(const LibraryText& text);
 
 }  // namespace cascade

@@ -44,8 +44,8 @@ private:
     void push(Item item) { stack_.push_back(item); }
 
     void write(const Part& part) {
-        // A node with several users, such as the argument of a function, is written once for each,
-        // up to a limit.
+        // Writes a node with several users, such as the argument of a function, once for each, up
+        // to a limit.
         if (++written_ > formula_.nodes.size() + most_repeated) {
             text_ += "…";
             return;
@@ -141,7 +141,7 @@ private:
             [](double number) { return fmt::format("{}", number); },
             [&](TextId id) { return fmt::format("\"{}\"", program_.literals->text(id)); },
             [&](ItemId item) {
-                // The place is the only vector among the items.
+                // The position is the only vector among the items.
                 const std::string_view name =
                     node.type == ValueType::vector ? "p" : system_.item_name(item);
                 return fmt::format(fmt::runtime(stage_ ? "[{}]" : "{}"), name);

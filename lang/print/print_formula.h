@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// A value of a model's surface, as it is written in a script.
+/// A value of a model's surface, as written in a script.
 std::string text_of(const SurfaceValue& value);
 
 /// The formula in the language itself. With a `stage`, its own items are [p], as in its statements,

@@ -29,7 +29,7 @@ void print_settings(const Program& program, const System& system, Output out) {
     print("show", settings.show);
 }
 
-/// The starting value of an item. That of a frame would fill pages; it is made of two axes.
+/// The starting value of an item. A frame's would fill pages, and is made of two axes instead.
 std::string print_start(const Program& program, const System& system, ItemId item,
                         const Formula& start, std::optional<std::uint32_t> stage) {
     const bool is_of_axes = system.cells && system.cells->has_component(item) &&
@@ -37,7 +37,7 @@ std::string print_start(const Program& program, const System& system, ItemId ite
     return is_of_axes ? "(of ey and ez)" : print_formula(program, system, start, stage);
 }
 
-/// What only blocks of cells have.
+/// Prints the parts that only blocks of cells have.
 void print_rules(const Program& program, const System& system, Output out) {
     const CellRules& rules = *system.cells;
     const auto print = [&](std::string_view name, const Formula& formula, std::string_view end) {

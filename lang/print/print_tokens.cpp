@@ -10,13 +10,13 @@ namespace cascade {
 
 namespace {
 
-/// True for tokens that are printed with their text.
+/// True for tokens printed with their text.
 bool has_own_text(TokenKind kind) {
     return kind == TokenKind::name || kind == TokenKind::number || kind == TokenKind::text ||
            kind == TokenKind::garbage;
 }
 
-/// A string on one line, whatever bytes it has.
+/// A string on one line, whatever its bytes.
 std::string quoted(std::string_view text) {
     std::string result = "\"";
     for (std::size_t offset = 0; offset < text.size();) {
@@ -46,8 +46,7 @@ std::string_view spelling(TokenKind kind) {
 
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources) {
     std::string result;
-    // Columns are counted from the previous token, so that the time is linear in the length of a
-    // line.
+    // Counts columns from the previous token, so that the time is linear in the length of a line.
     Location last{1, 1};
     std::uint32_t last_offset = 0;
     for (const Token& token : tokens) {

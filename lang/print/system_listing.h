@@ -1,5 +1,5 @@
-// A list of what can be set in a system: species, parameters and settings with their defaults as
-// the author wrote them, ranges and doc comments.
+// A list of a system's settable values: species, parameters and settings with their defaults as the
+// author wrote them, ranges and doc comments.
 #pragma once
 
 #include "core/source.h"
@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// The description of a system: its doc comment and its texts (`title: "…"`), one line each; those
-/// of its bases come first.
+/// The description of a system: its doc comment and its texts (`title: "…"`), one line each, after
+/// those of its bases.
 std::vector<std::string> system_words(const ast::Script& script, const Sources& sources,
                                       std::string_view system);
 
