@@ -1,4 +1,4 @@
-// Finds the systems and shapes that a script names and their bases, and parses only those texts.
+// Finds the systems and shapes named in a script and their bases, and parses only those texts.
 #include "lang/library/library.h"
 
 #include "core/check.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// The source of a library text that an earlier check added.
+/// The source of a library text added by an earlier check.
 std::optional<SourceId> find_source(const LibraryText& text, const Sources& sources) {
     for (SourceId id = 0; id < sources.size(); ++id) {
         if (sources[id].name() == text.file_name && sources[id].text() == text.text) return id;
@@ -22,7 +22,7 @@ std::optional<SourceId> find_source(const LibraryText& text, const Sources& sour
     return std::nullopt;
 }
 
-/// The source of a library text; if an earlier check added it, that one is used again.
+/// The source of a library text. Reuses one added by an earlier check.
 SourceId source_of(const LibraryText& text, Sources& sources) {
     if (const auto known = find_source(text, sources)) return *known;
     return sources.add(std::string(text.file_name), std::string(text.text));
@@ -73,14 +73,14 @@ const LibraryText* text_of(std::span<const LibraryText> texts, std::string_view 
     return found != texts.end() && found->system_name() == name ? &*found : nullptr;
 }
 
-/// The texts of these names and of their bases, each after its base; `find` looks one up.
+/// The texts of these names and of their bases, each after its base. `find` looks one up.
 template <typename Find>
 std::vector<LibraryScript> read_texts(const std::vector<std::string_view>& names, const Find& find,
                                       Sources& sources, Diagnostics& diagnostics) {
     std::vector<LibraryScript> result;
     std::unordered_set<std::string_view> read;
     for (const std::string_view name : names) {
-        // A text is looked at twice: first its bases are added to the list, then it comes itself.
+        // Visits a text twice: first adds its bases to the list, then the text itself.
         std::vector<std::string_view> open{name};
         std::unordered_map<std::string_view, LibraryScript> waiting;
         while (!open.empty()) {
