@@ -1,6 +1,6 @@
 // Diagnostics: errors and warnings about a user's text, as values.
 //
-// The stages of the front end add to a Diagnostics and continue; they print nothing. Only
+// The stages of the front end add to a Diagnostics, continue and never print. Only
 // render_diagnostics.cpp knows the layout of a message.
 #pragma once
 
@@ -24,7 +24,7 @@ struct Note {
     std::string message;
 };
 
-/// One error or warning. `message` is a clause without a full stop; `hint` (may be empty) says what
+/// One error or warning. `message` is a clause without a full stop. `hint` (may be empty) says what
 /// to write instead and is drawn after the underlined words.
 struct Diagnostic {
     Severity severity = Severity::error;
@@ -62,7 +62,7 @@ private:
 
 struct RenderStyle {
     bool colour = false;    ///< ANSI colours, for a terminal.
-    std::size_t most = 50;  ///< Diagnostics to draw; the others are counted in one last line.
+    std::size_t most = 50;  ///< The most to draw. One last line counts the others.
 };
 
 /// Draws one diagnostic:
@@ -75,7 +75,7 @@ struct RenderStyle {
 /// Long lines are cut around the span, control characters are replaced, tabs keep their width.
 std::string render(const Diagnostic& diagnostic, const Sources& sources, const RenderStyle& style);
 
-/// Draws all of them, sorted; each ends in a line end.
+/// Draws all of them, sorted. Each ends in a line end.
 std::string render(const Diagnostics& diagnostics, const Sources& sources,
                    const RenderStyle& style);
 

@@ -45,7 +45,7 @@ int write_all_waiting(const Descriptor& file, std::string_view bytes) {
     return 0;
 }
 
-/// Writes to a pipe or device in place, because a rename would replace it.
+/// Writes directly to a pipe or device, because a rename would replace it.
 Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     Descriptor file(open_file(path, O_WRONLY | O_NONBLOCK));
     if (!file.is_open() && errno == ENXIO) {

@@ -19,7 +19,7 @@ constexpr unsigned long long rounding_bits = 3u << 13;       // 0 rounds to near
 
 unsigned long long read_control() { return _mm_getcsr(); }
 
-// The barriers keep the compiler from moving arithmetic on memory across the change.
+// The barriers stop the compiler from moving arithmetic on memory across the change.
 void write_control(unsigned long long value) {
     asm volatile("" ::: "memory");
     _mm_setcsr(static_cast<unsigned>(value));

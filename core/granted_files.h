@@ -35,7 +35,7 @@ public:
     /// model are relative to the model.
     GrantedFiles beside(const std::string& file) const;
 
-    /// The content of a regular file. A relative name is looked up in the folder, then in each
+    /// The content of a regular file. A relative name is searched in the folder, then in each
     /// folder of `--allow-read`, by the whole name and by its last part. Symbolic links are
     /// followed. A file outside all granted folders is refused with the same message whether it
     /// exists or not. Also fails for folders, pipes, devices, unreadable files, and files of more

@@ -69,8 +69,7 @@ struct Grid {
     Boundaries boundary = {};
     std::int64_t depth = 1;
     double spacing = 1;  ///< In the user's unit of length; above 0.
-    /// The cells lie on a surface and fill the grid row after row. Padding cells may end the last
-    /// row.
+    /// The cells lie on a surface, row after row. Padding cells may fill the last row.
     bool linked = false;
 
     std::int64_t cell_count() const { return width * height * depth; }

@@ -12,7 +12,7 @@ struct LateFunction {
     }
 };
 
-/// Is never unloaded, since libraries may leave threads or handlers behind.
+/// Is never unloaded, since threads or handlers of libraries may remain.
 class LateLibrary {
 public:
     /// Loads the library of this file name from the system's search path. If that fails, aborts

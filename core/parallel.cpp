@@ -108,7 +108,7 @@ struct Meeting {
 
 struct Team::State {
     alignas(64) std::atomic<std::uint32_t> task{
-        0};              ///< Counts calls of run(); workers wait for it to change.
+        0};              ///< Counts calls of run(). Workers wait for it to change.
     Meeting barrier;     ///< For the active threads.
     Meeting end_of_run;  ///< For all threads.
     alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null tells workers to end.

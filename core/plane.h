@@ -54,8 +54,8 @@ public:
     bool empty() const { return !data_; }
     const PlaneLayout& layout() const { return layout_; }
 
-    /// Address of cell (0, 0, 0); cell (i, j) of slice k is at
-    /// `origin() + k * layout().slice_stride + j * layout().stride + i`.
+    /// Address of cell (0, 0, 0). Cell (i, j) of slice k is at `origin() + k *
+    /// layout().slice_stride + j * layout().stride + i`.
     T* origin() { return data_.get() + layout_.offset(0, 0); }
     const T* origin() const { return data_.get() + layout_.offset(0, 0); }
     /// A row by its number through all slices, 0 … layout().row_count() − 1.

@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// w + x i + y j + z k; q and −q are the same rotation.
+/// w + x i + y j + z k. q and −q are the same rotation.
 struct Quaternion {
     double w = 1, x = 0, y = 0, z = 0;
     friend bool operator==(const Quaternion&, const Quaternion&) = default;

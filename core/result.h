@@ -1,5 +1,5 @@
 // Results of operations that can fail for external reasons: files, memory, a diverging run.
-// Mistakes in a user's text are Diagnostics; bugs of Cascade are CHECKs.
+// Mistakes in a user's text are Diagnostics, and bugs of Cascade are CHECKs.
 #pragma once
 
 #include <tl/expected.hpp>

@@ -27,7 +27,7 @@ constexpr Side opposite(Side side) {
     return static_cast<Side>(static_cast<std::uint8_t>(side) ^ 1u);
 }
 
-/// What a cell of value c at a side sees beyond it; e is the side's value and h the spacing.
+/// What a cell of value c at a side sees beyond it, where e is the side's value and h the spacing.
 enum class SideKind : std::uint8_t {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< c: nothing flows through the side.

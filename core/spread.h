@@ -16,7 +16,7 @@ inline constexpr double even_deviation = 1e-5;
 /// away.
 inline constexpr double remaining_part = 1e-12;
 
-/// The statistics of a set of values. Values that are not finite are ignored.
+/// The statistics of a set of values. Non-finite values are ignored.
 struct Spread {
     double count = 0;
     double mean = 0;

@@ -3,8 +3,8 @@
 
 namespace cascade {
 
-/// At most one exists at a time; further threads wait. Held while FFTW's plans of any precision are
-/// created or destroyed, in solvers/ and measure/.
+/// At most one exists at a time, and further threads wait. Held while FFTW's plans of any precision
+/// are created or destroyed, in solvers/ and measure/.
 class TransformPlanner {
 public:
     TransformPlanner();

@@ -21,7 +21,7 @@ inline constexpr std::string_view replacement_character = "\xef\xbf\xbd";
 /// above U+10FFFF are invalid (RFC 3629).
 CodePoint decode_utf8(std::string_view text, std::size_t offset);
 
-/// The number of code points in a text; an invalid byte counts as one.
+/// The number of code points in a text. An invalid byte counts as one.
 std::size_t count_code_points(std::string_view text);
 
 /// The number of UTF-16 units of a text, in which JavaScript and editors count columns: two for

@@ -21,7 +21,7 @@ inline Vector2d product(Vector2d a, Vector2d b) {
     return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
 }
 
-/// `v` scaled to length 1; the zero vector stays zero.
+/// `v` scaled to length 1. The zero vector stays zero.
 inline Vector2d unit_of(Vector2d v) {
     const double size = std::hypot(v.x, v.y);
     return size > 0 ? Vector2d{v.x / size, v.y / size} : Vector2d{};

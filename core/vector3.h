@@ -37,7 +37,7 @@ struct BasicVector3 {
         return sqrt(dot(a, a));
     }
 
-    /// `a` scaled to length 1; the zero vector stays zero.
+    /// `a` scaled to length 1. The zero vector stays zero.
     friend BasicVector3 unit(BasicVector3 a) {
         const Number size = length(a);
         if constexpr (std::floating_point<Number>) return size > 0 ? a * (1 / size) : a;

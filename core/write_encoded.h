@@ -1,4 +1,4 @@
-// Writes the result of an encoder; errors and a lack of memory are reported with the file's name.
+// Writes the result of an encoder. Messages about errors and a lack of memory name the file.
 #pragma once
 
 #include "core/enough_memory.h"

@@ -112,7 +112,7 @@ private:
     }
 
     /// Replaces value k in cells where it does not count: outside the domain, though opacity is 0
-    /// there, and where a height is not finite.
+    /// there, and where heights are not finite.
     void fill(std::size_t k) {
         const bool is_height = has_heights_ && k + 1 == size();
         const bool is_opacity =

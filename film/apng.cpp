@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-constexpr int apng_effort = 6;  // Of compression.
+constexpr int apng_effort = 6;  // The compression's.
 constexpr std::size_t apng_ticks_per_second = 1000;
 
 class ApngWriter : public FilmWriter {
@@ -28,7 +28,7 @@ public:
         std::string header(png_signature), size;
         append_big_endian(size, static_cast<std::size_t>(width));
         append_big_endian(size, static_cast<std::size_t>(height));
-        // 8 bits of red, green, blue and alpha; the usual compression and filters, not interlaced.
+        // 8 bits of red, green, blue and alpha, with usual compression and filters, not interlaced.
         append_chunk(header, "IHDR", size + std::string("\x08\x06\0\0\0", 5));
         place_of_count_ = header.size();
         header += count_chunk();

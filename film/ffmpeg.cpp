@@ -86,7 +86,7 @@ public:
         auto words = arguments({is_webm_, settings.frames_per_second, even(first.width),
                                 even(first.height), has_alpha_});
         if (!file_) words.insert(words.end(), {"-f", "null"});
-        // "file:" keeps ffmpeg from reading a protocol or an option into a name.
+        // "file:" stops ffmpeg from reading a protocol or an option into a name.
         words.push_back(file_ ? "file:" + file_->temporary_path().string() : "-");
         auto process = ChildProcess::start(program_named("ffmpeg"), words, patience_);
         if (!process) return tl::unexpected(process.error());

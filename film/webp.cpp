@@ -46,7 +46,7 @@ public:
     Picture(const Picture&) = delete;
     Picture& operator=(const Picture&) = delete;
 
-    /// The part as a file of its own; empty if memory is short.
+    /// The part as a file of its own; empty if memory runs out.
     std::string encoded(const FilmFrame& frame, const FramePart& part) {
         WebPConfig config;
         picture_.width = static_cast<int>(part.width);

@@ -35,7 +35,7 @@ public:
     WordFormat format() const { return format_of(kernel_.precision); }
 
     // Sources. Slots are created at first use. The same name gives the same slot.
-    ValueId number(double value);  ///< Rounded to the kernel's precision; denormals become zero.
+    ValueId number(double value);      ///< Rounded to the kernel's precision. Denormals become 0.
     ValueId word(std::uint64_t bits);  ///< Modulo 2^32 or 2^64.
     FieldSlot field_slot(const std::string& name);
     MaskSlot mask_slot(const std::string& name);

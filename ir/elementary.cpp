@@ -76,7 +76,7 @@ struct Scaled {
     Expression exponent;
 };
 
-/// e^x. Clamping the argument keeps the result infinite or 0.
+/// e^x. Clamping the argument leaves the result infinite or 0.
 Scaled scaled_exponential(Expression argument) {
     const Expression x = argument.clamped(-argument.pick(exp_reach), argument.pick(exp_reach));
     const Expression n = (x * x.pick(log2_of_e)).rounded();

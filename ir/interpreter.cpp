@@ -194,8 +194,8 @@ private:
     }
 
     /// sum − times · c with one rounding, for times = 2 or 4, whose multiples are exact unless they
-    /// overflow. If the multiple would overflow, c is subtracted from sum / times instead. What a
-    /// denormal sum / times loses is far below the last place of such numbers.
+    /// overflow. If the multiple would overflow, c is subtracted from sum / times instead. The loss
+    /// of a denormal sum / times is far below the last place of such numbers.
     template <int times>
     static Number minus_multiple(Number sum, Number c) {
         constexpr Number largest = std::numeric_limits<Number>::max() / 4;

@@ -50,7 +50,7 @@ struct SweepTerm {
 /// The value written into one register: the terms, each rounded, added from left to right.
 struct SweepOutput {
     enum class Kind : std::uint8_t {
-        state,  ///< Values of species. Bounds clamp them; a frozen cell keeps its value.
+        state,  ///< Values of species, clamped by bounds. Frozen cells keep theirs.
         /// Rates, increments, errors: 0 if the cell is frozen. A rate that would carry a value
         /// beyond the bound that holds it counts as 0.
         change,

@@ -332,7 +332,7 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
         return value;
     }
     llvm::Value* b = scope_.bits(instruction.operands[1]);
-    // Amounts above 31 (63) do not occur. The mask keeps LLVM from drawing conclusions from that,
+    // Amounts above 31 (63) do not occur. The mask stops LLVM from drawing conclusions from that,
     // and vanishes if the amount is a constant.
     const auto amount = [&] {
         return builder_.CreateAnd(b, body_.bits(static_cast<std::uint64_t>(body_.format.bits - 1)));

@@ -173,7 +173,7 @@ private:
 
     RowOffsets& offsets_;
     const std::set<FieldSlot>& shifted_;
-    std::map<FieldSlot, Value*> carried_;  ///< Of shifted fields: the cells' values.
+    std::map<FieldSlot, Value*> carried_;  ///< The cells' values of shifted fields.
     CommonReadings& common_;
     int row_;
 };

@@ -64,7 +64,7 @@ struct Drawing {
 /// An SVG file. Fails if an image of the drawing cannot be encoded.
 Result<std::string> as_svg(const Drawing& drawing);
 
-/// A PDF file of one page. Texts are Latin-1 and Greek letters; other letters become question
+/// A PDF file of one page. Texts are Latin-1 and Greek letters. Other letters become question
 /// marks. Fails if the page is larger than the format admits.
 Result<std::string> as_pdf(const Drawing& drawing);
 

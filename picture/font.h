@@ -14,7 +14,7 @@ inline constexpr int glyph_height = 7;
 inline constexpr int glyph_advance = 6;  ///< From the left side of one glyph to the next.
 inline constexpr int deepest_drop = 2;   ///< Rows that a line needs below its glyphs.
 
-/// Rows from the top; bit 4 is the leftmost dot.
+/// Rows from the top. Bit 4 is the leftmost dot.
 using Glyph = std::array<std::uint8_t, glyph_height>;
 
 /// Printable ASCII and the ellipsis U+2026; a box for any other character.

@@ -110,7 +110,7 @@ void clear_where_nan(Image& image, const Field& field);
 /// Replaces every pixel by a square of `factor` × `factor` pixels, factor ≥ 1.
 Image enlarge(Image image, int factor);
 
-/// The image repeated `across` times in each of `down` rows; both are at least 1.
+/// The image repeated `across` times in each of `down` rows. Both are at least 1.
 Image repeated(const Image& image, int across, int down);
 
 enum class PngDepth { eight = 8, sixteen = 16 };
@@ -142,7 +142,7 @@ Result<std::string> encode_png(const Painting& painting, PngDepth depth, const P
                                PngEffort effort = PngEffort::small);
 
 /// Writes a PNG file atomically. A picture with only grey pixels is written as greyscale. Only
-/// `alpha` and transparent pixels cause an alpha channel; transparent ones are white with alpha 0.
+/// `alpha` and transparent pixels cause an alpha channel. Transparent ones are white with alpha 0.
 /// Colours are rounded to 256 or 65536 levels. Long texts are compressed. Fails as encode_png and
 /// write_file do.
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,

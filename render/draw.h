@@ -46,7 +46,7 @@ struct DrawOptions {
     /// The opacity of the body at a hit, 0 … 1; empty: opaque. The background shows through, and
     /// light passes. Several threads call it at once.
     std::function<float(const Hit&)> opacity = {};
-    /// Called now and then, in the calling thread, with the fraction done, 0 … 1; may be empty. If
+    /// Called now and then, in the calling thread, with the fraction done, 0 … 1. May be empty. If
     /// it returns false, drawing stops, and the picture is useless.
     std::function<bool(double)> report = {};
 };

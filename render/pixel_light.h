@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// Light on a scale that eyes see as evenly spaced.
+/// Light on a perceptually uniform scale.
 Colour tone_of(const Colour& light);
 
 /// The light from a hit to the camera, given the visible parts of the sun and of the sky.

@@ -50,7 +50,7 @@ private:
     };
     struct Pixel {
         Seen seen;      ///< Through its middle.
-        Colour tone{};  ///< Of the seen point, if no light were hidden.
+        Colour tone{};  ///< Tone of the seen point, if no light were hidden.
         OfLights<Tally> first, all;
         OfLights<bool> is_partly_hidden;  ///< Here or nearby.
         bool is_edge = false;             ///< Sees other things than its neighbours.

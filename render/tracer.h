@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    static constexpr float least_rest = 1.0F / 512;  ///< Of the light from behind a surface.
+    static constexpr float least_rest = 1.0F / 512;  ///< Less light from behind is ignored.
 
     Seen surface(const Ray& ray, const Hit& hit, float width) const;
     Seen behind(const Ray& ray) const;

@@ -2,7 +2,7 @@
 //
 // The update is simultaneous: a step reads the old planes and writes new ones, then the two are
 // swapped. Between steps the halo is filled for every species that is read at neighbours (linked
-// cells have no halo). A team of threads shares the rows; results do not depend on the number of
+// cells have no halo). A team of threads shares the rows. Results do not depend on the number of
 // threads.
 #pragma once
 
@@ -22,14 +22,14 @@
 
 namespace cascade {
 
-/// The first value that was not finite.
+/// The first non-finite value.
 struct NotFinite {
     std::size_t species = 0;
     std::int64_t column = 0, row = 0;
-    std::int64_t step = 0;  ///< The step in which it appeared, counted from 1; Schedule::first_step
-                            ///< for a starting value.
-    /// The last step at which all values are known to have been finite: the one before or, without
-    /// a kept copy, the step of the last check. Equal to `step` for a starting value.
+    std::int64_t step = 0;  ///< The step in which it appeared, counted from 1, or
+                            ///< Schedule::first_step for a starting value.
+    /// The last step known to be finite: the previous one or, without a stored copy, the step of
+    /// the last check. Equal to `step` for a starting value.
     std::int64_t last_finite = 0;
 
     bool at_start() const { return last_finite == step; }
@@ -46,26 +46,26 @@ struct StepTooShort {
 struct StageOutcome {
     std::int64_t steps = 0;  ///< Complete steps when the loop ended.
     double t = 0;            ///< The stage's time at that moment.
-    TimeState time;          ///< The state from which steps go on.
+    TimeState time;          ///< The state from which steps continue.
     bool cancelled = false;
     bool ended = false;  ///< Stopped by its end time or by `ends`.
-    int threads = 1;     ///< The number in use when the loop ended.
+    int threads = 1;     ///< The number in use at the end.
     std::optional<StepTooShort> too_short;
     std::optional<NotFinite> not_finite;
-    /// Only with `not_finite` and a kept copy: the species at the last check before, up to
-    /// `check_every` steps earlier, when growth was still slight. Stability is best estimated at
-    /// that state.
+    /// Only with `not_finite` and a stored copy: the species at the previous check, up to
+    /// `check_every` steps earlier, when growth was still slight. This state gives the best
+    /// estimate of stability.
     std::vector<Field> last_checked;
 };
 
-/// Takes the steps of a stage and stays ready to go on: it keeps its threads, its copies of the
-/// species and its measurements of speed between calls.
+/// Takes the steps of a stage and stays ready to continue: its threads, its copies of the species
+/// and its measurements of speed survive between calls.
 ///
-/// Needs memory for three copies of all species, or for two if no copy is kept.
+/// Needs memory for three copies of all species, or for two if no copy is stored at checks.
 class TimeLoop {
 public:
     /// `problem` holds the passes of the first steps. `species` holds the starting values, and
-    /// afterwards the last complete step. Both must outlive the loop, and nothing else may change
+    /// afterwards the last complete step. Both must outlive the loop, and only the loop may change
     /// them meanwhile. The addresses of the values in `species` change. `progress` carries the
     /// stage's name and numbers.
     TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,
@@ -74,16 +74,16 @@ public:
     TimeLoop(const TimeLoop&) = delete;
     TimeLoop& operator=(const TimeLoop&) = delete;
 
-    /// Goes on until `last_step` is complete and observes at multiples of `interval`; the two
-    /// replace the schedule's numbers. If a check finds a value that is not finite, the steps since
-    /// the last check (at most `check_every`) are replayed from the kept copy to find the step and
-    /// the cell, and `species` then holds the last step at which all values were finite. Without a
-    /// kept copy the check itself names a cell, and `species` keeps the spoiled values. Reports
-    /// through `control`: at once, about ten times a second, and with `stage_done` at the end,
-    /// however it ends. The last step of a call is checked unless `control.checks_later`. If
-    /// `control.cancel` is set, the loop ends at the next complete step; the flag is read after
-    /// each batch of steps, about every 20 ms. May be called again unless a value was spoiled or
-    /// steps became too short.
+    /// Continues until `last_step` is complete and observes at multiples of `interval`, instead of
+    /// the schedule's numbers. If a check finds a non-finite value, the steps since the last check
+    /// (at most `check_every`) are replayed from the stored copy to find the step and the cell, and
+    /// `species` then holds the last step at which all values were finite. Without a stored copy
+    /// the check itself names a cell, and `species` has the spoiled values. Reports through
+    /// `control`: at once, about ten times a second, and with `stage_done` at the end, however it
+    /// ends. The last step of a call is checked unless `control.checks_later`. If `control.cancel`
+    /// is set, the loop ends at the next complete step. It reads the flag after each batch of
+    /// steps, about every 20 ms. May be called again unless a value was spoiled or steps became too
+    /// short.
     StageOutcome advance(std::int64_t last_step, std::int64_t interval, RunControl& control,
                          const Observer& observe);
 

@@ -31,7 +31,7 @@ public:
     /// Takes `count` steps of equal length with the passes of `problem`. Returns whether all values
     /// are finite, or true if `look` is false.
     bool take_steps(const StepProblem& problem, std::int64_t count, bool look);
-    /// Takes one step with an estimated error by calling `take`; returns its result.
+    /// Takes one step with an estimated error by calling `take`, and returns its result.
     bool take_judged_step(const std::function<bool()>& take);
 
     int threads() const { return thread_tuner_.threads(); }

@@ -1,11 +1,11 @@
-// Finds the field u for which e = L u + b is 0, L being a linear operator that kernels apply.
+// Finds the field u for which e = L u + b is 0, where L is a linear operator that kernels apply.
 //
 // The solver is BiCGSTAB (H. van der Vorst, "Bi-CGSTAB: a fast and smoothly converging variant of
 // Bi-CG", 1992), preconditioned by the inverse of an operator that is the same in all cells. On
-// grids it has a stencil, the mean of the responses of L to single cells, and fast Fourier
-// transforms apply its inverse. On linked cells it is a (Δ − s), with a and s from the responses of
-// L to a constant and to cells of both signs, and its factors are known. So where L is the same
-// everywhere the first iteration finds the solution up to rounding, and a mask, sides or
+// grids the operator has a stencil, the mean of the responses of L to single cells, and fast
+// Fourier transforms apply its inverse. On linked cells it is a (Δ − s), with a and s from the
+// responses of L to a constant and to cells of both signs, and its factors are known. So if L is
+// the same everywhere, the first iteration finds the solution up to rounding. A mask, sides or
 // coefficients that vary take a few more.
 #pragma once
 
@@ -29,9 +29,9 @@ public:
     /// Both must outlive the solver. Throws std::bad_alloc.
     ConstraintSolver(const StepProblem::Solve& solve, const StepProblem& outer);
 
-    /// Writes the field into `target`, its halo included. Called by the first `threads` threads of
-    /// the team, each with its number and otherwise the same arguments. Begins and ends with a
-    /// barrier of the team. Bits do not depend on `threads`, nor on earlier solutions.
+    /// Writes the field into `target`, including its halo. The first `threads` threads of the team
+    /// call this, each with its number and otherwise the same arguments. Begins and ends with a
+    /// barrier of the team. Bits depend neither on `threads` nor on earlier solutions.
     void solve(Team& team, int thread, int threads, Registers registers, const StepMoment& moment,
                Field& target);
 
@@ -69,12 +69,12 @@ private:
     PassRunner whole_, linear_;
     std::optional<PassRunner> parts_;
     Field residual_, shadow_, direction_, image_, other_image_;
-    // Shared by the threads between barriers; the sums of rows of successive products.
+    // Sums of the rows of successive products, which threads share between barriers.
     static constexpr std::size_t sums_in_use = 4;
     std::vector<double> row_sums_[sums_in_use];
     std::optional<StencilInverse<Number>> stencil_;  ///< The preconditioner of grids
     std::unique_ptr<LinkedLaplacian> laplacian_;     ///< and of linked cells.
-    double factor_ = 0;  ///< Of the Laplacian; 0: it does not precondition.
+    double factor_ = 0;  ///< The Laplacian's; 0 if it does not precondition.
 };
 
 extern template class ConstraintSolver<float>;

@@ -77,7 +77,7 @@ WITH_WIDE_VECTORS double squares_about(const Row<double>& row, double mean) {
     return squares_of(row, mean);
 }
 
-/// The root of the mean of (value − mean)²; `row_at(row)` is a Row.
+/// The root of the mean of (value − mean)², where `row_at(row)` is a Row.
 template <typename RowAt>
 double root_mean_square_about(double mean, const PlaneLayout& layout, RowAt row_at) {
     double squares = 0, cells = 0;

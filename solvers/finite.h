@@ -18,7 +18,7 @@ struct CellPlace {
 /// Are all these cells finite? Ignores halo and padding, which may hold anything.
 bool are_finite(const Field& field, const Patch& cells);
 
-/// The first cell, row by row, that is not finite.
+/// The first non-finite cell, row by row.
 std::optional<CellPlace> first_not_finite(const Field& field);
 
 }  // namespace cascade

@@ -40,7 +40,7 @@ void each_link(const LinkTable<Number>& table, const PlaneLayout& layout, RowRan
 
 struct LinkedLaplacian::Factors {
     std::vector<std::int64_t> elements;  ///< Cells that count, from cell (0, 0) on.
-    Eigen::VectorXd roots;               ///< Of their areas.
+    Eigen::VectorXd roots;               ///< Roots of their areas.
     Eigen::SparseMatrix<double> matrix;  ///< Lower half of −Δ between roots and their reciprocals.
     double least_s = 0;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;

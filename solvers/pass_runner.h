@@ -90,7 +90,7 @@ public:
     /// filled. After another barrier of the team, every thread sees them.
     void run(Worker& worker, Team& team, Registers registers, const StepMoment& moment);
 
-    /// Runs all passes once; the team shares the rows.
+    /// Runs all passes once. The team shares the rows.
     void run_once(Team& team, Registers registers, const StepMoment& moment);
 
     /// Does what must precede the pass's kernel: constraints, convolutions, reductions and filters.

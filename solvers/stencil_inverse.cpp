@@ -8,7 +8,7 @@
 namespace cascade {
 namespace {
 
-/// Cells from one probe of the stencil to the next; stencils reach three cells.
+/// Cells from one probe of the stencil to the next. Stencils reach three cells.
 constexpr std::int64_t between_probes = 7;
 
 }  // namespace

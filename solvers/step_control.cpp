@@ -22,7 +22,7 @@ bool StepControl::judge(double taken, double error) {
         return false;
     }
     const double seen = std::max(error, least_error);
-    // If something else keeps steps short, their errors do not show a trend.
+    // If another limit shortens steps, their errors do not show a trend.
     const bool was_cut = taken < state_.step * (1 - 1e-9);
     double factor =
         was_cut ? safety * std::pow(seen, -1 / k)

@@ -48,7 +48,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Uses one thread, so that the session's steps keep theirs.
+/// Uses one thread, and leaves the others to the session's steps.
 SharedBytes frame_of(const SurfaceSource& surface, std::uint64_t number) {
     try {
         Team team(1);
