@@ -1,5 +1,5 @@
-// libc++ before version 20 lacks std::from_chars() for floating-point numbers. The strtod() of the
-// C libraries that come with it also rounds to the nearest number.
+// libc++ before version 20 lacks std::from_chars() for floating-point numbers. There, strtod() of
+// the C library rounds to the nearest number, too.
 #include "core/decimal.h"
 
 #include <cerrno>

@@ -66,7 +66,7 @@ int replace(const fs::path& target, std::string_view bytes, const struct stat* r
     if (!folder.is_open()) return errno;
     TemporaryFile temporary(folder);
     if (const int error = temporary.error()) return error;
-    // The new file gets the old permissions if possible. Failing to is no reason to lose the data.
+    // The new file gets the replaced one's permissions if possible. If not, its data still counts.
     if (replaced) (void)::fchmod(temporary.file().number(), replaced->st_mode & 07777);
     if (const int error = temporary.write(bytes)) return error;
     return temporary.rename_to(target.filename().string());

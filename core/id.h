@@ -46,7 +46,7 @@ public:
 
     typename Base::reference operator[](Key id) { return Base::operator[](id.index()); }
     typename Base::const_reference operator[](Key id) const { return Base::operator[](id.index()); }
-    /// The id that the next added value gets.
+    /// The id of the next value to be added.
     Key next() const { return Key(Base::size()); }
     auto ids() const { return ids_below<Key>(Base::size()); }
     auto ids_backwards() const { return ids() | std::views::reverse; }

@@ -1,4 +1,4 @@
-// Kept files on POSIX systems.
+// Stores files on POSIX systems.
 #include "core/kept_files.h"
 
 #include "core/descriptor.h"
@@ -29,7 +29,7 @@ constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 /// The start of a file. The key and the content follow.
 struct Header {
     char magic[8] = {};
-    std::uint64_t checksum = 0;  ///< Of all bytes after it.
+    std::uint64_t checksum = 0;  ///< Covers all bytes after it.
     std::uint64_t key_size = 0;
     std::uint64_t content_size = 0;
 };

@@ -40,7 +40,7 @@ struct Scratch {
     std::vector<float> heights = {};            ///< Likewise.
     std::vector<OfParts<float>> material = {};  ///< Likewise.
     std::vector<SurfacePlace> places = {};      ///< For the samples of a texel with heights.
-    std::int64_t covered = 0;                   ///< A number of samples.
+    std::int64_t covered = 0;                   ///< Number of samples.
     TextureLayout::Overlap overlap = {};
 };
 

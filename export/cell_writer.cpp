@@ -1,4 +1,4 @@
-// Collects the same arrays for both formats. The lower cell writes each link.
+// Collects the same arrays for both formats. Each link is written once, by its lower cell.
 #include "export/cell_writer.h"
 
 #include "core/check.h"

@@ -22,8 +22,8 @@ struct GlbLook {
     std::string_view normal_map;      ///< Likewise, relative to the tangents of render_vertices().
     std::string_view surface_map;     ///< Likewise, packed as in MaterialMaps.
     std::string_view emission_map;    ///< Likewise.
-    MapSet has;                       ///< The contents of the maps. Opacity is the colours'.
-    bool is_cut = false;              ///< Opacities below ½ are holes, and there are no others.
+    MapSet has;                       ///< Parts in the maps. Opacity is in the colours.
+    bool is_cut = false;              ///< Opacities only mark holes, below ½.
     std::array<bool, 2> repeats{true, true};  ///< Along x and y.
     float roughness = 0.6F;                   ///< 0 … 1, if no map has it.
 };

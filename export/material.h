@@ -50,7 +50,7 @@ struct MapSet {
     bool occlusion = false, roughness = false, metalness = false;
     bool emission = false, opacity = false;
 
-    /// True if there is one of those that are packed into one texture.
+    /// True if there is a part that is packed into one texture with others.
     bool has_surface() const { return occlusion || roughness || metalness; }
 };
 

@@ -61,7 +61,7 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
 
 namespace {
 
-/// The digits of coordinates, so that nine distinguish points of the model, however far away it is.
+/// The digits of coordinates that give nine of the model's own size, however far away it is.
 int digits_of(std::span<const Vector3d> points) {
     constexpr int usual = 9, all = 17;
     if (points.empty()) return usual;

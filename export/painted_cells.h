@@ -16,7 +16,7 @@ namespace cascade {
 /// The colour (sRGB) for the values of all channels at a point. Must be thread-safe and not throw.
 using PlaceColour = std::function<Colour(std::span<const float> values, const SurfacePlace& place)>;
 
-/// The same for many points, if colours depend only on the values. All are shown().
+/// The same for many points, if colours depend only on the values. All results are shown().
 using ValueColours = std::function<void(std::span<const float> values, std::span<Colour> colours)>;
 
 /// Values to paint and their mapping to colours. Its references must outlive it.

@@ -22,7 +22,7 @@ std::filesystem::path program_named(const std::string& name) {
     const char* const path = std::getenv("PATH");
     std::istringstream folders(path ? path : "");
     for (std::string folder; std::getline(folders, folder, ':');) {
-        // Others would be below the current folder, which may hold a stranger's file.
+        // Relative folders are below the current one, which may hold a stranger's file.
         if (!folder.starts_with('/')) continue;
         const std::filesystem::path program = std::filesystem::path(folder) / name;
         if (is_program(program)) return program;

@@ -89,7 +89,7 @@ bool for_each_box(BoxReader& reader, const Box& outer, const Read& read, const V
     return true;
 }
 
-/// The number of a name of four letters.
+/// A four-letter name as a number.
 constexpr std::uint64_t name_of_box(const char (&letters)[5]) {
     std::uint64_t name = 0;
     for (int k = 0; k < 4; ++k) name = name << 8 | static_cast<unsigned char>(letters[k]);

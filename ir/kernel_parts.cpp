@@ -19,8 +19,8 @@ class Walk {
 public:
     explicit Walk(const CellKernel& kernel) : kernel_(kernel), is_met_(kernel.code.size(), false) {}
 
-    /// Visits the values that `root` and no earlier root is computed from, in no particular order,
-    /// and calls `meet` with the values of earlier roots at which the walk ends.
+    /// Visits the values needed by `root` but by no earlier root, in no particular order, and calls
+    /// `meet` with the values of earlier roots at which the walk ends.
     template <typename Visit, typename Meet>
     void from(ValueId root, Visit visit, Meet meet) {
         open_.push_back(root);

@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-/// All choices except that every operand is a scalar.
+/// All choices except scalars alone.
 constexpr unsigned varying_choices = 7;
 
 template <unsigned scalars, typename Number>

@@ -104,7 +104,7 @@ Expression exponential_to_base_2(Expression p, Expression q) {
     return (f * polynomial(f, f.pick(exp2_coefficients)) + 1).scaled(n);
 }
 
-/// x|^y, for any words.
+/// |x|^y, for any words.
 Expression power_of_magnitude(Expression a, Expression exponent) {
     const Expression y = exponent.clamped(-a.pick(large_exponent), a.pick(large_exponent));
     const Split logarithm = logarithm_to_base_2(a);

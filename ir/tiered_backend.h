@@ -17,8 +17,7 @@
 namespace cascade {
 
 /// Interpreting this number of cells takes about as long as compiling their kernel: both grow with
-/// the number of operations. For twenty operations, 4 ns per cell compare to about ten
-/// milliseconds.
+/// the number of operations. With twenty, a cell takes 4 ns and compiling about ten milliseconds.
 inline constexpr std::int64_t cells_worth_compiling = 262144;
 
 /// Wraps another backend, whose kernels compile() returns. Thread-safe. Kernels outlive the backend

@@ -26,8 +26,8 @@ struct CodeModule {
 };
 
 // The size of a kernel is the number of its instructions and of the loads of its Laplacians. The
-// time of LLVM's optimising code generator grows with the square of the size: 0.2 to 0.4 s at this
-// one. Larger kernels get unoptimised code, whose time grows linearly.
+// time of LLVM's optimising code generator grows with the square of the size: at this size it is
+// 0.2 to 0.4 s. Larger kernels get unoptimised code, whose time grows linearly.
 inline constexpr std::size_t largest_optimised_kernel = 3000;
 
 /// Larger kernels are refused. At this size, compiling takes up to 1 s.

@@ -12,11 +12,11 @@ struct KernelShape {
     Stencil stencil = Stencil::plane;
     int lanes = 16;              ///< Cells per vector: 4, 8 or 16; half as many in binary64.
     bool fills_columns = false;  ///< See HaloColumns.
-    // What the processor has and is fast at: see tuned() in jit/target_machine.h.
+    // Features and strengths of the processor: see tuned() in jit/target_machine.h.
     bool has_multiply_add = false;  ///< With one rounding, in one instruction.
     bool is_short_of_loads = false;
     bool has_fast_gathers = false;
-    bool has_rounding = false;  ///< To whole numbers, in one instruction.
+    bool has_rounding = false;  ///< Rounds to whole numbers in one instruction.
     bool has_scaling = false;   ///< Scales vectors of 64 bytes by powers of two in one instruction.
 };
 

@@ -125,8 +125,8 @@ Value* LinkEntry::is_link() {
     return is_link_;
 }
 
-// One load of 64 bits holds four offsets, which shifts separate, since loads bound the loop. On an
-// Intel Xeon this takes as long as a load for each.
+// One load of 64 bits gets four offsets, which shifts then separate, because loads bound the loop.
+// On an Intel Xeon this takes as long as a load for each.
 void LinkEntry::load_offsets() {
     llvm::Type* half = builder_.getInt16Ty();
     llvm::Type* word = builder_.getInt64Ty();

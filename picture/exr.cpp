@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// Its functions, by their names without `exr_`.
+/// OpenEXR's functions, by their names without `exr_`.
 struct OpenExr {
     LateLibrary library{CASCADE_OPENEXR_LIBRARY};
     decltype(&exr_start_write) start_write = library["exr_start_write"];

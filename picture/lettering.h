@@ -32,8 +32,8 @@ std::int64_t text_height(std::int64_t dot);
 void draw_text(Image& image, std::string_view text, std::int64_t x, std::int64_t y,
                std::int64_t room, std::int64_t dot);
 
-/// Draws a picture enlarged by `factor` in a frame of one pixel. `height` is the enlarged
-/// picture's, or that of the band to which a picture of few rows is stretched.
+/// Draws a picture enlarged by `factor` in a frame of one pixel. `height` is the height of the
+/// enlarged picture, or of the band to which a picture of few rows is stretched.
 void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_t y,
                  std::int64_t factor, std::int64_t height);
 

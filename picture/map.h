@@ -15,7 +15,7 @@ struct MapAxis {
     std::vector<std::string> values;
 };
 
-/// A cell of a map. Without an image it only has the remark.
+/// A cell of a map. Without an image, only the remark is drawn in it.
 struct MapTile {
     Image image;
     std::string remark;

@@ -33,7 +33,7 @@ WITH_WIDE_VECTORS bool show_background(std::span<const Colour> pixels) {
     return is_one != 0;
 }
 
-/// The levels of all channels of the pixels, or only of each first one.
+/// The levels of all channels of the pixels, or only of each pixel's first one.
 WITH_WIDE_VECTORS void find_levels(std::span<const Colour> pixels, std::size_t channels,
                                    unsigned highest, std::uint16_t* levels) {
     const auto level = [highest](float value) {

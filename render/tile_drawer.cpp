@@ -26,13 +26,14 @@ namespace {
 
 constexpr int turn_side = 5;  ///< Side of a square of pixels that take turns in testing a light.
 constexpr int sun_reach = 1, sky_reach = 2;  ///< Pixels on each side whose tests count.
-constexpr std::uint32_t enough_tests = 16;   ///< For a light that is partly hidden.
+constexpr std::uint32_t enough_tests = 16;   ///< Tests of a light that is partly hidden.
 /// Two hits whose normals have a smaller cosine are not on one piece of a surface.
 constexpr float least_cosine = 0.9F;
-constexpr float sharp_outline = 0.2F;     ///< Between a pixel's share of the sun and its
+constexpr float sharp_outline = 0.2F;     ///< Difference of a pixel's share of the sun from its
                                           ///< neighbours'.
-constexpr float contrast_beside = 0.06F;  ///< Of adjacent tones: above it, one ray is too few.
-constexpr float dark_share = 0.2F;        ///< Of the sky: below it, a pixel is in a crevice.
+constexpr float contrast_beside = 0.06F;  ///< Contrast of adjacent tones above which one ray is too
+                                          ///< few.
+constexpr float dark_share = 0.2F;        ///< Share of the sky below which a pixel is in a crevice.
 
 float contrast(const Colour& a, const Colour& b) {
     float most = 0;

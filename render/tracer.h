@@ -1,7 +1,7 @@
 // The hit of a ray from the camera, and the light that reaches it.
 //
-// The sun is a disc instead of a point, for soft shadows. The sky is all other light. The part of
-// it that is visible from a point darkens hollows.
+// The sun is a disc instead of a point, for soft shadows. The sky is all other light. Hollows are
+// darker because less of it is visible from them.
 #pragma once
 
 #include "render/camera.h"
@@ -14,7 +14,7 @@ namespace cascade {
 /// A point of the unit disc.
 struct DiscPoint {
     float x = 0, y = 0;
-    /// 0 … 1, below 1: a test passes through a surface if this is below the light that passes.
+    /// From 0 to below 1. A test passes through a surface if this is below the light that passes.
     float part = 0;
 };
 

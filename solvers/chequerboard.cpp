@@ -154,7 +154,7 @@ private:
         }
     }
 
-    /// Judges pairs along one axis with both cells in the block.
+    /// Whether pairs along one axis, with both cells in the block, alternate.
     bool alternates(const Block& block, double mean, std::array<std::int64_t, 3> to) const {
         const Block first{{block.i.begin, block.i.end - to[0]},
                           {block.j.begin, block.j.end - to[1]},

@@ -22,7 +22,7 @@ struct Lag {
 /// The largest number of lags that a convolution may have.
 inline constexpr std::int64_t most_lags = std::int64_t{1} << 24;
 
-/// The number of lags in the box around lags_within(), or a number above most_lags.
+/// The number of lags in the bounding box of lags_within(), or a number above most_lags.
 std::int64_t lags_in_box(const Grid& grid, std::optional<double> reach);
 
 /// The lags up to a distance `reach` in the unit of Grid::spacing, in order of z, y and x. Along an

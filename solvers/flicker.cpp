@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// A change that dies out shrinks by more than this factor.
+/// A change that dies out shrinks below this fraction.
 constexpr double lasting = 0.95;
 
 /// The changes of a row of cells in two steps.

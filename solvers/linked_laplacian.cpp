@@ -41,15 +41,15 @@ void each_link(const LinkTable<Number>& table, const PlaneLayout& layout, RowRan
 struct LinkedLaplacian::Factors {
     std::vector<std::int64_t> elements;  ///< Cells that count, from cell (0, 0) on.
     Eigen::VectorXd roots;               ///< Roots of their areas.
-    Eigen::SparseMatrix<double> matrix;  ///< Lower half of −Δ between roots and their reciprocals.
+    Eigen::SparseMatrix<double> matrix;  ///< The lower half of −Δ, made symmetric by the roots.
     double least_s = 0;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
     std::optional<double> shift;  ///< The s of the factors: as given, or the smallest one.
 
     bool is_singular() const { return shift == least_s; }
 
-    /// Subtracts the mean by area of values times roots, which no s determines. The order of
-    /// summation must not depend on vectors.
+    /// Subtracts the area-weighted mean, which is undetermined if s is 0. Values are times roots.
+    /// The order of summation must not depend on vectors.
     void subtract_mean(Eigen::VectorXd& values) const {
         double sum = 0, area = 0;
         for (Eigen::Index k = 0; k < values.size(); ++k) {

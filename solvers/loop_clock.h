@@ -25,7 +25,7 @@ public:
     bool is_over() const;
     /// Has it reached the end of the schedule?
     bool is_at_last_step() const { return step >= schedule_.last_step; }
-    /// The steps to the end if they stay as long as now, or by number without an end time.
+    /// The remaining steps at the present length, or by number if there is no end time.
     double steps_left() const;
 
     bool is_judging() const { return schedule_.tolerance > 0; }

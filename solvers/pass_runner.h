@@ -76,8 +76,8 @@ public:
     struct alignas(64) Worker {
         int number = 0;  ///< The thread's number among the `count` threads in use.
         int count = 1;
-        RowRange rows;  ///< A fraction of all rows,
-        Patch cells;    ///< and of all cells, a fair share even if there are few rows.
+        RowRange rows;  ///< This thread's rows,
+        Patch cells;    ///< and its cells, a fair share even if there are few rows.
         std::vector<DiffusionSymbol> symbols;
         std::variant<Arguments<float>, Arguments<double>> arguments;
         std::vector<double> row_values;
@@ -151,8 +151,8 @@ private:
     };
     std::variant<Helpers<float>, Helpers<double>> helpers_;
     struct PassSides {
-        std::vector<SideRules> rules;       ///< Per result, before any of them changes.
-        std::optional<HaloColumns> copied;  ///< What a kernel fills columns of the halo with.
+        std::vector<SideRules> rules;       ///< Per result, before any side changes.
+        std::optional<HaloColumns> copied;  ///< The source of halo columns that a kernel fills.
     };
     std::vector<PassSides> sides_;  ///< Per pass.
     IdVector<TemporaryId, Field> temporaries_;

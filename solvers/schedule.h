@@ -32,7 +32,7 @@ using Keeper = std::function<void(std::int64_t step, double t, const TimeState& 
 struct StepChoice {
     double step = 0;                       ///< Length of the steps.
     const StepProblem* problem = nullptr;  ///< The passes of a step,
-    const StepProblem* judged = nullptr;   ///< and with an estimated error, if any.
+    const StepProblem* judged = nullptr;   ///< and of a step with an estimated error, if any.
 };
 /// Chooses the next steps from the present values, in the caller's vector, and from the `time` so
 /// far. May change any part of `time` except the clock and the controller. `rejected` says that the
@@ -75,9 +75,8 @@ struct Schedule {
     bool judges_all = false;        ///< The error of every step is estimated.
     std::int64_t check_every = 64;  ///< Steps between two checks for non-finite values.
     Onlooker onlooker = {};         ///< Sees the species at each of those checks.
-    /// A copy of all species is stored at each check, to find the step that spoils a value, if it
-    /// takes at most this number of bytes. A larger copy would take memory that the user needs for
-    /// cells.
+    /// At each check, a copy of all species is stored to find the step that spoils a value, unless
+    /// it takes more than this number of bytes, memory that the user needs for cells.
     std::int64_t most_kept_bytes = std::int64_t{256} << 20;
     /// Called before each batch of steps (about 20 ms): must the state after it be saved? If so,
     /// that state is also checked for non-finite values, and `keep` is called. Results do not
@@ -95,7 +94,7 @@ struct Schedule {
 /// The number of tenths of the end time that have passed; 0 without an end time.
 double tenths_reached(double t, double end_time);
 
-/// Is a copy of such species stored, by Schedule::most_kept_bytes?
+/// Does Schedule::most_kept_bytes allow a copy of such species?
 bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
                 Precision precision);
 

@@ -17,8 +17,8 @@ struct StabilityEstimate {
     double eigenvalue = 0;
     /// The largest explicit Euler step that damps the fastest decaying mode: 2 / |λ| of the most
     /// negative eigenvalue λ (−2 Re λ / |λ|² of a complex pair). Empty if no eigenvalue is
-    /// negative. In that case, or if the speed in use is well below this one, the step is not what
-    /// causes growth.
+    /// negative. In that case, or if the speed in use is well below this one, growth has another
+    /// cause than the step.
     std::optional<double> largest_speed;
 };
 

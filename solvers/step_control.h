@@ -4,9 +4,9 @@
 // stepsize selection in explicit Runge-Kutta methods", ACM Transactions on Mathematical Software
 // 17, 1991; constants of E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996,
 // section IV.2): next = step · 0.9 · error^(−0.7/k) · previous error^(0.4/k), where k is the order
-// of the error estimate, limited to between a fifth and five times the step. After a step that was
-// shorter than step(), next = step · 0.9 · error^(−1/k). After a rejected step, the next one is
-// step · 0.9 · error^(−1/k), at least a tenth.
+// of the error estimate, limited to between a fifth and five times the step. After a step shorter
+// than step(), next = step · 0.9 · error^(−1/k). So it is after a rejected step, but at least a
+// tenth of it.
 #pragma once
 
 namespace cascade {

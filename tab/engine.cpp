@@ -125,7 +125,7 @@ bool Engine::turn() {
         }
         wants_snapshot_ = false;
         send_frame(print_snapshot(*newest_));
-        // Not earlier: a page that has the library at first lets its user choose from it.
+        // Sent last: a page that gets the library first lets its user choose from it.
         if (!has_library_) send_text(print_systems());
         has_library_ = true;
     }

@@ -33,7 +33,7 @@ using VolumeFunction = PlaneFunction;
 using LinkedFunction = Extended<Shared, const void*, const void*, const void*, const void*,
                                 const void*, const void*, const void*, const void*>::Type;
 
-/// An index in the engine's table of functions, which is what a pointer to a function is.
+/// A function pointer, which is an index in the engine's table of functions.
 class ModuleFunction {
 public:
     explicit ModuleFunction(std::uint32_t place) : place_(place) {}

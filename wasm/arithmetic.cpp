@@ -47,7 +47,7 @@ void Arithmetic::flush() {
     flush_below(0);
 }
 
-/// If operands are larger by powers of two, the result is larger by both together.
+/// Scaling the operands by powers of two scales the result by their product.
 void Arithmetic::with_larger_operands(Lanes operation, int first_power, int second_power) {
     const Local second = function_.keep(level_), first = function_.keep(level_);
     code_.get(first);

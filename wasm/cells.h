@@ -88,12 +88,12 @@ public:
     /// All but `laplacian`.
     virtual Local link_sum(const Instruction& sum) = 0;
 
-    // A loop over the links of the vector. Its body is the code of links that is written between
-    // these two.
+    // A loop over the links of the vector. Its body is the code of links written between these
+    // calls.
     virtual void begin_links();
     virtual void end_links();
     // The local that has this for all lanes, until the end of the body.
-    /// A field's values in the linked cells, in a local that is valid until the end of the body.
+    /// A field's values in the linked cells.
     virtual Local theirs(FieldSlot slot);
     /// The bits of a lane are set if it has a link, else clear.
     virtual Local is_link();

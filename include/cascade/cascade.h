@@ -35,7 +35,7 @@ struct Message {
 /// How a pattern is computed. Does not affect results.
 struct PatternOptions {
     bool native_code = true;        ///< Compile the equations; false interprets them.
-    int threads = 0;                ///< 0 uses all of the machine's.
+    int threads = 0;                ///< 0 for all that the machine has.
     std::string name = "<script>";  ///< The script's name in messages.
     std::string folder = ".";       ///< Paths in the script are relative to it.
 };

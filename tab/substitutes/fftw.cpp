@@ -30,7 +30,7 @@ struct Lines {
     int stride, distance;
 };
 
-/// Transforms lines of n numbers: of values, or pairs of them for complex numbers.
+/// Transforms lines of n values, or of n pairs for complex numbers.
 struct Pass {
     Transform transform;
     fftw_r2r_kind kind;  ///< For a real transform.
