@@ -26,7 +26,7 @@ Grid finer_grid(const Grid& grid, std::int64_t times);
 
 /// A plane on a finer_grid(). Values between cells lie on the curves of core/between_cells.h, first
 /// along the third axis, then along columns, then along rows. Beyond sides that are not periodic,
-/// values continue.
+/// edge values extend.
 template <typename Number>
 Plane<Number> divided(const Plane<Number>& plane, const Grid& grid, std::int64_t times);
 

@@ -11,7 +11,7 @@ namespace cascade {
 struct FlatCells {
     std::int64_t columns = 0, rows = 0;
     double side = 1;                          ///< A cell's side, in the unit of heights.
-    std::array<bool, 2> repeats{true, true};  ///< Along x and y. Otherwise values continue.
+    std::array<bool, 2> repeats{true, true};  ///< Along x and y. Otherwise edge values extend.
     /// 0 in cells outside the domain; empty if all are inside.
     std::vector<std::uint8_t> inside = {};
 

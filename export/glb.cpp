@@ -18,8 +18,8 @@ namespace {
 
 using Json = GlbFile::Json;
 
-/// The coverage of the screen at which the next level of detail replaces a model, relative to the
-/// previous one. Each level has fewer triangles by the same factor.
+/// The ratio of the screen coverages at which successive levels of detail appear. Each level has
+/// fewer triangles by this factor.
 constexpr double coverage_factor = 4;
 
 /// Adds the parts of one model to a file.

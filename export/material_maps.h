@@ -29,7 +29,7 @@ struct MaterialMaps {
     Image opacity;  ///< Grey.
     MapSet maps;
     bool is_cut = false;  ///< Opacities mark holes: 0 or 1, and between only at their edges.
-    /// Along x and y: the texture repeats. Otherwise its last texels continue.
+    /// Along x and y: the texture repeats. Otherwise its edge texels extend outwards.
     std::array<bool, 2> repeats{true, true};
 };
 

@@ -62,7 +62,7 @@ bool has_bytes(const Descriptor& reader) {
     return reader.is_open() && ::read(reader.number(), &byte, 1) == 1;
 }
 
-/// The processor time it has used; nullopt if it has ended.
+/// The processor time it has used; 0 if it has ended.
 std::chrono::nanoseconds time_computed(pid_t process) {
     clockid_t clock{};
     timespec time{};

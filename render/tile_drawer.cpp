@@ -31,7 +31,7 @@ constexpr std::uint32_t enough_tests = 16;   ///< Tests of a light that is partl
 constexpr float least_cosine = 0.9F;
 constexpr float sharp_outline = 0.2F;     ///< Difference of a pixel's share of the sun from its
                                           ///< neighbours'.
-constexpr float contrast_beside = 0.06F;  ///< Contrast of adjacent tones above which one ray is too
+constexpr float contrast_beside = 0.06F;  ///< Contrast beside a pixel above which one ray is too
                                           ///< few.
 constexpr float dark_share = 0.2F;        ///< Share of the sky below which a pixel is in a crevice.
 

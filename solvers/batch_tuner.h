@@ -19,7 +19,7 @@ class BatchTuner {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Takes the steps of `stepper`, sets its threads and tiling. All arguments must outlive this.
+    /// Steps `stepper` and sets its threads and tiling. All arguments must outlive this.
     BatchTuner(const Schedule& schedule, LoopClock& clock, Stepper& stepper);
 
     /// Must be called when the loop resumes after a pause.

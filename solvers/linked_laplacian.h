@@ -13,7 +13,7 @@ namespace cascade {
 /// times the roots of their areas make the matrix symmetric.
 class LinkedLaplacian {
 public:
-    /// With at least as many cells, the factors would take gigabytes.
+    /// From this number of cells on, the factors would take gigabytes.
     static constexpr std::int64_t most_cells = std::int64_t{1} << 20U;
 
     /// Cells with area 0 are left out. Without `areas`, all are alike. Throws std::bad_alloc.

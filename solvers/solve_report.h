@@ -7,8 +7,8 @@ namespace cascade {
 struct SolveReport {
     int most_iterations = 0;
     double largest_rest = 0;  ///< The residual's norm over the constraint's without the field.
-    /// If any constant may be added to the field: the mean of the constraint without the field,
-    /// which no field balances, over its root mean square.
+    /// The constraint's mean without the field, over its root mean square. No field balances it.
+    /// Only for fields to which any constant may be added.
     double largest_mean = 0;
 };
 
