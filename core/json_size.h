@@ -8,7 +8,7 @@ namespace cascade {
 
 struct JsonSize {
     std::size_t objects = 0;  ///< Objects and arrays.
-    std::size_t values = 0;   ///< All values, at most one too many per array.
+    std::size_t values = 0;   ///< All values, up to one missing per object or array.
     std::size_t depth = 0;    ///< Depth of nesting.
 };
 

@@ -49,7 +49,7 @@ inline constexpr std::array<std::string_view, 5> side_kind_words{"periodic", "no
 /// in core/side_cells.h.
 struct SideValues {
     std::int64_t first = 0;       ///< The cell of the first number.
-    std::vector<double> numbers;  ///< One per cell that fills halo.
+    std::vector<double> numbers;  ///< One per cell from which halo is filled.
 
     double at(std::int64_t cell) const { return numbers[static_cast<std::size_t>(cell - first)]; }
 };

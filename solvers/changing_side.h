@@ -30,7 +30,7 @@ struct SideMoment {
 struct ChangingSide {
     SpeciesId species;
     Side side = Side::left;
-    KernelPointer kernel;                         ///< One result; reads only its own cell.
+    KernelPointer kernel;                         ///< One result; reads no neighbours or positions.
     Precision precision = Precision::single;      ///< The kernel's.
     std::vector<std::vector<double>> strips;      ///< Per field slot: values along the side …
     std::vector<std::optional<SpeciesId>> reads;  ///< … or the species whose values are read.

@@ -52,8 +52,8 @@ struct StepProblem {
     struct Result {
         PlaneRef plane;
         bool needs_halo = false;              ///< Is read at neighbours.
-        Boundaries boundary = {};             ///< The sides of a temporary …
-        std::optional<SpeciesId> rules = {};  ///< … that does not use a species' `sides`.
+        Boundaries boundary = {};             ///< The sides of a temporary without `rules`.
+        std::optional<SpeciesId> rules = {};  ///< A temporary's index in `sides`, if any.
         /// For a species and for such a temporary: the fraction of the step at which it is read at
         /// neighbours, or next_step.
         double read_at = next_step;
