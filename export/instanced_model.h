@@ -17,7 +17,7 @@ namespace cascade {
 /// The model to write. Refers to its parts.
 struct InstancedModel {
     const SurfaceMesh* body = nullptr;  ///< May be absent.
-    std::span<const Colour> colours;    ///< The body's, sRGB, one per point; empty: none.
+    std::span<const Colour> colours;    ///< Colours of the body: sRGB, one per point; empty: none.
     const Instances& copies;            ///< May be empty if there is a body.
 };
 

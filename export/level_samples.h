@@ -35,7 +35,7 @@ private:
     const PaintedCells& cells_;
     const RefinedMesh* displaced_;
     NearestPlace on_shape_;
-    CornerNormals normals_;  ///< The shape's.
+    CornerNormals normals_;  ///< Normals of the shape.
 };
 
 /// Paints each sample as the nearest point of the fine surface, with its colour, its material, and

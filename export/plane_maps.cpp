@@ -136,7 +136,7 @@ private:
     std::size_t channels_;
     bool has_heights_;
     std::vector<MaterialPart> parts_;
-    std::vector<std::vector<float>> values_;  ///< The cells', one value after the other.
+    std::vector<std::vector<float>> values_;  ///< Values of the cells, one value after the other.
 };
 
 class PlaneBaker {

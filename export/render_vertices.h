@@ -19,11 +19,11 @@ struct Tangent {
 };
 
 struct RenderVertices {
-    std::vector<std::uint32_t> points;  ///< The mesh's, in ascending order, each at least once.
+    std::vector<std::uint32_t> points;  ///< Points of the mesh, ascending, each at least once.
     std::vector<Vector3d> normals;      ///< One per vertex, of length 1.
     std::vector<TexturePlace> texture;  ///< Finite; empty if the mesh has none.
     std::vector<Tangent> tangents;      ///< Likewise.
-    /// The mesh's, in order.
+    /// The triangles of the mesh, in order.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

@@ -16,7 +16,7 @@ namespace cascade {
 struct SampleRow {
     const TextureLayout& layout;
     std::uint32_t triangle = 0;
-    std::int64_t first = 0, row = 0;     ///< The first sample's.
+    std::int64_t first = 0, row = 0;     ///< Position of the first sample.
     std::span<Colour> lights;            ///< Reflected fractions, 0 … 1 (light_of).
     std::span<float> heights;            ///< Above the surface, in the unit of the mesh.
     std::span<OfParts<float>> material;  ///< Emission as light.

@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-constexpr int apng_effort = 6;  // The compression's.
+constexpr int apng_effort = 6;  // Effort of compression.
 constexpr std::size_t apng_ticks_per_second = 1000;
 
 class ApngWriter : public FilmWriter {

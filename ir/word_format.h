@@ -13,8 +13,8 @@ namespace cascade {
 /// IEEE 754 binary32 or binary64. A word is the lower `bits` of a 64-bit integer. The others are 0.
 struct WordFormat {
     int bits;           ///< 32 or 64.
-    int fraction_bits;  ///< The significand's, without the leading one: 23 or 52.
-    int bias;           ///< The exponent's: 127 or 1023.
+    int fraction_bits;  ///< Bits of the significand without the leading one: 23 or 52.
+    int bias;           ///< Bias of the exponent: 127 or 1023.
 
     constexpr std::uint64_t all() const { return ~std::uint64_t{0} >> (64 - bits); }
     constexpr std::uint64_t sign() const { return std::uint64_t{1} << (bits - 1); }

@@ -15,8 +15,8 @@ constexpr std::int64_t label_gap = 6;            // Between a picture's frame an
 /// Sizes in pixels common to all panels of a sheet.
 struct Sizes {
     std::int64_t enlarge = 1;  ///< Factor for all pictures.
-    std::int64_t width = 0;    ///< The widest picture's, enlarged.
-    std::int64_t height = 0;   ///< The tallest picture's, enlarged.
+    std::int64_t width = 0;    ///< Width of the widest picture, enlarged.
+    std::int64_t height = 0;   ///< Height of the tallest picture, enlarged.
     std::int64_t dot = 1;      ///< Width of one dot of the font.
 };
 

@@ -20,7 +20,7 @@ using SurfaceColour = std::function<Colour(const Hit&)>;
 
 struct Sight {
     Hit hit;
-    Vector3 direction;  ///< The ray's, of length 1.
+    Vector3 direction;  ///< Direction of the ray, of length 1.
     float width = 0;    ///< Width of the ray's part of the pixel at the hit, across the ray.
 };
 

@@ -42,8 +42,8 @@ private:
     int count_ = 0;
 };
 
-/// Sets a pixel. Without a background, surfaces cover their part of it, and the rest is black, as
-/// opaque as the shadow is dark. The two are blended in sRGB, as other programs do.
+/// Sets a pixel. Without a background, surfaces are opaque where they cover the pixel. The rest is
+/// black, and as opaque as the shadow is dark. The two are blended in sRGB, as other programs do.
 void put(const PixelLight& light, bool has_background, std::int64_t x, std::int64_t y,
          Image& image);
 

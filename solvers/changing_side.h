@@ -31,7 +31,7 @@ struct ChangingSide {
     SpeciesId species;
     Side side = Side::left;
     KernelPointer kernel;                         ///< One result; reads no neighbours or positions.
-    Precision precision = Precision::single;      ///< The kernel's.
+    Precision precision = Precision::single;      ///< Precision of the kernel.
     std::vector<std::vector<double>> strips;      ///< Per field slot: values along the side …
     std::vector<std::optional<SpeciesId>> reads;  ///< … or the species whose values are read.
     std::vector<double> uniforms;
@@ -43,7 +43,7 @@ struct ChangingSide {
 using SpeciesPlanes = std::vector<const Field*>;
 SpeciesPlanes planes_of(std::span<const Field> species);
 
-/// Sets the rules of a species to a moment, for the halo filled from these rows. `present` has the
+/// Sets the rules of a species for a moment, in the halo filled from these rows. `present` has the
 /// values at that moment in these rows. Must run inside a FlushDenormals.
 void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
                      const SpeciesPlanes& present, const PlaneLayout& layout, const Patch& cells,

@@ -74,7 +74,7 @@ private:
     std::vector<double> row_sums_[sums_in_use];
     std::optional<StencilInverse<Number>> stencil_;  ///< The preconditioner of grids
     std::unique_ptr<LinkedLaplacian> laplacian_;     ///< and of linked cells.
-    double factor_ = 0;  ///< The Laplacian's; 0 if it does not precondition.
+    double factor_ = 0;  ///< Factor of the Laplacian; 0 if it does not precondition.
 };
 
 extern template class ConstraintSolver<float>;

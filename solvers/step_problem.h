@@ -71,7 +71,7 @@ struct StepProblem {
         };
         TemporaryId target;
         bool needs_halo = false;              ///< The target is read at neighbours.
-        SideRules sides;                      ///< The field's, before any of its sides changes.
+        SideRules sides;                      ///< Sides of the field, before any of them changes.
         std::optional<SpeciesId> rules = {};  ///< Their number in StepProblem::sides, …
         RegisterId in_register;               ///< … which read species here …
         double read_at = 0;                   ///< … at this fraction of the step.

@@ -101,7 +101,7 @@ struct WaveTransforms<Number>::Implementation {
         bool lines_complex = false;  ///< The buffer's lines are complex.
         double gain = 1;
         std::array<FftwTransform<Number>, 3> forward, backward;
-        std::array<std::vector<Number>, 3> differences;  ///< Along x per line of the buffer.
+        std::array<std::vector<Number>, 3> differences;  ///< By axis; along x, by buffer line.
         std::array<std::vector<Number>, 2> slopes;       ///< Likewise.
     };
     struct Free {

@@ -153,9 +153,9 @@ private:
 
     std::map<std::pair<Parameter, std::size_t>, Local> planes_;
     std::map<std::pair<int, int>, Local> row_offsets_;
-    std::map<RowOfPlane, Local> addresses_;  ///< The group's.
+    std::map<RowOfPlane, Local> addresses_;  ///< Addresses for the group.
     std::map<Reading, Local> loads_, operands_;
-    std::vector<Local> kept_;  ///< The vector's.
+    std::vector<Local> kept_;  ///< Locals of the vector.
 };
 
 std::unique_ptr<Cells> make_grid_cells(Function& function, const CellKernel& kernel,
