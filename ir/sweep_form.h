@@ -102,8 +102,7 @@ struct SweepForm {
     friend bool operator==(const SweepForm&, const SweepForm&) = default;
 };
 
-/// The response to a wave of a rate, which diffusion changes at the rate M ≤ 0, in a step of length
-/// h.
+/// A rate's wave after a step of length h, in which diffusion changes it at the rate M ≤ 0.
 enum class WaveResponse : std::uint8_t {
     implicit,     ///< Times 1 / (1 − h M): diffusion as it is at the step's end.
     exponential,  ///< Times (exp(h M) − 1) / (h M): diffusion solved exactly.

@@ -1,7 +1,7 @@
 // Native code for cell kernels, by LLVM 19.
 //
 // The only header of this room that others include. LLVM's own headers stay inside jit/*.cpp, and
-// LLVM is loaded when the first kernel must be compiled that no cache has.
+// LLVM is loaded for the first kernel that no cache has.
 #pragma once
 
 #include "ir/backend.h"
