@@ -53,7 +53,7 @@ Result<MergedCopies> merge_copies(const Instances& copies);
 Result<std::string> encode_merged_glb(const InstancedModel& model);
 
 /// A Wavefront OBJ file, likewise: an object `body` and an object `copies`, with colours after the
-/// positions. Coordinates of copies have nine digits, and more far from the origin.
+/// positions. Coordinates of copies have nine digits, or more if far from the origin.
 Result<std::string> encode_merged_obj(const InstancedModel& model);
 
 /// Writes a file of the extension .glb or .obj, atomically. OBJ files are always merged. Fails on

@@ -14,7 +14,7 @@ public:
     /// Begins an object with a name.
     void begin(std::string_view name);
     void add(const SurfaceMesh& mesh, const PointResults& results);
-    /// Coordinates have nine digits, and more far from the origin.
+    /// Coordinates have nine digits, or more if far from the origin.
     void add(const MergedCopies& copies);
 
     const std::string& text() const { return text_; }

@@ -1,6 +1,6 @@
 // Products and quotients may be denormal and inexact. A result just below the least normal number
 // would be rounded up to it, although x86 flushes it. Hence such an operation is also done with
-// larger operands, whose result is normal and rounded to all digits, and tells what to flush.
+// larger operands. Their result is normal and rounded to all digits, and shows what to flush.
 //
 // The larger operands overflow only if the result is far from being denormal, since no operand is
 // denormal, or if it is zero. The larger result is then infinite or NaN, and no number is flushed.

@@ -112,7 +112,7 @@ public:
 
     /// The present step as a PNG file in memory: what `cascade run` would draw, or `expression`. It
     /// carries the session, so that `cascade run FILE` draws it again. Empty if there is no
-    /// picture; then error() says why, and the pattern stays ok.
+    /// picture. Then error() says why, and the pattern stays ok.
     std::string picture(const std::string& expression = "");
 
     /// Makes a running step() return after its present step. The next step() continues.
