@@ -50,8 +50,8 @@ struct Branch {
 
 struct Dispersion {
     Stability stability = Stability::stable;
-    Complex at_rest;                 ///< The largest rate of a uniform change, …
-    GrowingWave fastest;             ///< … and of all other waves.
+    Complex at_rest;                 ///< The largest rate of a uniform change.
+    GrowingWave fastest;             ///< The fastest of all other waves.
     std::vector<GrowingBand> bands;  ///< Along its direction, long waves first.
     Branch curve;                    ///< Along its direction.
     bool depends_on_direction = false;

@@ -54,8 +54,8 @@ bool starts_with_noise_alone(const LinearModel& model) {
     return has_noise;
 }
 
-/// A quick test that is false for most stages refused by starts_with_noise_alone(): those that draw
-/// nothing and those that continue from the pattern of an earlier stage.
+/// A quick test that is false for most stages refused by starts_with_noise_alone(): stages that
+/// draw nothing or continue from the pattern of an earlier stage.
 bool may_start_with_noise(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
     const auto is_noise = [](const Node& node) {

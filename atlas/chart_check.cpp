@@ -63,7 +63,7 @@ bool has_crossing(const Chart& chart, std::vector<Side> sides) {
 std::size_t count_outer(const Chart& chart, const std::vector<Side>& sides) {
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> next(chart.places.size(), none);
-    for (const Side& side : sides) next[side.from] = side.to;  // One fan of triangles.
+    for (const Side& side : sides) next[side.from] = side.to;  // One fan per position.
     std::size_t outer = 0;
     for (const Side& side : sides) {
         double area = 0;

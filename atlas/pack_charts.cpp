@@ -136,7 +136,7 @@ Vector2d quarter_turned(Vector2d v, int quarters) {
     return turned[static_cast<std::size_t>(quarters)];
 }
 
-/// The cells touched by a scaled chart whose bounds have their lower corner at a cell's.
+/// The cells touched by a scaled chart. The lower corner of its bounds is a cell's.
 CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
     FlatBox bounds;
     for (const Vector2d p : chart.places) bounds.add(quarter_turned(p, quarters) * scale);
@@ -312,8 +312,8 @@ private:
     int cells_;
     double area_ = 0;
     std::array<Order, 3> orders_;   ///< The largest first, by several measures.
-    int fitting_ = most_steps + 1;  ///< The best step so far,
-    std::vector<Placed> best_;      ///< and its positions.
+    int fitting_ = most_steps + 1;  ///< The best step so far.
+    std::vector<Placed> best_;      ///< The positions at this step.
 };
 
 }  // namespace

@@ -155,7 +155,7 @@ SurfacePlace TextureLayout::place_at(std::uint32_t triangle, std::int64_t column
             if (!holds(drawn, point, inside)) continue;
             const double sum = inside[0] + inside[1] + inside[2];
             if (!(sum > 0)) continue;
-            // The edge opposite each corner is the one that does not touch it.
+            // The weight of a corner is the distance from the opposite edge.
             place.weights = {inside[1] / sum, inside[2] / sum, inside[0] / sum};
             return place;
         }

@@ -24,7 +24,7 @@ struct LatticePoint {
 
 class CentredLattice {
 public:
-    /// `counts`: cells along each axis, at least 1; at most 2³⁰ points altogether.
+    /// `counts`: cells along each axis, at least 1. The limit is 2³⁰ points altogether.
     CentredLattice(Vector3d low, Vector3d high, std::array<std::int32_t, 3> counts)
         : low_(low), high_(high), counts_(counts) {}
 

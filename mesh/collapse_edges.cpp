@@ -1,4 +1,4 @@
-// Decides which edges may be collapsed; OpenMesh checks the link condition and collapses them.
+// Decides which edges may be collapsed. OpenMesh checks the link condition and collapses them.
 #include "mesh/collapse_edges.h"
 
 #include <numeric>

@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// A partition of the numbers 0 … count − 1, initially each in its own set; R. Tarjan's union-find
+/// A partition of the numbers 0 … count − 1, initially each in its own set: R. Tarjan's union-find
 /// with path halving. A set is represented by its smallest number.
 class DisjointSets {
 public:

@@ -40,7 +40,7 @@ Vector3d inwards(std::span<const Vector3d> points, Triangles triangles, const Ha
     return unit(side - along * dot(side, along));
 }
 
-/// A pair of triangles at a non-manifold edge; smaller is better.
+/// A pair of triangles at a non-manifold edge. Smaller is better.
 struct Match {
     bool is_elsewhere_apart = false;
     bool turns_against = false;

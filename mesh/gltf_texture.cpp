@@ -1,4 +1,4 @@
-// The direction of rotation, counterclockwise in the picture, is that of the extension's example.
+// The rotation is counterclockwise in the picture, as in the extension's example.
 #include "mesh/gltf_texture.h"
 
 #include <fmt/format.h>

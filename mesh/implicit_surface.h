@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Sets values[k] to the function at points[k], for all k; positive is inside. Called by one
+/// Sets values[k] to the function at points[k], for all k. Positive is inside. Called by one
 /// thread, usually with whole layers of equal z.
 using ImplicitFunction =
     std::function<void(std::span<const Vector3d> points, std::span<double> values)>;

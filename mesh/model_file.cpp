@@ -47,7 +47,7 @@ const Format* format_of(std::string_view ending) {
     return found == formats.end() ? nullptr : &*found;
 }
 
-/// The extension of a model's name in lower case; fails for others.
+/// The extension of a model's name in lower case. Fails for others.
 Result<std::string> model_ending(const std::string& name) {
     std::string ending = ending_of(name);
     if (format_of(ending) != nullptr) return ending;

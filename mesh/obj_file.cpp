@@ -1,5 +1,5 @@
 // Reads positions, texture coordinates, colours of points and polygons of OBJ files (Wavefront
-// Technologies, "Advanced Visualizer Manual", appendix B1: Object Files); ignores other lines.
+// Technologies, "Advanced Visualizer Manual", appendix B1: Object Files). Ignores other lines.
 #include "mesh/model_file.h"
 #include "mesh/text_words.h"
 

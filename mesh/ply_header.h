@@ -36,7 +36,7 @@ struct PlyHeader {
     enum class Format : std::uint8_t { text, little_endian, big_endian };
     Format format = Format::text;
     std::vector<PlyElement> elements;
-    std::size_t size = 0;  ///< Bytes of the header; the elements follow.
+    std::size_t size = 0;  ///< The size of the header in bytes.
 };
 
 /// Fails, with the line, on malformed headers, and if the file is too short for its elements.

@@ -31,7 +31,7 @@ struct PolygonSoup {
     std::vector<Vector3d> points;
     std::vector<std::uint32_t> corners;  ///< Indices of points, polygon after polygon.
     std::vector<std::size_t> ends;       ///< Polygon p ends before corner ends[p].
-    std::vector<TexturePlace> texture;   ///< One per corner; empty if the file has none.
+    std::vector<TexturePlace> texture;   ///< One per corner. Empty if the file has none.
     std::vector<PointAttribute> attributes;
 
     std::size_t polygon_count() const { return ends.size(); }

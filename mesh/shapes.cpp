@@ -101,7 +101,7 @@ private:
         for (const Vector3d& corner : corners_) points_.push_back(corner * radius_);
     }
 
-    /// The sum of corners, each weighted by the sine of its fraction of their angle; for two
+    /// The sum of corners, each weighted by the sine of its fraction of their angle. For two
     /// corners this is the point at that fraction of the arc between them.
     std::uint32_t add_point(std::array<std::uint32_t, 3> corners,
                             std::array<std::uint32_t, 3> parts) {
@@ -180,8 +180,8 @@ using Step = std::array<std::uint32_t, 3>;
 struct BoxSide {
     Step corner;             ///< 0 or 1: the low or the high end of each axis.
     std::size_t across, up;  ///< The axes.
-    bool is_backwards;       ///< `across` runs from the high to the low end,
-    bool is_downwards;       ///< and `up` likewise.
+    bool is_backwards;       ///< `across` runs from the high to the low end.
+    bool is_downwards;       ///< `up` runs from the high to the low end.
     std::array<int, 4> net;  ///< The position in the net of the box: the number of depths and
                              ///< widths to its left, and of depths and heights below it.
 };

@@ -1,5 +1,5 @@
 // Built-in surfaces: sphere, torus and box, of nearly equilateral triangles, closed and facing
-// outwards. Their centre is the origin; y points up and z to the front, as in most models.
+// outwards. Their centre is the origin. y points up and z to the front, as in most models.
 #pragma once
 
 #include "core/result.h"

@@ -32,7 +32,7 @@ public:
 
     /// Adds a plane through `at`, with a unit normal.
     void add_plane(double weight, Vector3d at, Vector3d normal);
-    /// Adds a triangle that is not degenerate; `values` are the attributes of its corners.
+    /// Adds a triangle with an area. `values` are the attributes of its corners.
     void add_triangle(const std::array<Vector3d, 3>& corners,
                       const std::array<Attributes, 3>& values, std::size_t attributes);
     PointQuadric& operator+=(const PointQuadric& other);
@@ -239,8 +239,8 @@ private:
     std::size_t attributes_ = 0;
     std::vector<PointQuadric::Attributes> values_;
     std::vector<PointQuadric> quadrics_;
-    VertexHandle asked_;  ///< The vertex of the last allowed collapse, until the surface changes,
-    float cheapest_ = 0;  ///< and the cost of this collapse.
+    VertexHandle asked_;               ///< The vertex of the last allowed collapse.
+    float cheapest_ = 0;               ///< The cost of this collapse.
     std::vector<std::uint32_t> into_;  ///< The vertex into which each one has merged.
 };
 

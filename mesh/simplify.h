@@ -14,7 +14,7 @@ namespace cascade {
 
 /// A pattern that simplify() preserves: up to three numbers at each point, such as a colour.
 struct KeptPattern {
-    std::span<const std::array<float, 3>> values;  ///< One per point; empty if there is none.
+    std::span<const std::array<float, 3>> values;  ///< One per point. Empty if there is none.
     /// A difference of 1 in a number counts as much as a distance of this length.
     double length = 0;
 };

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Sizes in bytes in a binary file.
 
-/// Triangles have separate points; those at the same position are merged.
+/// Triangles with separate points. Merges points at the same position.
 class MergedSoup {
 public:
     MergedSoup() = default;

@@ -38,7 +38,7 @@ struct SurfaceMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise, seen from outside.
     /// The edge of the adjacent triangle across edge k of each triangle, or none.
     std::vector<std::array<TriangleEdge, 3>> across;
-    std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle; empty if there is none.
+    std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle. Empty if there is none.
     std::vector<PointAttribute> attributes;
     /// The face of the model that each triangle was cut from, counted from 0. A merged triangle
     /// without area belongs to its neighbour's face. Empty if the model has only triangles.

@@ -1,4 +1,4 @@
-// Ear clipping in the coordinate plane nearest to the polygon's; quadrilaterals are a special case.
+// Ear clipping in the coordinate plane nearest to the polygon. Quadrilaterals are a special case.
 #include "mesh/triangulate.h"
 
 #include "core/vector2.h"

@@ -27,7 +27,7 @@ struct Stretch {
 /// The stretch of each triangle. G. Turk, "Texturing Surfaces Using Reaction-Diffusion" (thesis,
 /// 1992), section 4.4.1, contracts the points around a cell in the direction of anisotropy.
 struct Anisotropy {
-    /// Per triangle, of any length; the component normal to the triangle is ignored.
+    /// Per triangle, of any length. The component normal to the triangle is ignored.
     std::vector<Vector3d> direction;
     /// Per triangle, 1 … `largest_ratio`: the length of cells over their width. Relative to no
     /// anisotropy, diffusion is `ratio` times as fast along the direction and 1/ratio times across.
@@ -37,7 +37,7 @@ struct Anisotropy {
 
     /// The ratio of a triangle, clamped to 1 … `largest_ratio`.
     double ratio_of(std::uint32_t triangle) const;
-    /// The stretch in the triangle's frame; the identity if the direction vanishes in its plane.
+    /// The stretch in the triangle's frame. The identity if the direction vanishes in its plane.
     Stretch of(const SurfaceMesh& mesh, std::uint32_t triangle) const;
 };
 

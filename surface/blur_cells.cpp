@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    /// next = a B current + b before; sum += term next.
+    /// Sets next to a B current + b before, and adds term next to sum.
     void sweep(float a, float b, float term, const std::vector<float>& current,
                const std::vector<float>& before, std::vector<float>& next, std::vector<float>& sum,
                Team& team) const {

@@ -48,7 +48,7 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
 struct KeptCells {
     SurfaceCells cells;
     bool were_kept = false;  ///< They were read from the file.
-    std::string not_kept;    ///< Why the file could not be written; empty if it was.
+    std::string not_kept;    ///< Why the file could not be written. Empty if it was.
 };
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                              const CellOptions& options, Team& team,

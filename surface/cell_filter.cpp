@@ -326,7 +326,7 @@ void CellFilter::sloped_shares(const SurfacePlace& place, std::vector<SlopedShar
     Vector3 slope;
     visit_near(patch, at, [&](const Near& near) {
         const float weight = weight_of(near.square);
-        // The derivative by d², times that of d².
+        // The derivative by d², times the derivative of d².
         const float steep = 6 * (std::sqrt(near.square) - 1);
         out.push_back(
             {near.cell, weight, patch.x_axis * (steep * near.x) + patch.y_axis * (steep * near.y)});

@@ -28,7 +28,7 @@ struct Spread {
     }
 };
 
-/// The inverse; for rank 1 the pseudo-inverse; else 0.
+/// The inverse, for rank 1 the pseudo-inverse, else 0.
 Spread pseudo_inverse(const Spread& m) {
     const double half = (m.xx + m.yy) / 2, apart = std::hypot((m.xx - m.yy) / 2, m.xy);
     const double large = half + apart;
@@ -43,7 +43,7 @@ Spread pseudo_inverse(const Spread& m) {
     return {along.x * along.x / large, along.x * along.y / large, along.y * along.y / large};
 }
 
-/// Unfolds around cells; one per thread.
+/// Unfolds around cells. One per thread.
 class NeighbourFinder {
 public:
     NeighbourFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes, const SurfaceCells& cells)
@@ -107,7 +107,7 @@ void fit(const TangentFrame& frame, std::span<const VoronoiEdge> edges,
     }
 }
 
-/// Calls `use(frame, edges, neighbours, first)` for each cell, in any order; `first` is the number
+/// Calls `use(frame, edges, neighbours, first)` for each cell, in any order. `first` is the number
 /// of its first edge.
 template <typename Use>
 void for_each_cell(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team,

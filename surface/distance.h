@@ -62,7 +62,7 @@ class SurfaceDistance {
 public:
     static constexpr std::uint32_t no_source = 0xffffffff;
     struct Reach {
-        double distance = 0;               ///< In units of the model; infinite if no path exists.
+        double distance = 0;               ///< In units of the model. Infinite if no path exists.
         std::uint32_t source = no_source;  ///< The index of the nearest source.
     };
 

@@ -97,7 +97,7 @@ private:
             const double second = dot(of_second, at), third = dot(of_third, at);
             return {{1 - second - third, second, third}, dot(normal, at), normal, 0};
         }
-        /// The corner opposite to the edge that a point is farthest beyond.
+        /// The corner opposite the edge that the point is farthest beyond.
         std::size_t farthest_edge(const Over& over) const {
             std::array<double, 3> within{};
             for (std::size_t k = 0; k < 3; ++k) within[k] = double{heights[k]} * over.weights[k];

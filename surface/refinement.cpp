@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// An edge that may be cut; outdated if its triangle no longer has it.
+/// An edge that may be cut. Outdated if its triangle no longer has it.
 struct LongEdge {
     double length = 0;
     TriangleEdge place;

@@ -49,7 +49,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Sums forces; one per thread.
+/// Sums forces. One per thread.
 class Repulsion {
 public:
     /// The metric at a position and its movement since the list was made, in radii.

@@ -70,8 +70,8 @@ public:
 
 private:
     /// An edge to a triangle not visited yet, in a heap with the nearest on top. Edges that meet in
-    /// the nearest corner are equally near; of those, the one found first is on top. The order is
-    /// total, so that it does not depend on the library's heap.
+    /// the nearest corner are equally near, and the one found first is on top. The order is total,
+    /// so that it does not depend on the library's heap.
     struct Front {
         double square = 0;  ///< The squared distance.
         std::uint32_t piece = 0, edge = 0;

@@ -27,7 +27,7 @@ struct Found {
     std::vector<VoronoiEdge> edges;  ///< As seen by their cells, in ascending order of neighbours.
 };
 
-/// Finds the regions of some cells; one per thread.
+/// Finds the regions of some cells. One per thread.
 class RegionFinder {
 public:
     RegionFinder(const SurfaceMesh& mesh, const EdgeShapes& shapes,

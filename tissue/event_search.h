@@ -26,9 +26,9 @@ struct StepCubic {
     StepMoment moment_after(double part) const;
     /// The species of one cell after a part of the step.
     std::vector<double> values(std::int64_t element, double part) const;
-    /// Sets the species of one cell to these values,
+    /// Sets the species of one cell to these values.
     void put(std::vector<Field>& state, std::int64_t element, double part) const;
-    /// or the species of all cells. `state` may be the new one itself.
+    /// Sets the species of all cells. `state` may be the new one itself.
     void put_all(std::vector<Field>& state, double part) const;
 };
 

@@ -10,7 +10,7 @@ namespace cascade {
 /// All that a direction depends on.
 struct DirectionKey {
     std::uint32_t seed = 0, stage = 0;
-    std::uint32_t mother = 0, child = 0;  ///< Numbers of cells; equal for a founder.
+    std::uint32_t mother = 0, child = 0;  ///< Numbers of cells. Equal for a founder.
 };
 
 /// A direction of length 1, uniformly distributed over all directions perpendicular to `normal`, or

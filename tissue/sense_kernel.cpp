@@ -102,8 +102,8 @@ private:
 
     /// Stored for a cell: its position, these triangles, and its senses.
     struct Triangles {
-        std::uint32_t from = 0;   ///< The search began here
-        std::uint32_t found = 0;  ///< and ended here.
+        std::uint32_t from = 0;   ///< The beginning of the search.
+        std::uint32_t found = 0;  ///< The end of the search.
     };
     static constexpr std::size_t key_size = 4;
     static Triangles triangles_of(const double* kept) { return std::bit_cast<Triangles>(kept[3]); }

@@ -50,7 +50,7 @@ struct NearTriangles {
 };
 
 /// Fields: the three components of the position. Results: one for each sense. `triangles` must have
-/// an entry for each cell whenever the kernel runs; positions after the last cell repeat it. The
+/// an entry for each cell whenever the kernel runs. Positions after the last cell repeat it. The
 /// kernel caches the last senses of the first `kept` cells, since several steps and rates read the
 /// same positions. Throws std::bad_alloc.
 KernelPointer make_sense_kernel(std::shared_ptr<const Surroundings> surroundings,

@@ -135,8 +135,8 @@ private:
 
     const SurfaceMesh& mesh_;
     PlaceFollower follower_;
-    std::vector<Vector3d> normals_;                         ///< By point
-    AlignedArray<std::array<Vector3d, 3>> corner_normals_;  ///< and by triangle and corner.
+    std::vector<Vector3d> normals_;                         ///< By point.
+    AlignedArray<std::array<Vector3d, 3>> corner_normals_;  ///< By triangle and corner.
     bool is_open_ = false;
 };
 

@@ -23,7 +23,7 @@ struct TissueTime {
     std::int64_t steps = 0;
     StepControl::State control;
     /// The bound of the eigenvalues of the rates' Jacobian, in 1 / time, and the steps after which
-    /// it was estimated; −1: not yet.
+    /// it was estimated (−1: not yet).
     double stiffness = 0;
     std::int64_t estimated_at = -1;
     double last_event = 0;  ///< The time of the last division or death.

@@ -36,8 +36,8 @@ private:
         StepProblem problem;
         std::unique_ptr<PassRunner> runner;
         std::vector<Field> results;
-        std::vector<std::uint32_t> among;         ///< The last cells requested,
-        std::vector<std::vector<Patch>> patches;  ///< and what each pass computes for them.
+        std::vector<std::uint32_t> among;         ///< The last cells requested.
+        std::vector<std::vector<Patch>> patches;  ///< The patches of each pass for them.
     };
     Team& team_;
     std::map<const StepProblem*, Known> known_;

@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 constexpr std::size_t before_comment = 2;   // In blanks, at least.
-constexpr std::size_t goes_on_by = 4;       // Beyond its statement, if no bracket decides.
+constexpr std::size_t goes_on_by = 4;       // Blanks after its statement, if no bracket decides.
 constexpr std::size_t furthest_start = 60;  // Deep brackets must not push lines out of sight.
 constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
 

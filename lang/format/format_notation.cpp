@@ -211,7 +211,7 @@ private:
     }
 
     std::vector<FormatWord>& words_;
-    std::vector<std::size_t> partner_;  ///< For a bracket: the other one.
+    std::vector<std::size_t> partner_;  ///< By bracket: its partner.
     std::vector<bool> is_operator_, ends_application_;
 };
 

@@ -55,7 +55,7 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
     for (const ast::Block& block : script.blocks) {
         const bool is_derived = block.kind == ast::BlockKind::system;
         if (!is_derived && (!is_stage(block) || own.contains(block.base.text))) continue;
-        // `system a: a { … }` changes the library's a; any other base may be the script's own.
+        // `system a: a { … }` changes the library's a. Any other base may be the script's own.
         if (is_derived && block.base.text != block.name.text && own.contains(block.base.text)) {
             continue;
         }

@@ -36,7 +36,7 @@ constexpr LookAlike look_alikes[] = {
     {U'\uff1b', Meant::semicolon, ";"},      {U'\uff1d', Meant::assign, "="},
     // Sums and products over indices.
     {U'\u2211', Meant::garbage, "sum(… over i)"},
-    // Superscripts that are latin_look_alikes.
+    // Superscript letters.
     {U'\u207f', Meant::garbage, "^n"},       {U'\u2071', Meant::garbage, "^i"},
     // Blanks.
     {U'\u00a0', Meant::newline, " "}, {U'\u2002', Meant::newline, " "},
@@ -55,10 +55,10 @@ struct LatinLookAlike {
 
 // clang-format off
 constexpr LatinLookAlike latin_look_alikes[] = {
-    // Cyrillic latin_look_alikes that look like Latin ones.
+    // Cyrillic letters that look like Latin ones.
     {U'а', "a"}, {U'е', "e"}, {U'о', "o"}, {U'р', "p"}, {U'с', "c"}, {U'у', "y"}, {U'х', "x"},
     {U'і', "i"}, {U'ѕ', "s"}, {U'ј', "j"},
-    // Greek latin_look_alikes that look like Latin ones.
+    // Greek letters that look like Latin ones.
     {U'ο', "o"}, {U'Α', "A"}, {U'Β', "B"}, {U'Ε', "E"}, {U'Ζ', "Z"}, {U'Η', "H"}, {U'Ι', "I"},
     {U'Κ', "K"}, {U'Μ', "M"}, {U'Ν', "N"}, {U'Ο', "O"}, {U'Ρ', "P"}, {U'Τ', "T"}, {U'Υ', "Y"},
     {U'Χ', "X"}, {U'ς', "sigma"}, {U'\u212a', "K"}, {U'ℓ', "l"}, {U'ħ', "h"}, {U'ℏ', "h"},

@@ -37,7 +37,7 @@ public:
 private:
     /// An open bracket, and the state to resume after it.
     struct Open {
-        std::size_t closings = 0;   ///< Operators' brackets that end with it.
+        std::size_t closings = 0;   ///< The number of operators' brackets that end here.
         bool is_divisor = false;    ///< The product around it has been divided.
         bool is_operators = false;  ///< The bracket belongs to an operator.
     };

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Moves over the tokens of one source; never beyond end_of_text.
+/// Moves over the tokens of one source, never beyond end_of_text.
 class TokenCursor {
 public:
     TokenCursor(SourceId source, const Sources& sources, Diagnostics& diagnostics);

@@ -42,7 +42,7 @@ std::uint64_t number_of(const fs::path& path, std::string_view key) {
     return 0;
 }
 
-/// The rest below the limit of one group. Empty if it has none.
+/// The free bytes below the limit of one group. Empty if it has none.
 std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& names) {
     const auto limit = number_in(group / names.limit);
     const auto used = number_in(group / names.used);
@@ -54,7 +54,7 @@ std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& na
     return *limit - std::min(*limit, held);
 }
 
-/// The smallest rest in a group or in one above it, up to `top`.
+/// The least free bytes in a group or in one above it, up to `top`.
 std::optional<std::uint64_t> left_up_to(const fs::path& top, const std::string& group,
                                         const GroupFiles& names) {
     std::optional<std::uint64_t> least;

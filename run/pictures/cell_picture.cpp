@@ -70,7 +70,7 @@ struct CellState {
 };
 
 /// Level 0 has the cells unfiltered. Level k ≥ 1 has, together with the filter, the standard
-/// deviation 2^k / 2 spacings, that of a sample 2^k spacings wide.
+/// deviation of a sample 2^k spacings wide: 2^k / 2 spacings.
 using Levels = std::vector<std::vector<float>>;
 
 /// The level for a footprint with this side, in spacings.

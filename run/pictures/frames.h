@@ -65,14 +65,14 @@ private:
         std::int64_t step = 0;
         std::string label;
         std::size_t planes = 1;
-        std::bitset<2 + material_parts> extras;  ///< Marks those of extra_planes() that follow.
+        std::bitset<2 + material_parts> extras;  ///< The extra_planes() that follow.
         PlaneLayout layout;
         std::int64_t place = 0;  ///< The offset of its values in the file, in bytes.
         /// For a stage of crawling cells. Vectors with an entry for each of them are in the file.
         std::shared_ptr<const DrawnCells> cells;
         std::size_t placements = 0, colours = 0;  ///< The lengths of these vectors.
-        bool has_body = false;                    ///< Canvas::body is in the file, …
-        std::size_t points = 0, triangles = 0;    ///< … with these counts.
+        bool has_body = false;                    ///< Canvas::body is in the file.
+        std::size_t points = 0, triangles = 0;    ///< The body's counts.
     };
     struct CloseFile {
         void operator()(std::FILE* file) const { std::fclose(file); }

@@ -51,7 +51,7 @@ struct Material {
     MaterialCells cells() const;
 };
 
-/// The maps that a baked picture of fields will have: those set, and the occlusion of heights.
+/// The maps of a baked picture of fields: those set, and the occlusion of heights.
 MapSet maps_said(const Script& script, bool has_bumps);
 
 }  // namespace cascade

@@ -25,7 +25,7 @@ struct SurfaceMesh;
 /// Values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
     std::vector<Field> fields;
-    Field relief = {};             ///< For a colour with bumps: the number behind the heights.
+    Field relief = {};             ///< For a colour with bumps: the number of the heights.
     MaterialFields material = {};  ///< For a model, and for map_canvas().
     std::int64_t parts = 1;        ///< Per cell along each axis: more for maps and smooth pictures.
     /// For a stage of crawling cells, in whose order the fields are. Otherwise null.

@@ -122,11 +122,11 @@ private:
     std::vector<ItemId> missing_;  ///< Items without values.
 };
 
-/// Gives a started stage of a changed program the kept cells: quantities take the values of those
-/// of the same name. Quantities without one start at the cells' present positions, and so do
-/// parameters that were not painted and whose start gives other values than in `before` (may be
-/// null). A value that restarts after a division is left to divisions. Fails if a quantity has no
-/// value and cannot start.
+/// Gives a started stage of a changed program the kept cells: quantities take the values of the
+/// same name. Quantities without one start at the cells' present positions, and so do parameters
+/// that were not painted and whose start gives other values than in `before` (may be null). A value
+/// that restarts after a division is left to divisions. Fails if a quantity has no value and cannot
+/// start.
 Result<void> go_on_with_cells(Simulation& simulation, const Simulation* before, std::uint32_t stage,
                               const KeptStage& kept, const StageMoment& moment) {
     return CellChange(simulation, stage, kept).make(before, moment);

@@ -25,7 +25,7 @@ struct Watching {
     std::function<void()> observe;  ///< At multiples of `every`, as Simulation::advance_stage().
     std::int64_t every = 0;
     std::function<void(std::uint32_t stage)> stage_ended;
-    /// Begin the next stage where one has ended with the last step of a call.
+    /// Begin the next stage if the last step of a call has ended one.
     bool begins_next = false;
 };
 

@@ -20,7 +20,7 @@ struct Session::Implementation {
         thread = std::thread([this] { work(); });
     }
 
-    Turns turns;  ///< Used by the session's thread, except for its cancellation.
+    Turns turns;  ///< For the session's thread, but any thread may cancel.
 
     // Shared with other threads.
     std::mutex mutex;

@@ -18,8 +18,8 @@ namespace cascade {
 
 struct SessionLog {
     std::string name = "session";  ///< The script's name, for messages.
-    std::string text;              ///< The script at the beginning of the session,
-    Overrides overrides;           ///< and its options.
+    std::string text;              ///< The script at the beginning of the session.
+    Overrides overrides;           ///< The script's options.
     std::vector<std::shared_ptr<const LoggedChange>> changes;  ///< In the order of their moments.
     RunPlace end;                                              ///< The session is at this moment.
 };
