@@ -35,9 +35,9 @@ struct GrowingBand {
 enum class Stability : std::uint8_t {
     stable,   ///< The change fades, or at least does not grow.
     turing,   ///< Standing waves of some lengths grow, but a uniform change does not.
-    wave,     ///< Travelling or oscillating waves grow likewise.
+    wave,     ///< The same for travelling or oscillating waves.
     hopf,     ///< A uniform oscillation grows.
-    both,     ///< The same, and standing waves grow faster.
+    both,     ///< An oscillation as in `hopf`, and standing waves that grow faster.
     uniform,  ///< A uniform change grows: all cells leave the state together.
 };
 

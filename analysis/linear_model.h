@@ -50,7 +50,7 @@ struct LinearModel {
     std::vector<KernelFormula> kernels;  ///< By their number in operators.
     IdVector<ItemId, StartValue> starts;
     std::vector<NodeId> rates;        ///< The rates of species, then of constraints.
-    std::vector<JacobianTerm> terms;  ///< The first term is the value's own.
+    std::vector<JacobianTerm> terms;  ///< The first term is the value itself.
     std::vector<ItemId> parameters;   ///< Parameters read by rates, in order of writing.
     bool reads_time = false;          ///< `t` counts as 0.
     bool has_noise = false;           ///< Rates draw random numbers, which count as their mean.

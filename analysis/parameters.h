@@ -46,7 +46,7 @@ std::vector<ParameterSpan> ranged_parameters(const Program& program, std::uint32
 
 struct ParameterMap {
     ParameterSpan across, up;
-    std::size_t side = 0;                           ///< The number of values of each.
+    std::size_t side = 0;                           ///< The number of values of each parameter.
     std::vector<std::optional<Stability>> classes;  ///< Rows from the lowest value of `up`.
 };
 

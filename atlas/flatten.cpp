@@ -138,7 +138,7 @@ void turn_towards(const SurfaceMesh& mesh, Vector3d axis, Chart& chart) {
 
 void flatten(const SurfaceMesh& mesh, Chart& chart, int rounds) {
     Flattening flattening(mesh, chart);
-    constexpr double settled = 1e-6;  // A thousandth of a radian.
+    constexpr double settled = 1e-6;  // The square of a thousandth of a radian.
     for (int k = 0; k < rounds; ++k) {
         flattening.find_places();
         if (flattening.find_turns() < settled) break;

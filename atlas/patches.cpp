@@ -18,7 +18,7 @@ constexpr double flat_cost = 0.2;       ///< The cost of a unit of length on fla
 constexpr double crease_cost = 0.5;     ///< At a right angle to an edge, in lengths.
 constexpr double least_crease = 0.13;   ///< One minus the cosine of 30°.
 constexpr double most_bent = 0.64;      ///< The cosine of 50°.
-constexpr double bent_share = 0.05;     ///< The part of a patch's area that may be beyond it.
+constexpr double bent_share = 0.05;     ///< The part of a patch that may bend more.
 constexpr double least_divided = 5e-4;  ///< Smaller patches are not divided.
 constexpr int most_rounds = 40, settling_rounds = 3, most_passes = 8;
 constexpr std::ptrdiff_t enough = 10;  ///< At most one patch in ten may stay bent.

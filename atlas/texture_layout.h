@@ -36,8 +36,8 @@ public:
     /// first triangle if there are several, `nothing` if there is none. A sample on the edge
     /// between two triangles is in one of them. `owners` has (last − first) · width() elements.
     struct Overlap {
-        std::int64_t again = 0;   ///< How many times a sample is in a further triangle.
-        std::int64_t shared = 0;  ///< How many samples are in several triangles.
+        std::int64_t again = 0;   ///< The number of further triangles, over all samples.
+        std::int64_t shared = 0;  ///< The number of samples in several triangles.
     };
     Overlap find_owners(std::int64_t first, std::int64_t last,
                         std::span<std::uint32_t> owners) const;

@@ -7,7 +7,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double least_cosine = 0.26;  ///< The largest rotation of a triangle: 75°.
+constexpr double least_cosine = 0.26;  ///< The cosine of a triangle's largest rotation, 75°.
 constexpr unsigned most_edges_at_point = 10;
 
 void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest,

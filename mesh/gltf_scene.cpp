@@ -94,7 +94,7 @@ Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Mod
     return attribute;
 }
 
-constexpr std::size_t steps_of_copy = 8;  ///< Numbers and matrices that are read.
+constexpr std::size_t steps_of_copy = 8;  ///< Numbers and matrices read for a copy.
 
 /// Limits derived from the file's size, with an allowance for small files: a small file can use the
 /// same mesh or list the same triangles any number of times. A copy takes a few bytes and may have

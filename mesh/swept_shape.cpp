@@ -19,7 +19,7 @@ namespace {
 
 constexpr double step = 1e-5;            ///< For differences in t and s.
 constexpr double pole_step = 1e-4;       ///< Distance from a pole where normals are measured.
-constexpr double vanishing_part = 1e-9;  ///< Smaller parts, relative to the shape, are points.
+constexpr double vanishing_part = 1e-9;  ///< Smaller parts, relative to the shape, count as points.
 
 /// Evaluates a surface, and remembers the first parameters at which it is not finite.
 class Probe {

@@ -47,7 +47,7 @@ Result<SurfaceCells> read_cells(const std::filesystem::path& path, const Surface
 /// Cells read from the file if it holds them, otherwise made and written there.
 struct KeptCells {
     SurfaceCells cells;
-    bool were_kept = false;  ///< They were read from the file.
+    bool were_kept = false;  ///< Read from the file.
     std::string not_kept;    ///< Why the file could not be written. Empty if it was.
 };
 Result<KeptCells> kept_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,

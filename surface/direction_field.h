@@ -21,7 +21,7 @@ struct TangentLink {
     std::uint32_t neighbour = 0;
     /// Direction φ in the neighbour's frame is φ + turn here. The other side has the negative turn.
     double turn = 0;
-    double distance = 0;  ///< Between the positions of the two, in units of the model.
+    double distance = 0;  ///< Between the two positions, in units of the model.
     double weight = 0;    ///< The length of the shared edge over the distance.
 };
 

@@ -213,7 +213,7 @@ private:
     const std::vector<LatticePlace>& places_;
     MutualTessellation made_;
     OpenMesh::FPropHandleT<std::uint32_t> origin_;
-    std::vector<std::uint32_t> place_of_point_;  ///< By new point.
+    std::vector<std::uint32_t> place_of_point_;  ///< By new point: the position's index.
     std::uint32_t framed_ = TriangleEdge::none;
     FlatTriangle frame_;  ///< The frame of the old triangle `framed_`.
     std::vector<HalfedgeHandle> suspects_;

@@ -137,7 +137,7 @@ private:
         std::uint32_t triangle = 0;
         bool is_inside = false;  ///< The position is not on an edge.
         double square = 0;       ///< The squared distance.
-        double height = 0;       ///< Of the point above the triangle, if the position is inside.
+        double height = 0;       ///< The point's height above the triangle, if `is_inside`.
         std::array<double, 3> weights{};
     };
     static Inside inside_of(const SurfaceMesh& mesh, std::uint32_t triangle);

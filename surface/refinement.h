@@ -43,7 +43,7 @@ private:
 
     SurfaceMesh mesh_;
     std::vector<Cut> cuts_;
-    std::vector<Cuts> cuts_of_;  ///< By triangle, since it exists.
+    std::vector<Cuts> cuts_of_;  ///< By triangle, since its creation.
 };
 
 }  // namespace cascade

@@ -208,7 +208,7 @@ private:
         RowRange range;            ///< A range of `active_`.
         NeighbourList neighbours;  ///< Position after position.
         Repulsion repulsion;
-        std::size_t far_moved = 0;  ///< Positions that have moved half the skin or more since.
+        std::size_t far_moved = 0;           ///< Positions that have moved half the skin or more.
         std::vector<std::uint32_t> crowded;  ///< Unsorted, with repetitions.
     };
 
@@ -359,7 +359,7 @@ private:
     /// writes `moving_`.
     std::vector<Vector2d> turns_;
     std::vector<Vector2f> moved_, moving_;
-    std::vector<Vector3d> positions_;    ///< When the lists were made.
+    std::vector<Vector3d> positions_;    ///< At the time of the lists.
     std::vector<std::uint32_t> active_;  ///< The positions that move, in ascending order.
     std::vector<std::size_t> ends_;      ///< The ends of the active lists in their threads' lists.
     std::vector<Part> parts_;

@@ -97,7 +97,7 @@ bool PointRemoval::is_new(const RingTriangle& corners) {
 /// The best of all triangulations of the hole.
 std::vector<RingTriangle> PointRemoval::best_filling(Care care) {
     const auto count = static_cast<std::uint32_t>(ring_.size());
-    RingTriangle asked{};  // Triangles on the same edge are asked for consecutively.
+    RingTriangle asked{};  // Triangles on the same edge are requested consecutively.
     bool may_be = false;
     return best_triangles(count, [&](const RingTriangle& corners) {
         const TriangleQuality found = quality(corners);

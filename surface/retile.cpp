@@ -42,7 +42,7 @@ private:
     struct Face {
         double score = 0;
         bool is_upright = true;
-        Vector3d direction;  ///< The direction of its normal.
+        Vector3d direction;  ///< Its unit normal.
     };
     Face face(VertexHandle a, VertexHandle b, VertexHandle c) const;
     Face& at(FaceHandle f) { return faces_[static_cast<std::size_t>(f.idx())]; }

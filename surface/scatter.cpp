@@ -87,7 +87,7 @@ std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, st
     const std::vector<std::uint32_t> components = connected_components(mesh);
     const std::vector<std::uint32_t> order = in_order(mesh, components);
     std::vector<double> sums;       // Running sums of areas in that order, within each component.
-    std::vector<std::size_t> ends;  // The ends of components in it.
+    std::vector<std::size_t> ends;  // The ends of components in `sums`.
     for (std::size_t k = 0; k < order.size(); ++k) {
         const bool is_first = k == 0 || components[order[k]] != components[order[k - 1]];
         if (is_first && k > 0) ends.push_back(k);

@@ -12,7 +12,7 @@ namespace cascade {
 struct VoronoiEdge {
     std::uint32_t neighbour = 0;
     double length = 0;    ///< Positive.
-    double distance = 0;  ///< Between the positions of the two cells along the surface. Positive.
+    double distance = 0;  ///< Between the cells' positions along the surface. Positive.
     /// The flow per difference of concentrations. Dimensionless.
     double weight() const { return length / distance; }
 };

@@ -11,8 +11,8 @@ namespace cascade {
 
 struct TriangleQuality {
     double least_sine = 0;    ///< The sine of its smallest angle. 0 if its corners are collinear.
-    double least_cosine = 0;  ///< Between its normal and the surface's at its corners.
-    double mean_cosine = 0;   ///< Between its normal and their mean. Negative if upside down.
+    double least_cosine = 0;  ///< The cosine between its normal and the corners' normals.
+    double mean_cosine = 0;   ///< The same for their mean. Negative if upside down.
 
     /// The score that flips maximise: the smallest angle, reduced for deviation from the surface.
     double score() const { return least_sine * std::clamp(least_cosine / 0.9, 0.01, 1.0); }

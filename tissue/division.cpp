@@ -56,10 +56,10 @@ struct NewPlaces {
     }
 
     std::vector<std::uint32_t> places;    ///< By old index, of surviving cells.
-    std::vector<std::uint32_t> sources;   ///< By new index: the old or the mother's.
+    std::vector<std::uint32_t> sources;   ///< By new index: the old index, or the mother's.
     std::vector<std::uint32_t> dividing;  ///< Old indices, in the order of the events.
     std::vector<std::uint32_t> children;  ///< New indices in this order.
-    std::vector<std::uint32_t> moved;     ///< New indices of other cells.
+    std::vector<std::uint32_t> moved;     ///< New indices of other moved cells.
 };
 
 }  // namespace

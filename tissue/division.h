@@ -15,7 +15,7 @@ namespace cascade {
 /// The division or death of a cell.
 struct CellEvent {
     std::uint32_t cell = 0;  ///< Its index in memory.
-    bool dies = false;       ///< False: it divides.
+    bool dies = false;       ///< Otherwise it divides.
     double part = 1;         ///< The part of the step before the event.
     double left = 0;         ///< The time from the event to the end of the step.
     /// If `left` > 0: the cell's species at the event, and their mean rates from then to the end.
@@ -31,9 +31,9 @@ struct DivisionPlaces {
 
 /// The cells after a division.
 struct Divided {
-    bool has_moved = false;               ///< The layout of the planes has changed.
+    bool has_moved = false;               ///< Whether the layout of the planes has changed.
     std::vector<std::uint32_t> children;  ///< In the order of their mothers' numbers.
-    std::vector<std::uint32_t> mothers;   ///< The mothers of these.
+    std::vector<std::uint32_t> mothers;   ///< The mothers of `children`.
     std::vector<std::uint32_t> moved;     ///< Other cells that have moved in memory.
 };
 

@@ -31,8 +31,8 @@ struct Weights {
     double of_old, of_new, of_old_rate, of_new_rate;
 };
 
-/// The power of 2 of the part of a step to which moments are found. In single precision, species
-/// change by less than their rounding in shorter ones.
+/// The exponent of 2 for the part of a step to which moments are found. In single precision,
+/// species change by less than their rounding in shorter parts.
 int power_of(Precision precision) { return precision == Precision::single ? -16 : -20; }
 /// Conditions without slopes take a few probes more than bisection, smooth ones a fifth of them.
 constexpr int more_than_bisection = 4;

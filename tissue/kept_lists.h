@@ -35,7 +35,7 @@ public:
 private:
     static constexpr std::uint32_t no_slot = 0xffffffff, gone = 0xfffffffe;
 
-    /// Whether the index now belongs to another cell than in the search, or to none.
+    /// Whether the cell has been renewed, replaced or removed since the search.
     bool is_renewed(std::uint32_t cell) const { return slots_[cell] != no_slot; }
     void forget(std::uint32_t cell);
     void find(const BoxedCell& cell, std::span<const std::uint32_t> ranks);

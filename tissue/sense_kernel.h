@@ -22,7 +22,7 @@ using PlaceValue = std::function<double(const NearPlace& near)>;
 struct Sense {
     enum class Kind : std::uint8_t { off, normal_x, normal_y, normal_z, value };
     Kind kind = Kind::off;
-    PlaceValue value = {};  ///< For `value`.
+    PlaceValue value = {};  ///< Used by kind `value`.
 };
 
 // On a surface. The arguments must outlive the values.

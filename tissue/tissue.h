@@ -39,9 +39,9 @@ struct TissueRecord {
     std::vector<std::uint32_t> numbers;
     std::vector<std::vector<double>> species;   ///< By species, then by cell.
     std::vector<std::vector<double>> stiffest;  ///< Likewise: the direction of fastest change.
-    std::vector<std::vector<double>> kept;      ///< Tissue::kept. Empty where that is.
+    std::vector<std::vector<double>> kept;      ///< Tissue::kept. Empty where that is empty.
     std::optional<std::size_t> frozen;          ///< The plane of `kept` that marks frozen cells.
-    std::vector<std::uint32_t> triangles;       ///< Of the surface, nearest to each cell.
+    std::vector<std::uint32_t> triangles;       ///< The surface's triangle nearest to each cell.
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
     TissueTime time;

@@ -58,7 +58,7 @@ struct TissueSchedule {
     double steady = 0;                  ///< Above 0: ends at rest, see is_at_rest().
     bool has_exact_events = false;      ///< A step ends at each event.
     std::uint32_t seed = 0, stage = 0;  ///< For random directions of division.
-    NeighbourRule neighbours;           ///< The period is the surroundings'.
+    NeighbourRule neighbours;           ///< Its period is that of the surroundings.
     double skin = 0.3;                  ///< No result depends on it.
     double most_list_bytes = 4e9;
     std::size_t most_cells = 10'000'000;

@@ -49,7 +49,7 @@ struct CellValues {
 /// The passes of a step.
 struct TissueStep {
     const StepProblem* problem = nullptr;
-    std::vector<RegisterId> states;  ///< As state_registers() of its scheme.
+    std::vector<RegisterId> states;  ///< The scheme's state_registers().
 };
 
 /// The registers at which the sweeps of a scheme evaluate rates, including the old step.

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::uint32_t, 14> numbers_of_stages{3,  5,  7,  9,  11, 13, 17,
                                                           21, 27, 35, 45, 57, 75, 99};
 
-/// A step ends before events of more than one of this many of its cells: new cells and their
+/// A step ends before more than one in this many of its cells have events: new cells and their
 /// neighbours see each other only after its end.
 constexpr std::size_t cells_of_an_event = 20;
 

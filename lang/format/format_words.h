@@ -17,7 +17,7 @@ struct FormatWord {
     TokenKind kind = TokenKind::end_of_text;  ///< `newline` for a comment.
     std::string_view text;           ///< As written. For a comment without trailing blanks.
     std::string_view spelling;       ///< The token's spelling in ASCII. Empty for a comment.
-    std::optional<std::size_t> gap;  ///< Blanks before it, if its notation decides.
+    std::optional<std::size_t> gap;  ///< Blanks before it, if its notation fixes them.
     std::size_t breaks = 0;          ///< Line breaks between the previous word and this one.
     std::size_t blanks = 0;          ///< Columns after the previous word or the line start.
     std::size_t column = 0;          ///< Its column in the source, from 0.

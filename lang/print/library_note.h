@@ -12,7 +12,7 @@ namespace cascade {
 struct LibraryNote {
     std::string about;               ///< The first sentence of the head, on one line.
     std::vector<std::string> lines;  ///< The lines of the head: description and sources.
-    std::string words;               ///< Name, comments and strings, in lower case.
+    std::string words;               ///< Its name, comments and strings, in lower case.
 
     /// True if the word occurs in the name, the comments or the strings, regardless of case.
     bool mentions(std::string_view word) const;

@@ -109,9 +109,9 @@ enum class BlockKind : std::uint8_t {
 struct Block {
     BlockKind kind = BlockKind::system;
     bool is_cells = false;  ///< A system of crawling cells.
-    Word keyword;  ///< `system`, `stage`, `system_name`, …: the location of the block in messages.
-    Span span;     ///< From the keyword to the `}`. Empty for a classic stage.
-    Word name;     ///< Of a system, a stage or a shape. Otherwise empty.
+    Word keyword;           ///< `system`, `stage`, `system_name`, …: messages point here.
+    Span span;              ///< From the keyword to the `}`. Empty for a classic stage.
+    Word name;              ///< The name of a system, a stage or a shape. Otherwise empty.
     /// For a stage: its system, empty if it could not be parsed. For a system or a shape: its base,
     /// empty if it has none.
     Word base;
@@ -135,7 +135,7 @@ struct FunctionDefinition {
 
 /// use "file.cascade"
 struct Use {
-    Span span;         ///< The string's.
+    Span span;         ///< The span of the string.
     std::string path;  ///< As written.
 };
 

@@ -125,7 +125,7 @@ private:
     std::vector<Span>* docs_;
     std::vector<Token> tokens_;
     std::size_t offset_ = 0;
-    bool has_signs_of_papers_ = false;  ///< In the tokens, besides operators and letters.
+    bool has_signs_of_papers_ = false;  ///< Needs conversion by without_paper_notation().
 };
 
 bool Lexer::begins_operator(std::size_t offset) const {

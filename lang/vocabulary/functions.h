@@ -71,7 +71,7 @@ inline constexpr std::size_t most_operands = 6;
 struct FunctionInfo {
     std::string_view spelling;
     Arity arity;
-    int precedence;  ///< For operators. Other functions have a name's.
+    int precedence;  ///< For operators. Other functions bind like names.
     FunctionKind kind;
     ResultKind result;
     Linear linear;
@@ -195,7 +195,7 @@ constexpr bool is_of_model(Builtin builtin) { return builtin >= Builtin::nx; }
 /// Values that only crawling cells have. Other systems may declare their names.
 // clang-format off
 enum class CellValue : std::uint8_t {
-    off, feature, normal,  ///< The surface's at the cell.
+    off, feature, normal,  ///< Properties of the surface at the cell.
     ex, ey, ez,            ///< The axes of the cell's frame, of length 1.
     // For a link to a neighbour:
     distance,   ///< Between the centres.

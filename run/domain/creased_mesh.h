@@ -8,7 +8,7 @@ namespace cascade {
 
 /// The mesh to draw, and its map from space: (p − middle) × scale.
 struct DrawnMesh {
-    TriangleMesh mesh;  ///< Triangles have the numbers and corners of the surface.
+    TriangleMesh mesh;  ///< Triangles and corners are numbered as in the surface.
     Vector3d middle;
     double scale = 1;  ///< Makes the longest side of the box 1.
 };

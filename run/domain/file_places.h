@@ -64,7 +64,7 @@ private:
     std::vector<double> numbers_of(const std::vector<Number>& values,
                                    std::array<std::int64_t, 3> sides) const;
 
-    ForEach each_;  ///< Not stored, because they take more memory than planes.
+    ForEach each_;  ///< Computes positions, which would take more memory than planes.
     bool repeats_;
 };
 

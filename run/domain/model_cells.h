@@ -42,7 +42,7 @@ public:
     /// The mesh with y upwards, looking along z, independent of its orientation in the file. Only
     /// the writers of model files need the original coordinates.
     SurfaceMesh mesh;
-    Stance stance;                     ///< The model's before it was turned.
+    Stance stance;                     ///< The model's stance in the file.
     std::vector<std::string> repairs;  ///< The repairs of the model, one sentence each.
 
     /// The first call of spread() calls `make`, once.

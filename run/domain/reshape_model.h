@@ -14,7 +14,7 @@ namespace cascade {
 
 /// The changes, applied in this order.
 struct Reshaping {
-    int subdivide = 0;                    ///< Times (mesh/subdivide.h).
+    int subdivide = 0;                    ///< How many times (mesh/subdivide.h).
     std::optional<std::size_t> simplify;  ///< The resulting number of triangles (mesh/simplify.h).
     bool changes() const { return subdivide > 0 || simplify.has_value(); }
 };

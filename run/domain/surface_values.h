@@ -54,7 +54,7 @@ private:
     struct Kept {
         Field field;
         std::int64_t last_read = 0;
-        double reach = std::numeric_limits<double>::infinity();  ///< Beyond, it is unreachable.
+        double reach = std::numeric_limits<double>::infinity();  ///< Farther cells are unreachable.
     };
 
     struct Paths;

@@ -23,7 +23,7 @@ struct ModelLook;
 /// script units.
 struct DrawnCells {
     std::shared_ptr<const FileShape> file;  ///< For the shape of a file. Otherwise null.
-    ShapeForm form;                         ///< Otherwise the shape of formulas.
+    ShapeForm form;                         ///< The shape of formulas, without a file.
     double detail = 0.5;                    ///< In pixels of pictures.
     std::vector<ShapeValues> shapes;        ///< The form's shapes in use.
     std::vector<Placement> placements;      ///< `mesh` is the shape. Without colours.
@@ -37,7 +37,7 @@ struct DrawnCells {
     /// Colours of the skin, held by fields in the cells of a model or plane. Otherwise null.
     std::shared_ptr<const ModelLook> coat;
     std::shared_ptr<const Image> floor;
-    Vector3d extent;    ///< The plane's, or the box's in space.
+    Vector3d extent;    ///< The size of the plane, or of the box in space.
     std::string fault;  ///< The message about cells that cannot be drawn. "" if all can.
 };
 

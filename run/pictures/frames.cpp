@@ -192,7 +192,7 @@ Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, i
     std::optional<Failure> failed;
     const auto work = [&](int) {
         std::unique_lock lock(mutex);
-        std::vector<Field> planes;  // These keep their memory from frame to frame.
+        std::vector<Field> planes;  // Planes that keep their memory from frame to frame.
         Image image;
         while (!failed && !cancel && begun < numbers.size()) {
             const std::size_t turn = begun++;

@@ -70,7 +70,7 @@ private:
         std::int64_t place = 0;  ///< The offset of its values in the file, in bytes.
         /// For a stage of crawling cells. Vectors with an entry for each of them are in the file.
         std::shared_ptr<const DrawnCells> cells;
-        std::size_t placements = 0, colours = 0;  ///< The lengths of these vectors.
+        std::size_t placements = 0, colours = 0;  ///< The lengths of its vectors.
         bool has_body = false;                    ///< Canvas::body is in the file.
         std::size_t points = 0, triangles = 0;    ///< The body's counts.
     };

@@ -38,7 +38,7 @@ MaterialFields material_fields(const Script& script, const EvaluateFormula& eval
 /// The same by cell, in the order of files.
 struct Material {
     OfParts<std::vector<float>> parts;  ///< 0 … 1.
-    std::vector<float> heights;         ///< May be not finite.
+    std::vector<float> heights;         ///< Possibly not finite.
     std::vector<std::string> doubts;    ///< On values outside of 0 … 1, a sentence each.
 
     Material() = default;

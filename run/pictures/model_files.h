@@ -58,7 +58,7 @@ SurfaceMesh mesh_in_files(const ModelCells& model, const MeshTexture& texture);
 
 /// The appearance of a model at moments of a run, the last one last.
 struct ModelGrowth {
-    static constexpr std::size_t most = 64;  ///< Moments.
+    static constexpr std::size_t most = 64;  ///< Of moments.
     std::size_t count = 0;
     std::function<Result<ModelLook>(std::size_t number)> look;
     double seconds = 0;  ///< From one moment to the next.

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// The target of maps.
+/// The mesh that maps are drawn on.
 struct MappedSurface {
     const SurfaceMesh& mesh;  ///< With texture coordinates, in the coordinates of the file.
     const SurfaceCells& cells;

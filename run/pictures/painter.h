@@ -28,7 +28,7 @@ struct Canvas {
     Field relief = {};             ///< For a colour with bumps: the number of the heights.
     MaterialFields material = {};  ///< For a model, and for map_canvas().
     std::int64_t parts = 1;        ///< Per cell along each axis: more for maps and smooth pictures.
-    /// For a stage of crawling cells, in whose order the fields are. Otherwise null.
+    /// For a stage of crawling cells: the fields are in their order. Otherwise null.
     std::shared_ptr<const DrawnCells> cells = nullptr;
     /// For a volume drawn as a body: its surface, in script lengths. The fields are at its points,
     /// in one row. Otherwise null. Without points it is empty.

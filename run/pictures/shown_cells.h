@@ -23,7 +23,7 @@ struct ShownCells {
     /// By placement: the column of its cell in the row of values.
     std::vector<std::uint32_t> cells;
     Colour skin;      ///< The surface below them, sRGB.
-    Vector3d extent;  ///< Without a model: the plane's, whose z is 0, or the box's in space.
+    Vector3d extent;  ///< Without a model: the size of the plane, whose z is 0, or of the box.
     bool is_on_model = false, is_on_body = false;
 };
 

@@ -18,7 +18,7 @@ namespace cascade {
 struct SurfaceSource {
     std::shared_ptr<const ModelCells> model;
     std::shared_ptr<const SurfaceMesh> body;  ///< For cells that crawl on one, in script lengths.
-    std::optional<SurfaceSettings> function;  ///< Without both.
+    std::optional<SurfaceSettings> function;  ///< Without a model and a body.
     Grid grid;
 
     /// `body` is null without one. Empty if there is no surface.

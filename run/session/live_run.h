@@ -141,7 +141,7 @@ private:
     void forget_old_values();
     void add_to_log(const Change& change, RunPlace at);
 
-    SimulationOptions options_;  ///< With the stepper of all simulations.
+    SimulationOptions options_;  ///< Including the stepper of all simulations.
     std::unique_ptr<Script> script_;
     std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
     std::uint32_t stage_ = 0;

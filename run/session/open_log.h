@@ -16,7 +16,7 @@ namespace cascade {
 class OpenLog {
 public:
     struct Lines {
-        bool replaces_all = false;  ///< They are the whole log, not an addition.
+        bool replaces_all = false;  ///< The text is the whole log, not an addition.
         std::string text;           ///< Empty if nothing has happened.
     };
 

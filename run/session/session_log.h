@@ -21,7 +21,7 @@ struct SessionLog {
     std::string text;              ///< The script at the beginning of the session.
     Overrides overrides;           ///< The script's options.
     std::vector<std::shared_ptr<const LoggedChange>> changes;  ///< In the order of their moments.
-    RunPlace end;                                              ///< The session is at this moment.
+    RunPlace end;                                              ///< The moment reached.
 };
 
 /// The log as text for parse_session_log().

@@ -62,7 +62,7 @@ struct Snapshot {
     double steps_per_second = 0;  ///< Recent. 0 while unknown.
     bool can_undo = false, can_redo = false;
     std::string failure;               ///< Why the run stopped by itself. Empty if it has not.
-    std::vector<std::string> remarks;  ///< On stages that have ended, and warnings, newest last.
+    std::vector<std::string> remarks;  ///< About ended stages, and warnings, newest last.
     /// The values shown, in binary32: one field, or red, green and blue. A slice for a volume.
     /// Outside of a mask they are NaN. The cells of a model are in their rows (ModelCells::order).
     /// Crawling cells are in one row, in ascending order of their numbers.
