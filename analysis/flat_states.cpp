@@ -11,7 +11,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// A number from 0 to 1 that depends only on its two numbers.
+/// A pseudorandom number from 0 to 1 that depends only on a and b.
 double scattered(std::uint32_t a, std::uint32_t b) {
     std::uint32_t bits = a * 0x9E3779B9U ^ (b + 1) * 0x85EBCA6BU;
     bits ^= bits >> 15;

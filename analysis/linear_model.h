@@ -47,7 +47,7 @@ struct LinearModel {
     std::vector<ItemId> species;
     std::vector<Unknown> unknowns;  ///< The fields of constraints, each after those that it needs.
     std::vector<ItemId> varied;
-    std::vector<KernelFormula> kernels;  ///< By their number in operators.
+    std::vector<KernelFormula> kernels;  ///< Indexed as in operators.
     IdVector<ItemId, StartValue> starts;
     std::vector<NodeId> rates;        ///< The rates of species, then of constraints.
     std::vector<JacobianTerm> terms;  ///< The first term is the value itself.

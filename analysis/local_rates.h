@@ -18,8 +18,8 @@ struct Matrices {
     bool are_finite() const;
 };
 
-/// The Jacobian of a wave: the derivatives of the species' rates by the species. The fields of
-/// constraints follow at once.
+/// The Jacobian of a wave: the derivatives of the species' rates by the species. Fields of
+/// constraints adapt instantly.
 ComplexMatrix jacobian_of(const LinearModel& model, const Matrices& matrices,
                           const Lattice& lattice, const Phases& phases);
 

@@ -55,8 +55,8 @@ Chart chart_of(const SurfaceMesh& mesh, const Seams& seams, std::vector<std::uin
 /// one is negative if the image is mirrored.
 std::array<double, 2> stretches(const FlatTriangle& shape, const FlatTriangle& image);
 
-/// The largest factor of a change of lengths: the larger of the larger stretch and the inverse of
-/// the smaller one, ≥ 1. Infinite if the image has no area or is mirrored.
+/// The largest factor by which lengths change, ≥ 1: the larger stretch or the inverse of the
+/// smaller one. Infinite if the image has no area or is mirrored.
 inline double distortion(const std::array<double, 2>& stretches) {
     if (!(stretches[1] > 0)) return std::numeric_limits<double>::infinity();
     return std::max(stretches[0], 1 / stretches[1]);

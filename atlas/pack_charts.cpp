@@ -40,8 +40,8 @@ public:
     /// A square of free cells.
     explicit CellRows(int side);
 
-    /// A free position for a shape with the smallest y, and then the smallest x, whose upper end, y
-    /// + height, is below `limit`, and y at least `lowest`.
+    /// The free position for a shape with the smallest y, then the smallest x, where y is at least
+    /// `lowest` and the upper end, y + height, below `limit`.
     std::optional<CellPlace> find_room(const CellShape& shape, int lowest, int limit) const;
 
     /// Occupies the cells of a shape and the eight around each of them.

@@ -39,7 +39,7 @@ Crossing crossing(const CrossedCorner& a, const CrossedCorner& b) {
 /// Appends the part of the surface within a tetrahedron whose corners 1, 2 and 3 are
 /// counterclockwise seen from opposite corner 0: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. It is a
 /// triangle if one corner is separated from the others, and a quadrilateral if two are. An even
-/// permutation moves the separated corner to index 0, or the two inside to indices 0 and 1; the
+/// permutation moves the separated corner to index 0, or the two inside to indices 0 and 1. The
 /// table covers these cases, derived with v₀ = 0 and the unit vectors.
 void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     unsigned inside = 0;

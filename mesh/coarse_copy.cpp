@@ -1,5 +1,5 @@
-// Collapses edges shorter than a length that grows to the wanted one, so that triangles of all
-// sizes stay well shaped.
+// Collapses edges shorter than a limit that grows to the target, so that triangles of all sizes
+// stay well shaped.
 #include "mesh/coarse_copy.h"
 
 #include "mesh/collapse_edges.h"

@@ -20,7 +20,7 @@ GltfNodePlaces::GltfNodePlaces(const tinygltf::Model& model)
 }
 
 Result<GltfMatrix> GltfNodePlaces::of(int node) {
-    // Up to the first node whose matrix is known, and down again.
+    // Goes up to the first node whose matrix is known, and down again.
     std::vector<std::size_t> path;
     GltfMatrix place = gltf_identity;
     for (int at = node; at >= 0; at = parents_[static_cast<std::size_t>(at)]) {

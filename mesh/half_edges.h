@@ -38,13 +38,13 @@ using PlaneQuadric = OpenMesh::Geometry::Quadricd;
 /// The largest number of faces: half-edges, up to six per face, have indices of type `int`.
 inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;
 
-/// The points and triangles of `mesh` with their indices; the half-edge of a face goes from its
+/// The points and triangles of `mesh` with their indices. The half-edge of a face goes from its
 /// first corner to its second. Two edges between the same points stay two: half-edges are linked by
 /// `across`, because add_face() looks edges up by their ends and would merge them. is_flip_ok()
-/// prevents new double edges; is_collapse_ok() does not notice existing ones.
+/// prevents new double edges, but is_collapse_ok() does not notice existing ones.
 ///
 /// Fails on invalid meshes: corners that are no points, a triangle with a repeated corner, edges
-/// that do not match their neighbours, points with several fans of triangles; and on more edges
+/// that do not match their neighbours, points with several fans of triangles. Fails on more edges
 /// than can be indexed. Throws std::bad_alloc.
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh);
 

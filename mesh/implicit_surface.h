@@ -29,13 +29,13 @@ inline constexpr std::size_t most_cut_triangles = std::size_t{1} << 24;
 double lattice_points(const ImplicitRequest& request);
 
 /// The surface f = 0 as closed components of nearly equilateral triangles that face outwards, with
-/// corners on the surface. The function is evaluated on a lattice of corners and centres of cells
-/// of width `edge`; the tetrahedra between them are cut where it changes its sign (A. Doi and A.
-/// Koide, "An Efficient Method of Triangulating Equi-Valued Surfaces", IEICE Transactions E74(1),
-/// 1991), which has no ambiguous cases and always gives a closed surface. Then the triangles are
-/// remeshed and their corners projected onto f = 0 along the normals, by regula falsi between
-/// points inside and outside. Parts thinner than `edge` may be lost or torn, and sharp edges are
-/// rounded by as much; elsewhere the error of area and volume is of second order in `edge`.
+/// corners on the surface. Evaluates the function on a lattice of corners and centres of cells of
+/// width `edge`. Cuts the tetrahedra between them where it changes its sign (A. Doi and A. Koide,
+/// "An Efficient Method of Triangulating Equi-Valued Surfaces", IEICE Transactions E74(1), 1991),
+/// which has no ambiguous cases and always gives a closed surface. Then remeshes the triangles and
+/// projects their corners onto f = 0 along the normals, by regula falsi between points inside and
+/// outside. Parts thinner than `edge` may be lost or torn, and sharp edges are rounded by as much.
+/// Elsewhere the error of area and volume is of second order in `edge`.
 ///
 /// Fails if the surface meets a side of the box: include the cut in the function, as min(f, g) with
 /// a g that is positive inside the wanted part. Fails also, with the location, if the function is

@@ -22,9 +22,9 @@ namespace {
 // The error of a point that replaces others, in its position and its attributes.
 
 /// A sum over triangles of their areas times the squared distance of a point from their planes,
-/// plus the squared differences of its attributes from the linear functions that attributes are
-/// on these triangles (H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance
-/// Attributes", IEEE Visualization 1999).
+/// plus the squared differences between its attributes and their linear functions on these
+/// triangles (H. Hoppe, "New Quadric Metric for Simplifying Meshes with Appearance Attributes",
+/// IEEE Visualization 1999).
 class PointQuadric {
 public:
     static constexpr std::size_t most_attributes = 3;

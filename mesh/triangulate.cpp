@@ -18,7 +18,7 @@ double turn(Vector2d a, Vector2d b, Vector2d c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The polygon's normal, with the length of twice its area: the sum over a fan of triangles.
+/// The polygon's normal, with twice its area as length: the sum over a fan of triangles.
 Vector3d normal_of(std::span<const Vector3d> corners) {
     Vector3d sum;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {

@@ -21,7 +21,7 @@ public:
         : links_(links), seen_(links.ends.size(), 0), is_ordered_(links.ends.size(), false) {}
 
     struct Reached {
-        /// Level by level, the neighbours of a cell in ascending order of their links.
+        /// Level by level, a cell's neighbours by ascending numbers of links.
         std::vector<std::uint32_t> cells;
         std::size_t levels = 0;
         std::size_t last_level = 0;  ///< The index of its first cell.

@@ -33,7 +33,7 @@ public:
         each_merged([&](std::uint32_t point, std::uint32_t) { ++ends_[point + 1]; });
         std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
         triangles_.resize(ends_.back());
-        // Each end begins as the start, which grows.
+        // Starts, which grow to ends.
         ends_.pop_back();
         each_merged([&](std::uint32_t point, std::uint32_t t) { triangles_[ends_[point]++] = t; });
     }

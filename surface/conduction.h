@@ -14,7 +14,7 @@ struct Conduction {
 
 /// The tightest cell limits the step of all, so a few cells count as looser than they are. A cell
 /// is tight if the sum of its weights is large for its area. Among spread cells this loosens a few
-/// in some thousand. Faces and points of a mesh may all be tighter than that: the tightest
+/// in several thousand. Faces and points of a mesh may all be tighter than that: the tightest
 /// thousandth is loosened. As single edges of slivers may conduct a hundred times as much as
 /// others, these are limited before areas grow. `unit` is in lengths of the model.
 Conduction conduction_of(const SurfaceCells& cells, bool are_spread, double unit);

@@ -215,7 +215,7 @@ std::vector<double> turk_radii(const SurfaceMesh& mesh, int rounds) {
         const Vector3d edge = mesh.points[q] - mesh.points[p];
         const double size = length(edge);
         for (const std::uint32_t end : {p, q}) {
-            // tan θ| |P − Q| / 2, where θ is the angle between the edge and the normal.
+            // |tan θ| |P − Q| / 2, where θ is the angle between the edge and the normal.
             const double cosine = std::abs(dot(normals[end], unit(edge)));
             const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
             if (sine * size / 2 < radii[end] * cosine) radii[end] = sine * size / 2 / cosine;

@@ -34,7 +34,7 @@ double edge_for(double area, std::size_t triangles) {
 }
 
 /// The shortest path to a point p through the edge from a to b or its ends, given the paths to a
-/// and b. All points are in one plane, and p is on the other side of the edge than the paths.
+/// and b. All points are in one plane, and the edge separates p from the paths.
 Reach over_edge(Vector2d a, const Reach& to_a, Vector2d b, const Reach& to_b, Vector2d p) {
     const Reach along_a = {to_a.distance + length(p - a), to_a.source};
     const Reach along_b = {to_b.distance + length(p - b), to_b.source};

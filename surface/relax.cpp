@@ -30,8 +30,8 @@ struct Vector2f {
     float x = 0, y = 0;
 };
 
-/// Neighbours of positions: their numbers, their positions when the list was made, in radii and in
-/// the frame of the position at that time, and the rotations of their own frames relative to that.
+/// Neighbours of positions: their numbers, their relative positions when the list was made (in
+/// radii, in the frame of that time), and the rotations of their own frames relative to it.
 class NeighbourList {
 public:
     /// Forces are computed for this many neighbours at a time, so a list has memory for as many

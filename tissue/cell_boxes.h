@@ -129,7 +129,7 @@ public:
     /// There must be a cell.
     CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& rule);
 
-    /// Adds the keys of all neighbours of a cell among these.
+    /// Adds the keys of all of a cell's neighbours in these boxes.
     void find(const BoxedCell& own, NeighbourKeys& found) const;
 
 private:

@@ -12,8 +12,7 @@ constexpr double far_part_to_order = 0.1;
 /// The number of steps like the last one for which lists last.
 constexpr double steps_of_lists = 6;
 constexpr double most_skin = 1;
-/// The expected use of a skin by a step, in steps like the last one, and its largest part of the
-/// skin.
+/// The expected movement in a step, relative to the last step, and its largest part of the skin.
 constexpr double expected_steps = 1.5, part_of_skin = 0.8;
 /// The rest is a margin for rounding.
 constexpr double part_of_room = 1 - 1e-6;

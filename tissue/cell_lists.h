@@ -17,8 +17,7 @@ namespace cascade {
 
 class CellLists {
 public:
-    /// Builds lists with `skin`, with a wider one for fast cells, and refuses lists of more than
-    /// `most_bytes`.
+    /// Builds lists with `skin`, wider for fast cells, and refuses lists of more than `most_bytes`.
     CellLists(const NeighbourRule& rule, double skin, double most_bytes,
               const TissueSpecies& species, Team& team);
 
@@ -32,7 +31,7 @@ public:
     /// Renews the lists of cells that will outrun them in the next step if they go on as in the
     /// last one.
     Result<void> renew_restless(const Tissue& tissue);
-    /// Whether the lists are valid for all cells in this state, and `around` their positions.
+    /// Whether the lists are valid within `around` of all cells in this state.
     bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
     /// Whether they are valid for these cells now.
     bool reach(const Tissue& tissue, std::span<const std::uint32_t> cells) const;

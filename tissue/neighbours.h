@@ -45,7 +45,7 @@ struct CellPlaces {
 struct NeighbourLists {
     std::vector<std::size_t> ends;          ///< Cell k's neighbours end before ends[k].
     std::vector<std::uint32_t> neighbours;  ///< Cells, in ascending order of their numbers.
-    /// The number of links between cells that are far apart in memory, for caches.
+    /// The number of links between cells too far apart in memory for caches.
     std::size_t far_links = 0;
 };
 

@@ -49,7 +49,7 @@ public:
     virtual Vector3d held_inside(Vector3d point, const NearPlace& near) const = 0;
     /// Whether held_inside() may move cells.
     virtual bool holds() const = 0;
-    /// Whether there is a surface or a plane that cells can be off.
+    /// Whether cells can be off a surface or a plane.
     virtual bool has_normal() const = 0;
     /// The periods of the tissue, or 0.
     virtual std::array<double, 3> period() const { return {}; }

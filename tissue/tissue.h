@@ -17,7 +17,7 @@
 
 namespace cascade {
 
-/// The progress of a tissue's stage: all that steps continue from besides the cells.
+/// The progress of a tissue's stage: everything besides the cells that steps continue from.
 struct TissueTime {
     double t = 0;
     std::int64_t steps = 0;

@@ -35,14 +35,14 @@ double progress_of(std::span<const double> changes, double step, std::span<const
 /// Without the second condition the first steps after an event would count as rest.
 bool is_at_rest(const TissueTime& time, double progress, double tolerance);
 
-/// Births and deaths during a time in which the number of cells stayed.
+/// Births and deaths while the number of cells hardly changed.
 struct Turnover {
     std::int64_t births = 0, deaths = 0, cells = 0;
     double from = 0, to = 0;
 };
-/// Called after events. Finds a turnover if at least four times as many cells as exist were born
-/// since the last comparison and as many died, while their number changed by a tenth at most. Such
-/// a tissue may go on for ever. Begins a new comparison whenever that number of cells was born.
+/// Called after events. Finds a turnover if, since the last comparison, at least four times as many
+/// cells as exist were born and as many died, while their number changed by a tenth at most. Such a
+/// tissue may go on for ever. Begins a new comparison whenever that number of cells was born.
 bool compare_turnover(Tissue& tissue, Turnover& turnover);
 
 /// Called at a complete step, with its values in tissue.species. Returns false to end the stage.

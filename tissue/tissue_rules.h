@@ -86,7 +86,7 @@ public:
     /// have their positions and still all values of their mothers.
     struct Restarts {
         CellValues values;
-        /// Plane k is the new value of species[k]. Numbers from the number of species on refer to
+        /// Plane k is the new value of species[k]. Indices beyond the species refer to
         /// Tissue::kept.
         std::vector<std::size_t> species;
     };

@@ -66,8 +66,8 @@ public:
 
     /// Tries a step of this length, with lists that reach far enough. Call accept() or undo() next.
     Result<TriedStep> attempt(double length);
-    /// The events of the tried step, of this length. If they are too many for one step, this ends
-    /// earlier, and its values are those at that moment.
+    /// The events of the tried step, of this length. If they are too many for one step, it ends
+    /// earlier, and the current values are those at that moment.
     struct StepEvents {
         double part = 1;  ///< The part of the step at which it ends.
         std::vector<CellEvent> events;
@@ -81,7 +81,7 @@ public:
     void take_beginning(const TriedStep& tried, std::vector<Field> values);
     const std::vector<Field>& errors() const { return stepper_->error_planes(); }
 
-    /// The moment before a step of this length.
+    /// The moment at which a step of this length begins.
     StepMoment moment(double length) const;
     /// Called when values have been changed from outside.
     void forget_rates() { stepper_->forget_rates(); }

@@ -29,7 +29,7 @@ void print_settings(const Program& program, const System& system, Output out) {
     print("show", settings.show);
 }
 
-/// The starting value of an item. A frame's would fill pages, and is made of two axes instead.
+/// The starting value of an item. A frame's would fill pages: its two axes are named instead.
 std::string print_start(const Program& program, const System& system, ItemId item,
                         const Formula& start, std::optional<std::uint32_t> stage) {
     const bool is_of_axes = system.cells && system.cells->has_component(item) &&

@@ -1,5 +1,5 @@
 // Directions on a model, by the settings of scripts: the directions in which its cells are
-// stretched (`directions` and `stretch` of a domain), and those of `along`.
+// stretched (`directions` and `stretch` of a domain), and the directions of `along`.
 #pragma once
 
 #include "core/parallel.h"

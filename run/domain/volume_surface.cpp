@@ -21,8 +21,8 @@ namespace cascade {
 
 namespace {
 
-/// The length of the longest side of a cube, in edges of triangles: without volumes, and the limit,
-/// since many more would take minutes.
+/// The length of a cube's longest side, in edges of triangles: the default without volumes, and the
+/// limit, since many more would take minutes.
 constexpr double usual_edges = 50, most_edges = 100;
 /// The number of positions whose values are computed together, so that they stay in the caches.
 constexpr std::size_t places_together = 256;

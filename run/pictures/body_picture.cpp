@@ -42,7 +42,7 @@ std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask
             value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
         },
         inside);
-    constexpr double coarsest = 64;  // Cells per edge. Every grid is small with these.
+    constexpr double coarsest = 64;  // Cells per edge with which every grid is small.
     for (double edge = 1; edge < coarsest; edge *= 2) {
         auto body = grown_body(inside, boundary, never_cancelled, edge);
         if (body) return std::make_shared<const SurfaceMesh>(*std::move(body));

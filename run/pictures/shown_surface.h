@@ -34,7 +34,7 @@ struct SurfaceSource {
 struct ShownSurface {
     Axis up = Axis::y;
     double spacing = 0;  ///< The spacing of a model's cells, in the same lengths. 0 for a function.
-    /// In script coordinates. A function's own coordinates. For a body, laid flat as in pictures.
+    /// In script coordinates, for a function in its own, for a body laid flat as in pictures.
     std::vector<Vector3> positions;
     std::vector<Vector3> normals;  ///< Of length 1. A point on a crease is several vertices.
     /// For a function: x and y of the vertices in script coordinates. Otherwise empty.

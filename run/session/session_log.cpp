@@ -1,4 +1,4 @@
-// A line for each change. A script, which has several lines, follows a line with their number.
+// One line per change. A script of several lines follows a line with their number.
 #include "run/session/session_log.h"
 
 #include "run/script/embedded_script.h"
