@@ -155,7 +155,7 @@ constexpr double longest_step = 0.06;
 /// Lists are rebuilt when more than one in this many positions has moved half the skin. A few
 /// positions always move far, and exact lists for them do not make the result more uniform.
 constexpr std::size_t places_per_far_one = 100;
-/// A list serves one in this many of the rounds done, or more: the first ones move farthest.
+/// A list serves for more than one in this many of the rounds so far: early rounds move farthest.
 constexpr int rounds_per_age = 4;
 /// At the end, positions with another one nearer than `crowd` radii are pushed in separate rounds.
 constexpr int settling_rounds = 12;
