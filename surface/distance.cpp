@@ -108,8 +108,8 @@ SurfaceDistance::SurfaceDistance(std::shared_ptr<const DistanceMesh> mesh,
 
 void SurfaceDistance::spread(double reach_asked_for, const std::atomic<bool>& cancel) {
     const SurfaceMesh& mesh = mesh_->mesh();
-    // A path is found from the distances of two points, either of which may be beyond its end, and
-    // may become shorter when a later point is visited.
+    // A path is found from the distances of two points. Either may be beyond its end, and may get a
+    // shorter path when a later point is visited.
     constexpr double edges_beyond = 4;
     const double farthest = reach_asked_for + edges_beyond * mesh_->longest_edge();
     std::vector<Visit> visits;

@@ -37,7 +37,7 @@ public:
     std::size_t position() const { return position_; }
     std::size_t token_count() const { return tokens_.size(); }
 
-    /// As the parser reads it: ASCII in a script without errors.
+    /// The text for the parser: ASCII in a script without errors.
     std::string_view text(const Token& token) const { return token.text; }
     std::string_view text(Span span) const { return sources_.text(span); }
     ast::Word word(const Token& token) const { return {token.span, text(token)}; }

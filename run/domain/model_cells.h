@@ -52,7 +52,7 @@ public:
     std::size_t count() const { return count_; }
     /// The rows of cells.
     const Grid& grid() const { return grid_; }
-    /// Makes the cells on the first call, because cells that crawl may need none of them. Throws
+    /// Makes the cells on the first call, because crawling cells may need none of them. Throws
     /// std::bad_alloc.
     const SpreadCells& spread() const;
     /// The links with weights of gradients, computed on the first call. Throws std::bad_alloc.

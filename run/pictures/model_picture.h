@@ -35,7 +35,7 @@ public:
     /// Throws std::bad_alloc.
     explicit ModelDrawer(std::shared_ptr<const ModelCells> model);
 
-    /// With copies on it, if there are any, in the coordinates of drawn().
+    /// Draws it with copies on it, if any, in the coordinates of drawn().
     Image draw(const ModelLook& look, const DrawOptions& options,
                const Instances* copies = nullptr);
     const DrawnMesh& drawn() const { return scene_.drawn(); }

@@ -43,7 +43,7 @@ bool is_own(const std::filesystem::path& list, const std::string& file) {
            (name.ends_with(".vti") || name.ends_with(".vtp"));
 }
 
-/// The list's own files that it names.
+/// The files of its series that a list names.
 std::vector<std::string> files_in(const std::filesystem::path& list) {
     std::vector<std::string> files;
     const auto text = read_file(list, largest_list);

@@ -17,7 +17,7 @@ namespace cascade {
 /// The surface below cells: a model, a function of two parameters under a grid, or a body.
 struct SurfaceSource {
     std::shared_ptr<const ModelCells> model;
-    std::shared_ptr<const SurfaceMesh> body;  ///< For cells that crawl on one, in script lengths.
+    std::shared_ptr<const SurfaceMesh> body;  ///< Below crawling cells, in script lengths.
     std::optional<SurfaceSettings> function;  ///< Without a model and a body.
     Grid grid;
 

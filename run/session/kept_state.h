@@ -23,7 +23,7 @@ struct KeptStage {
     std::string name;
     StageRecord record;    ///< Includes the painted parameters.
     PaintedNames painted;  ///< Species and parameters.
-    /// The names of all items and of the species, for cells that crawl.
+    /// The names of all items and of the species, for crawling cells.
     std::vector<std::string> items, species;
 };
 

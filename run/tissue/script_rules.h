@@ -1,4 +1,4 @@
-// The equations of a stage of cells that crawl, for the time loop of a tissue.
+// The equations of a stage of crawling cells, for the time loop of a tissue.
 #pragma once
 
 #include "run/stage/stage_plans.h"

@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// A stage of cells that crawl, and everything it shares with others.
+/// A stage of crawling cells, and everything it shares with others.
 struct TissueStage {
     const Program& program;
     std::uint32_t stage = 0;
