@@ -183,8 +183,9 @@ private:
     std::unique_ptr<Implementation> self_;
 };
 
-/// The values of formulas that are the same in all cells, such as aggregates over the domain. For
-/// other formulas, the value of the first cell.
+/// The values of formulas in the first cell, in their order. It is meant for formulas that are the
+/// same in all cells, such as aggregates over the domain. Formulas are evaluated together, so that
+/// common parts are computed once.
 std::vector<double> evaluate_numbers(const Simulation& simulation,
                                      std::span<const Formula* const> formulas, std::uint32_t stage);
 
