@@ -4,7 +4,7 @@
 #include "core/check.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 namespace cascade {
 namespace {
@@ -12,28 +12,19 @@ namespace {
 struct Row {
     std::string_view name;
     int order;
-    double interval;  ///< Stable on the negative real axis up to this. 0 if the chosen number of
-                      ///< stages decides it.
+    double interval;
+    SolverTrait traits;
 };
 
-/// In the order of Solver. Semi-implicit solvers have the interval of their explicit part: two of
-/// them are Euler's method without diffusion, etdrk4 is the classical method of fourth order. ros2
-/// is Heun's method without a reaction, and a decaying reaction never shortens its interval. The
-/// intervals are the zeros of |R(z)| = 1 on the negative axis, where R is the stability polynomial
-/// (E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996, section IV.2). For
-/// Dormand-Prince, R belongs to the formula of fifth order.
-constexpr std::array<Row, 12> rows{{{"euler", 1, 2.0},
-                                    {"symplectic", 1, 2.0},
-                                    {"rk2", 2, 2.0},
-                                    {"rk4", 4, 2.785},
-                                    {"rk23", 3, 2.512},
-                                    {"rk45", 5, 3.306},
-                                    {"rkl1", 1, 0},
-                                    {"rkl2", 2, 0},
-                                    {"imex", 1, 2.0},
-                                    {"etdrk4", 4, 2.785},
-                                    {"gauss", 1, 2.0},
-                                    {"ros2", 2, 2.0}}};
+constexpr SolverTrait operator|(SolverTrait a, SolverTrait b) {
+    return static_cast<SolverTrait>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+
+using enum SolverTrait;
+constexpr Row rows[] = {
+#define CASCADE_SOLVER(name, order, interval, traits) {#name, order, interval, traits},
+#include "ir/solvers.def"
+};
 
 const Row& row(Solver solver) { return rows[static_cast<std::size_t>(solver)]; }
 
@@ -43,10 +34,9 @@ std::string_view name_of(Solver solver) { return row(solver).name; }
 
 std::optional<Solver> solver_of(std::string_view name) {
     if (name == "imex2") return Solver::etdrk4;
-    const auto found =
-        std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.name == name; });
-    if (found == rows.end()) return std::nullopt;
-    return static_cast<Solver>(found - rows.begin());
+    const auto found = std::ranges::find(rows, name, &Row::name);
+    if (found == std::end(rows)) return std::nullopt;
+    return static_cast<Solver>(found - std::begin(rows));
 }
 
 std::vector<std::string> solver_names() {
@@ -55,15 +45,10 @@ std::vector<std::string> solver_names() {
     return names;
 }
 
-bool is_adaptive(Solver solver) { return solver == Solver::rk23 || solver == Solver::rk45; }
-bool is_stabilised(Solver solver) { return solver == Solver::rkl1 || solver == Solver::rkl2; }
-bool is_semi_implicit(Solver solver) {
-    return solver == Solver::imex || solver == Solver::etdrk4 || solver == Solver::gauss;
+bool has(Solver solver, SolverTrait trait) {
+    return (static_cast<unsigned>(row(solver).traits) & static_cast<unsigned>(trait)) != 0;
 }
-bool is_locally_implicit(Solver solver) { return solver == Solver::ros2; }
-bool takes_speed_by_cell(Solver solver) {
-    return solver == Solver::euler || solver == Solver::symplectic;
-}
+
 int order_of(Solver solver) { return row(solver).order; }
 
 int order_of_estimate(Solver solver) {

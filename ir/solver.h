@@ -1,4 +1,4 @@
-// The solvers of the language and their properties.
+// The solvers of the language and their properties (ir/solvers.def).
 #pragma once
 
 #include <cstdint>
@@ -11,55 +11,57 @@ namespace cascade {
 
 /// The values of the setting `solver`.
 enum class Solver : std::uint8_t {
-    euler,
-    symplectic,
-    rk2,
-    rk4,
-    rk23,
-    rk45,
-    rkl1,
-    rkl2,
-    imex,
-    etdrk4,
-    gauss,
-    ros2
+#define CASCADE_SOLVER(name, ...) name,
+#include "ir/solvers.def"
 };
 
+/// What a solver needs and promises, as bits.
+enum class SolverTrait : std::uint8_t {
+    none = 0,
+    speed_by_cell = 1 << 0,     ///< The time step may vary by cell.
+    in_turn = 1 << 1,           ///< Species are changed one after the other.
+    adaptive = 1 << 2,          ///< It chooses its steps by an error estimate.
+    stabilised = 1 << 3,        ///< It takes more stages for longer steps (Runge-Kutta-Legendre).
+    semi_implicit = 1 << 4,     ///< It takes diffusion implicitly or exactly, and only the rest by
+                                ///< its rate at the old step.
+    locally_implicit = 1 << 5,  ///< It takes the reaction in each cell implicitly, and diffusion by
+                                ///< its rate.
+};
+bool has(Solver solver, SolverTrait trait);
+
 std::string_view name_of(Solver solver);
-/// The solver of that name. `imex2`, which `etdrk4` replaced, is another name for it.
+/// `imex2`, which `etdrk4` replaced, is another name of it.
 std::optional<Solver> solver_of(std::string_view name);
 std::vector<std::string> solver_names();
 
-/// Whether it chooses its steps by an error estimate.
-bool is_adaptive(Solver solver);
-/// Whether it takes more stages for longer steps (Runge-Kutta-Legendre).
-bool is_stabilised(Solver solver);
-/// Whether it takes diffusion implicitly or exactly, and only the rest by its rate at the old step.
-bool is_semi_implicit(Solver solver);
-/// Whether it takes the reaction in each cell implicitly, and diffusion by its rate.
-bool is_locally_implicit(Solver solver);
-/// Whether some part of the rates never limits steps by its stability.
+inline bool is_adaptive(Solver solver) { return has(solver, SolverTrait::adaptive); }
+inline bool is_stabilised(Solver solver) { return has(solver, SolverTrait::stabilised); }
+inline bool is_semi_implicit(Solver solver) { return has(solver, SolverTrait::semi_implicit); }
+inline bool is_locally_implicit(Solver solver) {
+    return has(solver, SolverTrait::locally_implicit);
+}
+/// Whether a part of the rates limits no step by its stability.
 inline bool is_partly_implicit(Solver solver) {
     return is_semi_implicit(solver) || is_locally_implicit(solver);
 }
-/// Whether its steps may be many times as long as explicit Euler's: as long as the reaction allows,
-/// however fast diffusion is, or the other way round.
+/// Whether its steps may be many times as long as those of explicit Euler: as long as the reaction
+/// allows, however fast diffusion is, or the other way round.
 inline bool takes_long_steps(Solver solver) {
     return is_stabilised(solver) || is_partly_implicit(solver);
 }
-/// Whether the time step may vary by cell.
-bool takes_speed_by_cell(Solver solver);
+inline bool takes_speed_by_cell(Solver solver) { return has(solver, SolverTrait::speed_by_cell); }
+inline bool changes_in_turn(Solver solver) { return has(solver, SolverTrait::in_turn); }
 /// The order p: the error of a whole run is proportional to step^p.
 int order_of(Solver solver);
-/// The p for which the estimated error of a step is proportional to step^p: by the embedded pair of
-/// an adaptive solver or of `ros2`, for others as in solvers/error_estimate.h.
+/// The p for which the estimated error of a step is proportional to step^p: the embedded pair of an
+/// adaptive solver or of `ros2`, for others as in solvers/error_estimate.h.
 int order_of_estimate(Solver solver);
 /// The solver is stable if −λ · step is below this for every negative eigenvalue λ of the rates'
-/// Jacobian, or of its explicit part. `stages` is for stabilised solvers.
+/// Jacobian, or of the part that is taken explicitly. `stages` is that of a stabilised solver.
 double stability_interval(Solver solver, std::uint32_t stages = 1);
 
 /// The smallest odd number of stages with which a stabilised solver is stable for steps `ratio`
-/// times as long as explicit Euler's longest; `most_stages` if there is none.
+/// times as long as the longest of explicit Euler; `most_stages` if there is none.
 std::uint32_t stages_for(Solver solver, double ratio);
 /// The smallest number of stages of a stabilised solver: `rkl1` with one stage is explicit Euler.
 std::uint32_t least_stages(Solver solver);

@@ -183,7 +183,7 @@ std::string_view read_of_surface(const System& system, bool is_plane) {
 }
 
 void check_solver(Workspace& work, const StageTime& time) {
-    if (time.solver != Solver::symplectic && !is_partly_implicit(time.solver)) return;
+    if (!changes_in_turn(time.solver) && !is_partly_implicit(time.solver)) return;
     work.diagnostics.error(time.solver_span,
                            fmt::format("the solver {} is one of fields", name_of(time.solver)),
                            "cells take rkl2, rkl1, euler, rk2, rk4, rk23 or rk45");

@@ -213,7 +213,7 @@ private:
 
     void check_solver() {
         const StageTime& time = program_.stages[stage_].time;
-        const bool is_in_turn = time.solver == Solver::symplectic;
+        const bool is_in_turn = changes_in_turn(time.solver);
         if (!is_in_turn && !is_semi_implicit(time.solver)) return;
         for (const DefinitionSides& each : program_.stages[stage_].definition_sides) {
             const bool is_held = std::ranges::any_of(each.sides, [](const SideSetting& side) {
