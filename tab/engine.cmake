@@ -28,7 +28,7 @@ list(APPEND CASCADE_WITHOUT
   picture/openvdb_module picture/vdb picture/write_drawing
   export/levels render/ray_caster
   run/domain/free_memory run/domain/reshape_model
-  run/pictures/frame_folder run/pictures/frames run/pictures/body_file
+  run/pictures/frame_folder run/pictures/frames run/pictures/grid_files
   run/pictures/model_files run/pictures/plain_model run/pictures/model_maps run/pictures/growing_model run/pictures/nested_tiling run/pictures/map_size run/pictures/series
   run/session/session
   run/commands/.* run/emit_c/.*

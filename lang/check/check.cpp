@@ -8,7 +8,6 @@
 #include "lang/check/check_shape.h"
 #include "lang/check/check_solver.h"
 #include "lang/check/check_side_values.h"
-#include "lang/check/check_size.h"
 #include "lang/check/check_time.h"
 #include "lang/check/user_functions.h"
 #include "lang/library/library.h"

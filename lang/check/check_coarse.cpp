@@ -2,6 +2,7 @@
 #include "lang/check/check_coarse.h"
 
 #include "lang/check/setting_words.h"
+#include "lang/program/trial_program.h"
 
 #include <fmt/format.h>
 
@@ -75,6 +76,27 @@ void check_coarse_grids(const Program& program, Diagnostics& diagnostics) {
                                                 starts_there ? "starts" : "runs", obstacle));
         } else {
             check_sides(program.domain.grid, stage.coarse * stage.time.coarse, span, diagnostics);
+        }
+    }
+}
+
+void check_sizes(const Program& program, Diagnostics& diagnostics) {
+    if (program.domain.coarse > 1) return;  // The domain of the script has been checked.
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (!program.stages[k].size) continue;
+        const auto trial = trial_program(program, k);
+        if (!trial) {
+            diagnostics.error(trial.error().span, trial.error().message, trial.error().hint);
+            continue;
+        }
+        // Cells of surfaces have the size that their unit gives them, which is known in the run.
+        const DomainSettings& domain = program.domain;
+        if (domain.model || domain.surface) continue;
+        const Grid& grid = domain.grid;
+        const auto times = static_cast<double>(program.stages[k].coarse);
+        if (const auto unfit = unfit_size(*program.stages[k].size, grid.spacing * times,
+                                          static_cast<double>(grid.longest_side()) / times)) {
+            diagnostics.error(unfit->span, unfit->message, unfit->hint);
         }
     }
 }

@@ -1,4 +1,5 @@
-// Stages on coarser grids (internal to the checker): `start: coarse(4)` and `grid: coarse(4)`.
+// The cells of stages (internal to the checker): coarser grids, as `start: coarse(4)` and `grid:
+// coarse(4)` ask for them, and patterns of a `size`.
 #pragma once
 
 #include "lang/check/check_expression.h"
@@ -22,5 +23,9 @@ std::optional<Coarse> check_coarse(Workspace& work, const ast::Script& script,
 
 /// Coarser grids need straight axes and sides that can be halved often enough.
 void check_coarse_grids(const Program& program, Diagnostics& diagnostics);
+
+/// Reports sizes that no trial run can find, or that the domain cannot show. The program must be
+/// free of errors otherwise.
+void check_sizes(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade::checking

@@ -4,7 +4,7 @@
 #include "export/model_writer.h"
 #include "mesh/make_mesh.h"
 #include "mesh/model_file.h"
-#include "run/pictures/body_file.h"
+#include "run/pictures/grid_files.h"
 #include "run/pictures/frames.h"
 #include "run/pictures/painter.h"
 #include "run/session/turns.h"

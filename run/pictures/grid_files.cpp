@@ -1,9 +1,14 @@
-// Scales the body and calls the writer of levels.
-#include "run/pictures/body_file.h"
+// Bodies are scaled and left to the writer of levels; maps are made in export/.
+#include "run/pictures/grid_files.h"
 
 #include "core/enough_memory.h"
+#include "core/parallel.h"
 #include "core/run_control.h"
+#include "export/height_occlusion.h"
 #include "export/levels.h"
+#include "export/plane_maps.h"
+#include "run/pictures/model_files.h"
+#include "run/pictures/plane_look.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +45,26 @@ Result<WrittenFiles> write_body(const std::filesystem::path& path, const Surface
     }
     return enough_memory_for([&] { return write_levels_of(path, body, grid, results, levels); },
                              "cannot write '" + path.string() + "': there is not enough memory");
+}
+
+Result<WrittenFiles> write_plane(const std::filesystem::path& path, const PlaneLook& look,
+                                 const ModelFileOptions& options, const PngTexts& texts) {
+    const auto write = [&]() -> Result<WrittenFiles> {
+        Team team(hardware_threads());
+        PaintedCells painted = look.painted();
+        std::vector<float> occlusion;
+        if (!look.heights.empty()) {
+            occlusion = height_occlusion(look.cells, look.heights, team);
+            painted.material[MaterialPart::occlusion] = occlusion;
+        }
+        const MaterialMaps maps =
+            bake_plane(look.cells, painted, texture_size(look.cells, options.bake), team);
+        const auto done = write_maps(path, plane_mesh(look.cells), maps, texts, options.map_format);
+        if (!done) return tl::unexpected(done.error());
+        return WrittenFiles{map_paths(path, maps.maps, options.map_format), look.material.doubts};
+    };
+    return enough_memory_for(write, fmt::format("there is not enough memory for maps of {} texels",
+                                                options.bake));
 }
 
 }  // namespace cascade
