@@ -37,9 +37,8 @@ bool has_laplacian_alone(const LinearModel& model) {
     const DomainSettings& domain = model.program->domain;
     if (domain.stencil == StencilKind::isotropic && domain.grid.stencil().axes() == 3) return false;
     return std::all_of(model.terms.begin(), model.terms.end(), [](const JacobianTerm& term) {
-        return std::all_of(term.operators.begin(), term.operators.end(), [](WaveOperator each) {
-            return each.kind == WaveOperator::Kind::laplacian ||
-                   each.kind == WaveOperator::Kind::mean;
+        return std::ranges::all_of(term.operators, [](WaveOperator each) {
+            return each == WaveOperator{} || each.kind == WaveOperator::Kind::mean;
         });
     });
 }

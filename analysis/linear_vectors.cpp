@@ -42,9 +42,9 @@ struct Lineariser::OfVectors {
         own.at_each_face([&](std::size_t axis, std::size_t component) {
             const Slopes& slopes = of(id).slopes;
             part.at_faces[axis][component] =
-                axis == component ? own.through(slopes, Kind::across, axis)
-                                  : own.through(own.through(slopes, Kind::average, axis),
-                                                Kind::central, component);
+                axis == component ? own.through(slopes, Difference::across, axis)
+                                  : own.through(own.through(slopes, Difference::average, axis),
+                                                Difference::central, component);
         });
     }
     void components(std::span<const NodeId> parts) const {
@@ -52,7 +52,7 @@ struct Lineariser::OfVectors {
         own.at_each_face([&](std::size_t axis, std::size_t component) {
             if (component >= parts.size()) return;
             part.at_faces[axis][component] =
-                own.through(of(parts[component]).slopes, Kind::average, axis);
+                own.through(of(parts[component]).slopes, Difference::average, axis);
         });
     }
     void negative(NodeId vector) const { own.combine(part, of(vector), own.algebra_.number(-1)); }
@@ -98,7 +98,7 @@ void Lineariser::scale(Part& product, const Part& vector, NodeId factor, const S
                        NodeId by) {
     combine(product, vector, factor);
     at_each_face([&](std::size_t axis, std::size_t component) {
-        add(product.at_faces[axis][component], through(slopes, Kind::average, axis),
+        add(product.at_faces[axis][component], through(slopes, Difference::average, axis),
             algebra_.product(by, vector.value[component]));
     });
 }

@@ -71,12 +71,11 @@ void Lineariser::add(Slopes& sum, const Slopes& slopes, NodeId factor) {
     }
 }
 
-Slopes Lineariser::through(const Slopes& slopes, Kind kind, std::size_t axis) const {
+Slopes Lineariser::through(const Slopes& slopes, WaveOperator each) const {
     Slopes result(slopes.size());
     for (std::size_t s = 0; s < slopes.size(); ++s) {
         for (const auto& [operators, coefficient] : slopes[s]) {
-            result[s][followed_by(operators, {kind, static_cast<std::uint8_t>(axis)})] =
-                coefficient;
+            result[s][followed_by(operators, each)] = coefficient;
         }
     }
     return result;
@@ -126,41 +125,35 @@ Result<void> Lineariser::add_builtin(Builtin builtin) {
 }
 
 Result<void> Lineariser::add_call(const Node& node, Part& part) {
-    const Derivative derivative = derivative_of(node.function);
     const Slopes& first = this->part(node, 0).slopes;
-    const auto axis = static_cast<std::size_t>(derivative.first);
-    if (derivative.order == 1) {
-        part.slopes = through(first, Kind::central, axis);
+    if (const auto applied = difference_of(node.function)) {
+        const auto axis = static_cast<std::size_t>(applied->first);
+        const auto other = static_cast<std::size_t>(applied->second);
+        const bool is_mixed = applied->difference == Difference::mixed;
+        part.slopes = is_mixed ? through(through(first, Difference::central, axis),
+                                         Difference::central, other)
+                               : through(first, applied->difference, axis);
         return {};
     }
-    if (derivative.is_mixed()) {
-        part.slopes = through(through(first, Kind::central, axis), Kind::central,
-                              static_cast<std::size_t>(derivative.second));
-        return {};
-    }
-    if (derivative.order == 2) {
-        part.slopes = through(first, Kind::second, axis);
+    if (info(node.function).kind == FunctionKind::draw) {
+        model_.has_noise = true;
+        if (node.function == Function::white) return {};
+        part.value[0] = this->part(node, 0).value[0];
+        part.slopes = first;
         return {};
     }
     switch (node.function) {
-        case Function::lap: part.slopes = through(first, Kind::laplacian); return {};
-        case Function::grad2: return {};  // A square, hence 0 in a flat state.
+        case Function::grad2: return {};  // A square, and 0 in a flat state.
         case Function::advect: add_advection(node, part); return {};
         case Function::transport: add_transport(node, part); return {};
         case Function::diffuse: add_diffusion(node, part); return {};
         case Function::div:
             for (std::size_t each = 0; each < 3; ++each) {
                 add(part.slopes,
-                    through(this->part(node, 0).at_faces[each][each], Kind::across, each), one_);
+                    through(this->part(node, 0).at_faces[each][each], Difference::across, each),
+                    one_);
             }
             return {};
-        case Function::random:
-        case Function::normal:
-            model_.has_noise = true;
-            part.value[0] = this->part(node, 0).value[0];
-            part.slopes = first;
-            return {};
-        case Function::white: model_.has_noise = true; return {};
         case Function::convolve: return add_convolution(node, part);
         case Function::solved: add_unknown({node.as<Call>()->detail}, part); return {};
         default: break;
@@ -172,14 +165,14 @@ Result<void> Lineariser::add_call(const Node& node, Part& part) {
 Result<void> Lineariser::add_aggregate(const Node& node, Part& part) {
     part.value[0] = this->part(node, 0).value[0];
     NodeId factor = one_;
-    if (node.function == Function::domain_sum) {
+    if (reduction_of(node.function) == ReductionKind::sum) {
         if (model_.program->domain.model || model_.program->domain.mask) {
             return failure("'sum over domain' in its rates depends on the number of cells");
         }
         factor = algebra_.number(static_cast<double>(model_.program->domain.grid.cell_count()));
         part.value[0] = algebra_.product(factor, part.value[0]);
     }
-    add(part.slopes, through(this->part(node, 0).slopes, Kind::mean), factor);
+    add(part.slopes, through(this->part(node, 0).slopes, {Kind::mean}), factor);
     return {};
 }
 
@@ -196,7 +189,8 @@ Result<void> Lineariser::add_convolution(const Node& node, Part& part) {
     if (!kernel) return tl::unexpected(kernel.error());
     const Part& inner = this->part(node, 0);
     part.value[0] = algebra_.product(algebra_.leaf(model_.kernels[*kernel].sum), inner.value[0]);
-    part.slopes = through(inner.slopes, Kind::convolution, *kernel);
+    part.slopes =
+        through(inner.slopes, {Kind::convolution, {}, static_cast<std::uint8_t>(*kernel)});
     return {};
 }
 
@@ -240,8 +234,9 @@ void Lineariser::add_advection(const Node& node, Part& part) {
     const Slopes& carried = this->part(node, velocities).slopes;
     for (std::size_t axis = 0; axis < velocities; ++axis) {
         const NodeId velocity = this->part(node, axis).value[0];
-        add(part.slopes, through(carried, Kind::backward, axis), algebra_.maximum(velocity, zero_));
-        add(part.slopes, through(carried, Kind::forward, axis),
+        add(part.slopes, through(carried, Difference::backward, axis),
+            algebra_.maximum(velocity, zero_));
+        add(part.slopes, through(carried, Difference::forward, axis),
             algebra_.call(Function::min, {velocity, zero_}));
     }
 }
@@ -252,7 +247,8 @@ void Lineariser::add_transport(const Node& node, Part& part) {
     const std::size_t velocities = node.operand_count - 1;
     const Slopes& carried = this->part(node, velocities).slopes;
     for (std::size_t axis = 0; axis < velocities; ++axis) {
-        add(part.slopes, through(carried, Kind::central, axis), this->part(node, axis).value[0]);
+        add(part.slopes, through(carried, Difference::central, axis),
+            this->part(node, axis).value[0]);
     }
 }
 
@@ -261,9 +257,9 @@ void Lineariser::add_diffusion(const Node& node, Part& part) {
     const auto [a11, a12, a22] =
         tensor_entries(algebra_, this->part(node, 1).value[0], this->part(node, 2).value[0],
                        this->part(node, 3).value[0]);
-    add(part.slopes, through(spread, Kind::second, 0), a11);
-    add(part.slopes, through(spread, Kind::second, 1), a22);
-    add(part.slopes, through(through(spread, Kind::central, 0), Kind::central, 1),
+    add(part.slopes, through(spread, Difference::second, 0), a11);
+    add(part.slopes, through(spread, Difference::second, 1), a22);
+    add(part.slopes, through(through(spread, Difference::central, 0), Difference::central, 1),
         algebra_.product(algebra_.number(2), a12));
 }
 

@@ -42,7 +42,10 @@ private:
     const Part& part(const Node& node, std::size_t n) const { return parts_[node.operands[n]]; }
     Node of_values(const Node& node) const;
     void add(Slopes& sum, const Slopes& slopes, NodeId factor);
-    Slopes through(const Slopes& slopes, Kind kind, std::size_t axis = 0) const;
+    Slopes through(const Slopes& slopes, WaveOperator each) const;
+    Slopes through(const Slopes& slopes, Difference difference, std::size_t axis = 0) const {
+        return through(slopes, {Kind::difference, difference, static_cast<std::uint8_t>(axis)});
+    }
 
     Result<void> add_item(ItemId item, Part& part);
     Result<NodeId> parameter(ItemId item);

@@ -1,4 +1,5 @@
-// Symbols of differences, as in lang/lower/lower_operators.cpp and lower_vectors.cpp.
+// Symbols of the differences of lang/program/stencils.cpp in closed form, because they are computed
+// for many waves; tests/unit/analysis/stencils_test.cpp compares them with the weights.
 #include "analysis/wave_operators.h"
 
 #include <algorithm>
@@ -43,24 +44,24 @@ Complex symbol_of(WaveOperator each, const Lattice& lattice, const WaveKernels& 
     if (each.kind == Kind::convolution) return kernels[each.axis]->symbol(phases);
     const double h = lattice.spacing, phase = phases[each.axis];
     const Complex i(0, 1);
-    switch (each.kind) {
-        case Kind::laplacian: return laplacian(lattice, phases);
-        case Kind::mean: return phases == Phases{} ? 1.0 : 0.0;
-        case Kind::average:
+    if (each.kind == Kind::mean) return phases == Phases{} ? 1.0 : 0.0;
+    switch (each.difference) {
+        case Difference::laplacian: return laplacian(lattice, phases);
+        case Difference::average:
             return lattice.is_continuous || !lattice.has_axis[each.axis] ? 1 : std::cos(phase / 2);
         default: break;
     }
     if (!lattice.has_axis[each.axis]) return 0;
-    if (each.kind == Kind::second) return second_derivative(lattice, phase);
+    if (each.difference == Difference::second) return second_derivative(lattice, phase);
     if (lattice.is_continuous) return i * phase / h;
-    switch (each.kind) {
-        case Kind::central: {
+    switch (each.difference) {
+        case Difference::central: {
             const bool is_fourth = lattice.stencil == StencilKind::fourth;
             const double less = is_fourth ? h * h / 6 * second_difference(lattice, phase) : 0;
             return i * std::sin(phase) / h * (1 - less);
         }
-        case Kind::across: return 2.0 * i * std::sin(phase / 2) / h;
-        case Kind::backward: return (1.0 - std::exp(-i * phase)) / h;
+        case Difference::across: return 2.0 * i * std::sin(phase / 2) / h;
+        case Difference::backward: return (1.0 - std::exp(-i * phase)) / h;
         default: return (std::exp(i * phase) - 1.0) / h;
     }
 }

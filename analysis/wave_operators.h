@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/grid.h"
-#include "lang/program/program.h"
+#include "lang/program/stencils.h"
 #include "solvers/convolution.h"
 
 #include <array>
@@ -42,22 +42,18 @@ private:
 /// A model's kernels, by their numbers.
 using WaveKernels = std::vector<std::shared_ptr<const WaveKernel>>;
 
-/// An operator along an axis or along all axes.
+/// A difference along an axis or of all axes, as the stencil of the domain has it, or another
+/// operator.
 struct WaveOperator {
     // clang-format off
     enum class Kind : std::uint8_t {
-        laplacian,  ///< The sum of the second differences along all axes.
-        second,     ///< (E − 2c + W) / h².
-        central,    ///< (E − W) / 2h. These three follow the stencil of the domain.
-        across,     ///< (E − c) / h at the face between them, and the same from faces to cells.
-        average,    ///< (c + E) / 2 at the face.
-        backward,   ///< (c − W) / h, for a flow along the axis.
-        forward,    ///< (E − c) / h, for a flow against it.
-        mean,       ///< Over the domain: 1 for a uniform change, else 0.
-        convolution,  ///< With a kernel, whose number replaces the axis.
+        difference,
+        mean,         ///< Over the domain: 1 for a change that is the same in all cells, else 0.
+        convolution,  ///< With a kernel, whose number is in place of an axis.
     };
     // clang-format on
-    Kind kind = Kind::laplacian;
+    Kind kind = Kind::difference;
+    Difference difference = Difference::laplacian;
     std::uint8_t axis = 0;
 
     friend auto operator<=>(const WaveOperator&, const WaveOperator&) = default;

@@ -33,39 +33,38 @@ std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& 
 class LineBound {
 public:
     explicit LineBound(Algebra& algebra)
-        : algebra_(algebra),
-          zero_(algebra.number(0)),
+        : zero_{&algebra, algebra.number(0)},
           whole_(zero_),
           far_(zero_),
           others_(zero_),
           own_(zero_) {}
 
     void add(const Slope& slope, bool is_own_species) {
-        const NodeId size = algebra_.magnitude(slope.own);
-        whole_ = algebra_.sum(whole_, algebra_.sum(size, slope.far));
-        far_ = algebra_.sum(far_, slope.far);
-        others_ = algebra_.sum(others_, slope.other);
+        const Term size = abs(slope.own);
+        whole_ = whole_ + (size + slope.far);
+        far_ = far_ + slope.far;
+        others_ = others_ + slope.other;
         if (is_own_species) {
             own_ = slope.own;
         } else {
-            others_ = algebra_.sum(others_, size);
+            others_ = others_ + size;
         }
         if (slope.diffusion.empty()) return;
         (is_own_species ? own_diffusion_ : cross_diffusion_).push_back(slope.diffusion);
     }
 
-    NodeId whole() const { return whole_; }
-    NodeId far() const { return far_; }
-    NodeId own() const { return own_; }
+    Term whole() const { return whole_; }
+    Term far() const { return far_; }
+    Term own() const { return own_; }
     /// Without growth of waves.
-    NodeId at_rest() { return algebra_.sum(algebra_.magnitude(own_), others_); }
+    Term at_rest() { return abs(own_) + others_; }
     bool has_cross_diffusion() const { return !cross_diffusion_.empty(); }
 
     /// The largest growth of waves of any length, or the reaction alone.
-    NodeId reaction() {
-        NodeId most = algebra_.magnitude(own_);
-        for (const double x : lengths()) most = algebra_.maximum(most, growth(x));
-        return algebra_.sum(most, others_);
+    Term reaction() {
+        Term most = abs(own_);
+        for (const double x : lengths()) most = max(most, growth(x));
+        return most + others_;
     }
 
 private:
@@ -83,40 +82,38 @@ private:
         return lengths;
     }
 
-    NodeId growth(double x) {
-        NodeId sum = own_;
-        for (const auto& each : own_diffusion_) sum = algebra_.sum(sum, factor(each, x));
+    Term growth(double x) {
+        Term sum = own_;
+        for (const auto& each : own_diffusion_) sum = sum + factor(each, x);
         for (const auto& each : cross_diffusion_) {
-            sum = algebra_.sum(sum, algebra_.magnitude(factor(each, x)));
+            sum = sum + abs(factor(each, x));
         }
         return sum;
     }
 
     /// Σ coefficients[k] (−x)^(k+1), by Horner's scheme.
-    NodeId factor(const std::vector<NodeId>& coefficients, double x) {
-        const NodeId minus_x = algebra_.number(-x);
-        NodeId sum = zero_;
+    Term factor(const std::vector<Term>& coefficients, double x) {
+        const Term minus_x = zero_.number(-x);
+        Term sum = zero_;
         for (std::size_t k = coefficients.size(); k-- > 0;) {
-            sum = algebra_.product(minus_x, algebra_.sum(coefficients[k], sum));
+            sum = minus_x * (coefficients[k] + sum);
         }
         return sum;
     }
 
-    Algebra& algebra_;
-    NodeId zero_, whole_, far_, others_, own_;
-    std::vector<std::vector<NodeId>> own_diffusion_, cross_diffusion_;
+    Term zero_, whole_, far_, others_, own_;
+    std::vector<std::vector<Term>> own_diffusion_, cross_diffusion_;
 };
 
-NodeId largest(Algebra& algebra, const std::vector<NodeId>& parts) {
-    NodeId most = parts[0];
-    for (const NodeId part : parts) most = algebra.maximum(most, part);
+Term largest(const std::vector<Term>& parts) {
+    Term most = parts[0];
+    for (const Term part : parts) most = max(most, part);
     return most;
 }
 
 /// The largest value of a part over the domain.
-Formula over_domain(Algebra& algebra, NodeId part) {
-    return algebra.formula(algebra.is_number(part) ? part
-                                                   : algebra.call(Function::domain_max, {part}));
+Formula over_domain(const Algebra& algebra, Term part) {
+    return algebra.formula(algebra.is_number(part) ? part : domain_max(part));
 }
 
 /// The matrix of slopes by rate and species, as rows and columns.
@@ -135,40 +132,40 @@ public:
 
     bool jumps() const { return jumps_; }
 
-    NodeId whole() {
-        std::vector<NodeId> parts;
+    Term whole() {
+        std::vector<Term> parts;
         for (LineBound& row : rows_) parts.push_back(row.whole());
-        return largest(algebra_, parts);
+        return largest(parts);
     }
 
-    NodeId spread() {
-        std::vector<NodeId> parts;
+    Term spread() {
+        std::vector<Term> parts;
         for (LineBound& row : rows_) parts.push_back(row.far());
-        return largest(algebra_, parts);
+        return largest(parts);
     }
 
-    NodeId growth() {
-        std::vector<NodeId> parts{algebra_.number(0)};
+    Term growth() {
+        std::vector<Term> parts{{&algebra_, algebra_.number(0)}};
         for (LineBound& row : rows_) parts.push_back(row.own());
-        return largest(algebra_, parts);
+        return largest(parts);
     }
 
     /// A matrix has the eigenvalues of its transpose. If one species drags another along, as bait
     /// does cells, its column may give a smaller bound than the other's row.
-    NodeId reaction() {
-        const NodeId by_rows = growth_in(rows_);
+    Term reaction() {
+        const Term by_rows = growth_in(rows_);
         const auto crosses = [](const LineBound& row) { return row.has_cross_diffusion(); };
         if (std::none_of(rows_.begin(), rows_.end(), crosses)) return by_rows;
-        std::vector<NodeId> parts{growth_in(columns_)};
+        std::vector<Term> parts{growth_in(columns_)};
         for (LineBound& row : rows_) parts.push_back(row.at_rest());
-        return algebra_.call(Function::min, {by_rows, largest(algebra_, parts)});
+        return min(by_rows, largest(parts));
     }
 
 private:
-    NodeId growth_in(IdVector<SpeciesId, LineBound>& lines) {
-        std::vector<NodeId> parts;
+    Term growth_in(IdVector<SpeciesId, LineBound>& lines) {
+        std::vector<Term> parts;
         for (LineBound& line : lines) parts.push_back(line.reaction());
-        return largest(algebra_, parts);
+        return largest(parts);
     }
 
     Algebra& algebra_;
@@ -212,8 +209,8 @@ std::optional<JacobianBound> jacobian_bound(const Program& program, std::uint32_
             matrix.add((*slopes)[rates.rate(species[of])][0], of, by);
         }
     }
-    const NodeId whole = matrix.whole(), reaction = matrix.reaction();
-    const NodeId spread = matrix.spread(), growth = matrix.growth();
+    const Term whole = matrix.whole(), reaction = matrix.reaction();
+    const Term spread = matrix.spread(), growth = matrix.growth();
     if (algebra.size() > most_calculus_nodes) return std::nullopt;
     return JacobianBound{over_domain(algebra, whole), over_domain(algebra, reaction),
                          over_domain(algebra, spread), over_domain(algebra, growth),

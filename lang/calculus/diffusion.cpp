@@ -5,6 +5,7 @@
 #include "lang/calculus/derivative_rules.h"
 #include "lang/calculus/algebra.h"
 #include "lang/program/nodes_of_rates.h"
+#include "lang/program/stencils.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +19,8 @@ namespace {
 
 /// How a part changes with the species: directly, then through the operators of DiffusionTerms.
 struct Operators {
-    NodeId own;
-    DiffusionTerms<NodeId> terms{};
+    Term own;
+    DiffusionTerms<Term> terms{};
 };
 
 /// Does a node have the same value in all cells? Not if it aggregates values that differ by cell.
@@ -38,7 +39,7 @@ public:
           species_(species),
           program_(program),
           stage_(stage),
-          zero_(algebra_.number(0)) {}
+          zero_{&algebra_, algebra_.number(0)} {}
 
     /// The operators of all parts; fewer if there are too many nodes.
     IdVector<NodeId, Operators> run() && {
@@ -65,19 +66,17 @@ private:
     Operators operators_of(NodeId id) {
         const Node node = algebra_[id];
         Operators result = nothing();
-        if (node.is(species_)) result.own = algebra_.number(1);
+        if (node.is(species_)) result.own = zero_.number(1);
         if (!node.is<Call>()) return result;
-        const Derivative derivative = derivative_of(node.function);
-        if (derivative.order == 2 && !derivative.is_mixed()) {
-            return along_axis(found_[node.operands[0]], derivative.first);
+        const Operators& first = found_[node.operands[0]];
+        const auto applied = difference_of(node.function);
+        if (applied && applied->difference == Difference::second) {
+            return along_axis(first, applied->first);
         }
-        switch (node.function) {
-            case Function::lap:
-            case Function::div: return laplacian(found_[node.operands[0]]);
-            case Function::grad: return found_[node.operands[0]];
-            case Function::diffuse: return directed(node);
-            default: break;
-        }
+        const bool is_lap = applied && applied->difference == Difference::laplacian;
+        if (is_lap || node.function == Function::div) return laplacian(first);
+        if (node.function == Function::grad) return first;
+        if (node.function == Function::diffuse) return directed(node);
         const bool is_vector = node.type == ValueType::vector;
         for (std::size_t n = 0; n < node.operand_count; ++n) {
             const NodeId operand = node.operands[n];
@@ -86,18 +85,17 @@ private:
             if (is_nothing(found_[operand])) continue;
             const auto partial = partial_derivative(algebra_, node, n);
             if (!partial) continue;
-            add(result, *partial, found_[operand]);
+            add(result, {&algebra_, *partial}, found_[operand]);
         }
         return result;
     }
 
-    void add(Operators& sum, NodeId factor, const Operators& operators) {
-        if (algebra_[factor].type != ValueType::number) return;
-        const auto add_one = [&](NodeId& to, NodeId term) {
-            to = algebra_.sum(to, algebra_.product(factor, term));
-        };
-        add_one(sum.own, operators.own);
-        for (std::size_t k = 0; k < diffusion_terms; ++k) add_one(sum.terms[k], operators.terms[k]);
+    void add(Operators& sum, Term factor, const Operators& operators) {
+        if (factor.type() != ValueType::number) return;
+        sum.own = sum.own + factor * operators.own;
+        for (std::size_t k = 0; k < diffusion_terms; ++k) {
+            sum.terms[k] = sum.terms[k] + factor * operators.terms[k];
+        }
     }
 
     /// Drops powers beyond the last, and lap of an operator along one axis.
@@ -128,14 +126,14 @@ private:
         if (is_periodic && std::ranges::all_of(std::array{a11, mixed, a22, own}, [&](NodeId id) {
                 return is_even(algebra_, id, program_, stage_);
             })) {
-            const auto factor = [&](NodeId a) { return algebra_.product(a, own); };
+            const auto factor = [&](Term a) { return a * own; };
             result.terms[laplacian_powers] = factor(a11);
             result.terms[laplacian_powers + 1] = factor(a22);
-            result.terms[mixed_term] = algebra_.product(algebra_.number(2), factor(mixed));
+            result.terms[mixed_term] = zero_.number(2) * factor(mixed);
             return result;
         }
-        const NodeId a12 = algebra_.magnitude(mixed);
-        const auto factor = [&](NodeId a) { return algebra_.product(algebra_.sum(a, a12), own); };
+        const Term a12 = abs(mixed);
+        const auto factor = [&](Term a) { return (a + a12) * own; };
         result.terms[laplacian_powers] = factor(a11);
         result.terms[laplacian_powers + 1] = factor(a22);
         return result;
@@ -146,7 +144,7 @@ private:
     ItemId species_;
     const Program& program_;
     std::uint32_t stage_;
-    NodeId zero_;
+    Term zero_;
     IdVector<NodeId, Operators> found_;
 };
 
@@ -162,22 +160,22 @@ IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::
         if (rates.rate(item) >= found.next()) continue;
         for (std::size_t k = 0; k < diffusion_terms; ++k) {
             Algebra& algebra = rates.algebra;
-            NodeId factor = found[rates.rate(item)].terms[k];
+            Term factor = found[rates.rate(item)].terms[k];
             if (algebra.is_number(factor, 0)) continue;
             const bool is_even_power = k < laplacian_powers && k % 2 == 1;
-            if (is_even_power) factor = algebra.negative(factor);
+            if (is_even_power) factor = -factor;
             Formula formula = algebra.formula(factor);
             if (!holds_in(formula, is_draw)) of_species[k] = std::move(formula);
         }
         const bool diffuses = std::ranges::any_of(of_species, [](const Formula& factor) {
             return !factor.nodes.empty();
         });
-        const NodeId own = found[rates.rate(item)].own;
+        const Term own = found[rates.rate(item)].own;
         if (!diffuses || rates.algebra.is_number(own, 0) ||
             !is_even(rates.algebra, own, program, stage)) {
             continue;
         }
-        Formula decay = rates.algebra.formula(rates.algebra.negative(own));
+        Formula decay = rates.algebra.formula(-own);
         if (!holds_in(decay, is_draw)) of_species[decay_term] = std::move(decay);
     }
     return result;

@@ -4,6 +4,7 @@
 
 #include "lang/calculus/algebra.h"
 #include "lang/program/models.h"
+#include "lang/program/stencils.h"
 
 #include <cstddef>
 #include <optional>
@@ -20,28 +21,28 @@ public:
     bool is_on_model() const { return links_.has_value(); }
 
     /// The largest factor of an operator that makes all waves decay; none for other operators.
-    std::optional<NodeId> of_diffusion(const Node& node);
+    std::optional<Term> of_diffusion(const Node& node);
     /// The gain of another operator or an aggregate; none for other functions.
-    std::optional<NodeId> of_other(const Node& node);
+    std::optional<Term> of_other(const Node& node);
     /// Of the derivative along a direction, with faces, and of the central difference.
-    NodeId of_gradient(std::size_t axis);
-    NodeId of_derivative(std::size_t axis);
+    Term of_gradient(std::size_t axis);
+    Term of_derivative(std::size_t axis);
 
     /// The components of a vector at the cell itself.
     const SparseVector& components(NodeId vector) { return vectors_.components(vector); }
     /// The central difference of a number along an axis; 0 along one that the grid does not have.
-    NodeId derivative(NodeId of, std::size_t axis);
+    Term derivative(NodeId of, std::size_t axis);
 
 private:
-    NodeId metric(MetricPlane plane);
-    double of_stencil(int axes) const;
+    Term metric(MetricPlane plane);
+    double largest(Difference difference) const;
 
     Algebra& algebra_;
     const Grid& grid_;
     bool has_metric_;
     StencilKind stencil_;
     std::optional<double> links_;  ///< The largest sum of weights of a cell's links, on a model.
-    NodeId zero_;
+    Term zero_;
     FieldVectors vectors_;
 };
 

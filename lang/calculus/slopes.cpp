@@ -11,70 +11,60 @@
 namespace cascade {
 
 SlopeRules::SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model)
-    : algebra_(algebra), gains_(algebra, program, model), zero_(algebra.number(0)) {}
+    : algebra_(algebra), gains_(algebra, program, model), zero_{&algebra, algebra.number(0)} {}
 
 bool SlopeRules::is_zero(const Slope& slope) const {
     return slope.own == zero_ && slope.far == zero_ && !slope.jumps;
 }
 
-NodeId SlopeRules::all_of(const Slope& slope) {
-    return algebra_.sum(algebra_.magnitude(slope.own), slope.far);
-}
-
 void SlopeRules::add(Slope& sum_so_far, const Slope& slope) {
-    sum_so_far.own = algebra_.sum(sum_so_far.own, slope.own);
-    sum_so_far.far = algebra_.sum(sum_so_far.far, slope.far);
-    sum_so_far.other = algebra_.sum(sum_so_far.other, slope.other);
+    sum_so_far.own = sum_so_far.own + slope.own;
+    sum_so_far.far = sum_so_far.far + slope.far;
+    sum_so_far.other = sum_so_far.other + slope.other;
     sum_so_far.jumps |= slope.jumps;
     if (sum_so_far.diffusion.size() < slope.diffusion.size()) {
         sum_so_far.diffusion.resize(slope.diffusion.size(), zero_);
     }
     for (std::size_t k = 0; k < slope.diffusion.size(); ++k) {
-        sum_so_far.diffusion[k] = algebra_.sum(sum_so_far.diffusion[k], slope.diffusion[k]);
+        sum_so_far.diffusion[k] = sum_so_far.diffusion[k] + slope.diffusion[k];
     }
 }
 
-Slope SlopeRules::scaled(const Slope& slope, NodeId factor) {
-    const NodeId size = algebra_.magnitude(factor);
-    Slope result{algebra_.product(slope.own, factor),
-                 algebra_.product(slope.far, size),
-                 {},
-                 algebra_.product(slope.other, size),
-                 slope.jumps};
-    for (const NodeId each : slope.diffusion)
-        result.diffusion.push_back(algebra_.product(each, factor));
+Slope SlopeRules::scaled(const Slope& slope, Term factor) {
+    const Term size = abs(factor);
+    Slope result{slope.own * factor, slope.far * size, {}, slope.other * size, slope.jumps};
+    for (const Term each : slope.diffusion) result.diffusion.push_back(each * factor);
     return result;
 }
 
 /// After an operator of diffusion, or half of one: a gradient or a divergence.
-Slope SlopeRules::through_diffusion(const Slope& slope, NodeId gain) {
+Slope SlopeRules::through_diffusion(const Slope& slope, Term gain) {
     Slope result = zero();
     result.jumps = slope.jumps;
-    result.far = algebra_.product(gain, all_of(slope));
-    result.other = algebra_.product(gain, slope.other);
-    result.diffusion.push_back(algebra_.product(gain, slope.own));
-    for (const NodeId each : slope.diffusion)
-        result.diffusion.push_back(algebra_.product(gain, each));
+    result.far = gain * all_of(slope);
+    result.other = gain * slope.other;
+    result.diffusion.push_back(gain * slope.own);
+    for (const Term each : slope.diffusion) result.diffusion.push_back(gain * each);
     return result;
 }
 
-Slope SlopeRules::through_other(const Slope& slope, NodeId gain) {
-    const NodeId far = algebra_.product(gain, all_of(slope));
+Slope SlopeRules::through_other(const Slope& slope, Term gain) {
+    const Term far = gain * all_of(slope);
     return {zero_, far, {}, far, slope.jumps};
 }
 
 /// The slope of a factor in a product that is averaged at faces, where diffusion cannot be told
 /// from the rest.
-Slope SlopeRules::as_other(const Slope& slope, NodeId factor) {
-    const NodeId far = algebra_.product(slope.far, algebra_.magnitude(factor));
-    return {algebra_.product(slope.own, factor), far, {}, far, slope.jumps};
+Slope SlopeRules::as_other(const Slope& slope, Term factor) {
+    const Term far = slope.far * abs(factor);
+    return {slope.own * factor, far, {}, far, slope.jumps};
 }
 
 std::optional<Slopes> SlopeRules::slopes_of(NodeId id, ItemId species,
                                             const IdVector<NodeId, Slopes>& before) {
     const Node node = algebra_[id];
     Slopes slopes{zero(), zero(), zero()};
-    if (node.is(species)) slopes[0].own = algebra_.number(1);
+    if (node.is(species)) slopes[0].own = zero_.number(1);
     if (!node.is<Call>()) return slopes;
     bool depends = false;
     for (const NodeId operand : node.reads()) {
@@ -121,7 +111,7 @@ std::optional<Slope> SlopeRules::by_partials(const Node& node,
         if (is_zero(inner)) continue;
         const auto partial = partial_derivative(algebra_, node, n);
         if (!partial) return std::nullopt;
-        add(slope, scaled(inner, *partial));
+        add(slope, scaled(inner, term(*partial)));
         slope.jumps |= jumps_by(node.function, n);
     }
     return slope;
@@ -132,9 +122,9 @@ Slope SlopeRules::of_squared_gradient(const Node& node, const Slope& inner) {
     Slope slope = zero();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!gains_.has_axis(axis)) continue;
-        const NodeId along = algebra_.magnitude(gains_.derivative(node.operands[0], axis));
-        const NodeId twice = algebra_.product(algebra_.number(2), gains_.of_derivative(axis));
-        add(slope, through_other(inner, algebra_.product(along, twice)));
+        const Term along = abs(gains_.derivative(node.operands[0], axis));
+        const Term twice = zero_.number(2) * gains_.of_derivative(axis);
+        add(slope, through_other(inner, along * twice));
     }
     return slope;
 }
@@ -147,25 +137,23 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
     Slope slope = zero();
     Node by_change = node;
     bool velocity_changes = false;
-    NodeId speed = zero_;
+    Term speed = zero_;
     for (std::size_t axis = 0; axis < velocities; ++axis) {
-        const NodeId velocity = node.operands[axis];
+        const Term velocity = term(node.operands[axis]);
         const Slope& change = before[velocity][0];
         by_change.operands[axis] = change.own;
         velocity_changes |= change.own != zero_;
         if (!gains_.has_axis(axis)) continue;
         add(slope, as_other({zero_, change.far, {}, change.other, change.jumps},
                             gains_.derivative(carried, axis)));
-        speed = algebra_.sum(speed, algebra_.product(algebra_.magnitude(velocity),
-                                                     gains_.of_gradient(axis)));
+        speed = speed + abs(velocity) * gains_.of_gradient(axis);
     }
-    if (velocity_changes) slope.own = algebra_.add(by_change);
-    if (node.calls(Function::transport)) speed = algebra_.product(algebra_.number(2), speed);
+    if (velocity_changes) slope.own = term(algebra_.add(by_change));
+    if (node.calls(Function::transport)) speed = zero_.number(2) * speed;
     const Slope& inner = before[carried][0];
     Slope carries = through_diffusion(inner, speed);
-    for (NodeId& each : carries.diffusion) each = algebra_.negative(each);
-    carries.other =
-        algebra_.sum(carries.other, algebra_.product(algebra_.number(0.5), carries.far));
+    for (Term& each : carries.diffusion) each = -each;
+    carries.other = carries.other + zero_.number(0.5) * carries.far;
     add(slope, carries);
     return slope;
 }
@@ -185,25 +173,19 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
         changes |= along.own != zero_;
         slope.jumps |= along.jumps;
         if (!gains_.has_axis(axis)) continue;
-        const NodeId gain = gains_.of_gradient(axis);
-        slope.far = algebra_.sum(slope.far, algebra_.product(gain, all_of(along)));
-        slope.other = algebra_.sum(
-            slope.other,
-            algebra_.product(gain, algebra_.sum(algebra_.product(algebra_.number(0.5),
-                                                                 algebra_.magnitude(along.own)),
-                                                along.other)));
+        const Term gain = gains_.of_gradient(axis);
+        slope.far = slope.far + gain * all_of(along);
+        slope.other = slope.other + gain * (zero_.number(0.5) * abs(along.own) + along.other);
         if (slope.diffusion.size() < along.diffusion.size()) {
             slope.diffusion.resize(along.diffusion.size(), zero_);
         }
         for (std::size_t k = 0; k < along.diffusion.size(); ++k) {
-            slope.diffusion[k] =
-                algebra_.sum(slope.diffusion[k], algebra_.product(gain, along.diffusion[k]));
+            slope.diffusion[k] = slope.diffusion[k] + gain * along.diffusion[k];
         }
     }
     // On a model components make no flux, so the change of the cell's own value is bounded like
     // those of its neighbours.
-    if (changes && !gains_.is_on_model())
-        slope.own = algebra_.call(Function::div, {algebra_.add(vector)});
+    if (changes && !gains_.is_on_model()) slope.own = div(term(algebra_.add(vector)));
     return slope;
 }
 
@@ -221,7 +203,7 @@ struct SlopeRules::OfVectors {
     SlopeRules& own;
     const IdVector<NodeId, Slopes>& before;
 
-    NodeId number(double value) const { return own.algebra_.number(value); }
+    Term number(double value) const { return own.zero_.number(value); }
     Slopes gradient(NodeId of) const {
         return own.along_axes([&](std::size_t axis) {
             return own.through_diffusion(before[of][0], own.gains_.of_gradient(axis));
@@ -233,7 +215,7 @@ struct SlopeRules::OfVectors {
                                        : own.zero();
         });
     }
-    Slopes scaled(NodeId vector, NodeId by) const {
+    Slopes scaled(NodeId vector, Term by) const {
         return own.along_axes(
             [&](std::size_t axis) { return own.scaled(before[vector][axis], by); });
     }
@@ -248,20 +230,20 @@ struct SlopeRules::OfVectors {
     Slopes sum(NodeId a, NodeId b) const { return joined(a, before[b]); }
     Slopes difference(NodeId a, NodeId b) const { return joined(a, negative(b)); }
     Slopes quotient(NodeId vector, NodeId factor) const {
-        const NodeId by = own.algebra_.quotient(number(1), factor);
-        const NodeId change = own.algebra_.negative(own.algebra_.product(by, by));
+        const Term by = number(1) / own.term(factor);
+        const Term change = -(by * by);
         return multiple(vector, by, factor, change);
     }
     Slopes product(NodeId a, NodeId b, bool is_vector_first) const {
         const NodeId factor = is_vector_first ? b : a;
-        return multiple(is_vector_first ? a : b, factor, factor, number(1));
+        return multiple(is_vector_first ? a : b, own.term(factor), factor, number(1));
     }
     /// A vector times `by`, which changes by `change` times the change of `factor`.
-    Slopes multiple(NodeId vector, NodeId by, NodeId factor, NodeId change) const {
+    Slopes multiple(NodeId vector, Term by, NodeId factor, Term change) const {
         return own.along_axes([&](std::size_t axis) {
             Slope slope = own.scaled(before[vector][axis], by);
-            const NodeId value = own.gains_.components(vector)[axis].term;
-            own.add(slope, own.as_other(before[factor][0], own.algebra_.product(value, change)));
+            const Term value = own.gains_.components(vector)[axis].term;
+            own.add(slope, own.as_other(before[factor][0], value * change));
             return slope;
         });
     }
@@ -279,10 +261,8 @@ std::optional<Slopes> SlopeRules::of_vector(const Node& node,
 /// Waves of a gradient decay at most as fast as if the larger of a1² and a2² held in all directions
 /// (surface/cell_frames.h).
 Slopes SlopeRules::times_model_tensor(const Node& tensor, const Slopes& flux) {
-    const auto square = [&](std::size_t n) {
-        return algebra_.product(tensor.operands[n], tensor.operands[n]);
-    };
-    const NodeId most = algebra_.maximum(square(0), square(1));
+    const Term a1 = term(tensor.operands[0]), a2 = term(tensor.operands[1]);
+    const Term most = max(square(a1), square(a2));
     Slopes slopes{zero(), zero(), zero()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         slopes[axis] = scaled(flux[axis], most);
@@ -315,8 +295,8 @@ Slopes SlopeRules::times_tensor(NodeId tensor, const Slopes& flux) {
     Slopes slopes{zero(), zero(), zero()};
     const TensorMatrix matrix = tensor_matrix(algebra_, tensor, false);
     for (std::size_t axis = 0; axis < size; ++axis) {
-        NodeId along = matrix[axis][axis];
-        if (in_space) along = algebra_.product(algebra_.number(9.0 / 8), along);
+        Term along = matrix[axis][axis];
+        if (in_space) along = zero_.number(9.0 / 8) * along;
         slopes[axis] = scaled(flux[axis], along);
         for (std::size_t other = 0; other < size && !is_gradient; ++other) {
             if (other == axis) continue;

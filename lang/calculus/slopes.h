@@ -19,16 +19,16 @@ namespace cascade {
 
 /// The change of a number, or of one component of a vector at the faces.
 struct Slope {
-    NodeId own;  ///< The derivative by the cell's own value, without operators.
+    Term own;  ///< The derivative by the cell's own value, without operators.
     /// Σ of the magnitudes of the derivatives through operators and aggregates, over all cells: no
     /// wave is multiplied by more. Never below 0.
-    NodeId far;
+    Term far;
     /// The part that is diffusion: diffusion[k] is the coefficient of (−x)^(k+1). For a vector's
     /// component, [k] is the factor of the gradient of what would be (−x)^k, so that its divergence
     /// has the same coefficients.
-    std::vector<NodeId> diffusion;
+    std::vector<Term> diffusion;
     /// The magnitude of the rest: waves that travel, mixed derivatives, aggregates.
-    NodeId other;
+    Term other;
     /// Does it jump where the species passes a threshold? The derivatives do not show this.
     bool jumps = false;
 };
@@ -46,14 +46,15 @@ public:
                                     const IdVector<NodeId, Slopes>& before);
 
 private:
+    Term term(NodeId id) const { return {&algebra_, id}; }
     Slope zero() const { return {zero_, zero_, {}, zero_, false}; }
     bool is_zero(const Slope& slope) const;
-    NodeId all_of(const Slope& slope);
+    Term all_of(const Slope& slope) { return abs(slope.own) + slope.far; }
     void add(Slope& sum, const Slope& slope);
-    Slope scaled(const Slope& slope, NodeId factor);
-    Slope through_diffusion(const Slope& slope, NodeId gain);
-    Slope through_other(const Slope& slope, NodeId gain);
-    Slope as_other(const Slope& slope, NodeId factor);
+    Slope scaled(const Slope& slope, Term factor);
+    Slope through_diffusion(const Slope& slope, Term gain);
+    Slope through_other(const Slope& slope, Term gain);
+    Slope as_other(const Slope& slope, Term factor);
 
     std::optional<Slope> of_number(const Node& node, const IdVector<NodeId, Slopes>& before);
     std::optional<Slope> by_partials(const Node& node, const IdVector<NodeId, Slopes>& before);
@@ -69,7 +70,7 @@ private:
 
     Algebra& algebra_;
     OperatorGains gains_;
-    NodeId zero_;
+    Term zero_;
 };
 
 }  // namespace cascade

@@ -4,6 +4,7 @@
 #include "core/check.h"
 
 #include <bit>
+#include <cstdlib>
 #include <utility>
 
 namespace cascade::lowering {
@@ -46,6 +47,27 @@ std::size_t NodeValues::place(NodeId id, std::uint32_t where) const {
 ValueId NodeValues::scaled(ValueId value, double factor) const {
     if (factor == 1) return value;
     return builder_.multiply(value, builder_.number(factor));
+}
+
+std::optional<ValueId> NodeValues::weighted(NodeId id, const Taps& taps, bool keeps_product,
+                                            Offset from) const {
+    std::optional<ValueId> sum;
+    for (std::size_t k = 0; k < taps.taps.size();) {
+        const int weight = taps.taps[k].weight;
+        ValueId part = beside(id, from + taps.taps[k].at);
+        for (++k; k < taps.taps.size() && taps.taps[k].weight == weight; ++k) {
+            part = builder_.add(part, beside(id, from + taps.taps[k].at));
+        }
+        if (std::abs(weight) != 1) {
+            part = builder_.multiply(builder_.number(std::abs(weight)), part);
+            // Rounded like the operation on a plane, so that contraction cannot tell which of the
+            // two is in use.
+            if (keeps_product) builder_.keep(part);
+        }
+        if (!sum) sum = weight > 0 ? part : builder_.apply(Op::negate, part);
+        else sum = weight > 0 ? builder_.add(*sum, part) : builder_.subtract(*sum, part);
+    }
+    return sum;
 }
 
 PassLowering::PassLowering(const PassView& pass, KernelAssembly& assembly,

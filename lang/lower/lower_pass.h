@@ -75,6 +75,10 @@ public:
     ValueId beside(NodeId id, Offset from, Offset step) const;
     ValueId chosen(Offset inside, ValueId value, ValueId otherwise) const;
 
+    /// The sum of a row of the table of differences, not divided; nothing if it has no taps. Cells
+    /// of a weight are added first. The last product may be kept from contraction.
+    std::optional<ValueId> weighted(NodeId id, const Taps& taps, bool keeps_product = false,
+                                    Offset from = {}) const;
     /// Multiplies unless the factor is 1.
     ValueId scaled(ValueId value, double factor) const;
 
@@ -105,6 +109,7 @@ public:
     ValueId divergence(const Node& node);
 
 private:
+    ValueId difference(NodeId id, Difference kind, Face face) const;
     ValueId average(NodeId id, Face face) const;
     struct AtFace;
     ValueId gradient(NodeId operand, Face face) const;
@@ -118,7 +123,7 @@ private:
     void find_what_crosses_sides();
 
     const PlanGraph& graph_;
-    const Axes& axes_;
+    const GridAxes& axes_;
     KernelBuilder& builder_;
     const NodeValues& values_;
     const Grid& grid_;

@@ -33,10 +33,15 @@ Fluxes::Fluxes(const PassView& pass, KernelAssembly& assembly, const NodeValues&
       values_(values),
       grid_(graph_.program().domain.grid) {}
 
+ValueId Fluxes::difference(NodeId id, Difference kind, Face face) const {
+    const Taps taps = taps_of(kind, axes_, face.axis);
+    const ValueId sum = *values_.weighted(id, taps, false, face.cell());
+    return values_.scaled(sum, 1 / taps.size(grid_.spacing));
+}
+
 ValueId Fluxes::average(NodeId id, Face face) const {
     if (graph_.is_uniform(id)) return values_.number_at(id, {});
-    return values_.scaled(
-        builder_.add(values_.beside(id, face.cell()), values_.beside(id, face.next())), 0.5);
+    return difference(id, Difference::average, face);
 }
 
 /// Across the face (E − c) / h; along it the mean of the central differences of both cells,
@@ -45,11 +50,7 @@ ValueId Fluxes::gradient(NodeId operand, Face face) const {
     if (graph_.is_uniform(operand) || !axes_.has(face.component)) {
         return builder_.number(0);
     }
-    if (face.component == face.axis) {
-        const ValueId across = builder_.subtract(values_.beside(operand, face.next()),
-                                                 values_.beside(operand, face.cell()));
-        return values_.scaled(across, 1 / grid_.spacing);
-    }
+    if (face.component == face.axis) return difference(operand, Difference::across, face);
     const auto along = [&](Offset cell) {
         return builder_.subtract(values_.beside(operand, cell, Offset::along(face.component, 1)),
                                  values_.beside(operand, cell, Offset::along(face.component, -1)));

@@ -1,5 +1,8 @@
 // Finds, readers first, where a pass needs the operands of its nodes.
 #include "lang/lower/lower_pass.h"
+#include "lang/program/vector_functions.h"
+
+#include <span>
 
 namespace cascade::lowering {
 
@@ -41,7 +44,11 @@ private:
 
     void need_operands(NodeId id, std::uint32_t where) {
         const Node& node = graph_[id];
-        if (is_vector(node)) return need_of_vector(node, where);
+        if (is_vector(node)) {
+            return for_each_face(where, [&](Face face) {
+                vector_by(AtFace{*this, face}, graph_, node);
+            });
+        }
         if (node.calls(Function::div)) {
             for (const int axis : planner_.axes().present) {
                 for (const int side : {0, 1}) {
@@ -69,65 +76,50 @@ private:
             graph_.is_linked() ||
             (node.calls(Function::lap) && !graph_.has_mask() && pass_.can_read_as_plane(last));
         if (reads_plane) return need(last, own_cell);
-        need_beside(last, stencil_offsets(node, planner_.axes()));
+        need_beside(last, offsets_of(node, planner_.axes()));
     }
 
-    /// The two cells beside each face.
-    void need_at_faces(NodeId operand, std::uint32_t faces) {
-        if (graph_[operand].type == ValueType::tensor) {
-            for (const NodeId entry : graph_[operand].reads()) need_at_faces(entry, faces);
-            return;
+    /// What a component of a vector needs at a face: numbers in the two cells beside it, and
+    /// vectors at the face itself.
+    struct AtFace {
+        NeedFinder& own;
+        Face where;
+
+        void number(NodeId id) const {
+            own.need_beside(id, only(where.cell()) | only(where.next()));
         }
-        for_each_face(faces, [&](Face face) {
-            need_beside(operand, only(face.cell()) | only(face.next()));
-        });
-    }
+        void flow(NodeId vector, int component) const {
+            const Face at{where.axis, component, where.side};
+            own.need(vector, std::uint32_t{1} << at.number());
+        }
+        void flow(NodeId vector) const { flow(vector, where.component); }
 
-    void need_of_gradient(NodeId operand, Face face) {
-        if (!planner_.axes().has(face.component)) return;
-        Offsets offsets = only(face.cell()) | only(face.next());
-        if (face.component != face.axis) {
-            offsets = 0;
-            for (const int by : {-1, 1}) {
-                const Offset beside = Offset::along(face.component, by);
-                offsets |= only(face.cell() + beside) | only(face.next() + beside);
+        void gradient(NodeId of) const {
+            if (where.component == where.axis) return number(of);
+            Offsets offsets = 0;
+            const Taps taps = taps_of(Difference::central, own.planner_.axes(), where.component);
+            for (const Tap& tap : taps.taps) {
+                offsets |= only(where.cell() + tap.at) | only(where.next() + tap.at);
             }
+            if (offsets != 0) own.need_beside(of, offsets);
         }
-        need_beside(operand, offsets);
-    }
-
-    void need_of_vector(const Node& node, std::uint32_t faces) {
-        if (node.calls(Function::vector)) {
-            for_each_face(faces, [&](Face face) {
-                const auto component = static_cast<std::size_t>(face.component);
-                if (component >= node.operand_count) return;
-                need_beside(node.operands[component], only(face.cell()) | only(face.next()));
-            });
-            return;
+        void components(std::span<const NodeId> parts) const {
+            const auto component = static_cast<std::size_t>(where.component);
+            if (component < parts.size()) number(parts[component]);
         }
-        if (node.calls(Function::grad)) {
-            for_each_face(faces, [&](Face face) { need_of_gradient(node.operands[0], face); });
-            return;
+        void negative(NodeId vector) const { flow(vector); }
+        void sum(NodeId a, NodeId b) const { flow(a), flow(b); }
+        void difference(NodeId a, NodeId b) const { sum(a, b); }
+        void quotient(NodeId vector, NodeId by) const { flow(vector), number(by); }
+        void product(NodeId a, NodeId b, bool is_vector_first) const {
+            quotient(is_vector_first ? a : b, is_vector_first ? b : a);
         }
-        const bool by_tensor =
-            node.calls(Function::multiply) && graph_[node.operands[0]].type == ValueType::tensor;
-        for (const NodeId operand : node.reads()) {
-            if (!is_vector(graph_[operand])) {
-                need_at_faces(operand, faces);
-            } else if (!by_tensor) {
-                need(operand, faces);
-            } else {
-                const int size = tensor_size(graph_[node.operands[0]]);
-                for_each_face(faces, [&](Face face) {
-                    if (face.component >= size) return;
-                    for (int component = 0; component < size; ++component) {
-                        const Face at{face.axis, component, face.side};
-                        need(operand, std::uint32_t{1} << at.number());
-                    }
-                });
-            }
+        void turned(NodeId tensor, NodeId vector) const {
+            for (const NodeId entry : own.graph_[tensor].reads()) number(entry);
+            const int size = tensor_size(own.graph_[tensor]);
+            for (int k = 0; k < size && where.component < size; ++k) flow(vector, k);
         }
-    }
+    };
 
     const PassView& pass_;
     const PlanGraph& graph_;

@@ -14,42 +14,6 @@ bool is_number(const Node& node) { return node.type == ValueType::number; }
 
 int operations_of(const Node& node) { return node.is<Call>() ? info(node.function).cost : 4; }
 
-Axes::Axes(const Grid& grid) {
-    const Stencil stencil = grid.stencil();
-    if (stencil.x) present.push_back(0);
-    if (stencil.y) present.push_back(1);
-    if (stencil.z) present.push_back(2);
-}
-
-Offsets Axes::crosswise() const {
-    Offsets offsets = own_cell;
-    for (const int axis : present) {
-        offsets |= only(Offset::along(axis, 1)) | only(Offset::along(axis, -1));
-    }
-    return offsets;
-}
-
-bool Axes::has(int axis) const {
-    return std::find(present.begin(), present.end(), axis) != present.end();
-}
-
-Offsets Axes::diagonal(int first, int second) const {
-    if (!has(first) || !has(second)) return 0;
-    Offsets offsets = 0;
-    for (const int a : {-1, 1}) {
-        for (const int b : {-1, 1})
-            offsets |= only(Offset::along(first, a) + Offset::along(second, b));
-    }
-    return offsets;
-}
-
-Offsets Axes::edges() const { return diagonal(0, 1) | diagonal(0, 2) | diagonal(1, 2); }
-
-Offsets Axes::pair(int axis) const {
-    if (!has(axis)) return 0;
-    return only(Offset::along(axis, 1)) | only(Offset::along(axis, -1));
-}
-
 Offsets stand_ins(Offsets offsets) {
     Offsets all = own_cell;
     for (std::uint32_t number = 0; number < Offset::count; ++number) {
@@ -64,23 +28,10 @@ Offsets stand_ins(Offsets offsets) {
     return all;
 }
 
-Offsets stencil_offsets(const Node& stencil, const Axes& axes) {
-    const auto [order, first, second] = derivative_of(stencil.function);
-    if (order == 1) return axes.pair(first);
-    if (order == 2)
-        return first == second ? own_cell | axes.pair(first) : axes.diagonal(first, second);
-    if (stencil.calls(Function::limited) || stencil.calls(Function::upwind)) {
-        return own_cell | axes.pair(std::get<Call>(stencil.kind).detail);
-    }
-    if (stencil.calls(Function::isotropic)) return axes.crosswise() | axes.edges();
-    if (!stencil.calls(Function::diffuse)) return axes.crosswise();
-    return own_cell | axes.pair(0) | axes.pair(1) | axes.diagonal(0, 1);
-}
-
 PassPlanner::PassPlanner(const PlanGraph& graph, std::span<const NodeId> roots,
                          Materialise materialise, std::span<const NodeId> step_invariants)
     : graph_(graph),
-      axes_(graph.grid()),
+      axes_(graph.grid().stencil()),
       materialise_(materialise),
       needed_(graph.size(), false),
       written_(graph.size(), false),
@@ -146,16 +97,16 @@ void PassPlanner::decide(NodeId id) {
     if (differs && is_stencil(function) && graph_.is_linked()) {
         for (const NodeId operand : node.reads()) provide_over_links(operand, id);
     } else if (differs && is_stencil(function)) {
-        provide(last, reach(stencil_offsets(node, axes_)) & ~own_cell, id);
+        provide(last, reach(offsets_of(node, axes_)) & ~own_cell, id);
     } else if (differs && (node.type == ValueType::vector || function == Function::div) &&
                !graph_.is_linked()) {
         // Vectors at faces need their parts in the cells on both sides.
         for (const NodeId operand : node.reads()) {
             if (is_number(graph_[operand])) {
-                provide(operand, axes_.crosswise() & ~own_cell, id);
+                provide(operand, crosswise(axes_) & ~own_cell, id);
             } else if (graph_[operand].type == ValueType::tensor) {
                 for (const NodeId entry : graph_[operand].reads()) {
-                    provide(entry, axes_.crosswise() & ~own_cell, id);
+                    provide(entry, crosswise(axes_) & ~own_cell, id);
                 }
             }
         }

@@ -3,6 +3,7 @@
 
 #include "lang/lower/plan_graph.h"
 #include "lang/lower/step_plan.h"
+#include "lang/program/stencils.h"
 
 #include <cstdint>
 #include <span>
@@ -10,34 +11,6 @@
 #include <vector>
 
 namespace cascade::lowering {
-
-/// A cell near another one: each offset is −1, 0 or 1.
-struct Offset {
-    int dx = 0, dy = 0, dz = 0;
-
-    static constexpr std::uint32_t count = 27;
-    static constexpr Offset of(std::uint32_t number) {
-        const int n = static_cast<int>(number);
-        return {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
-    }
-    constexpr std::uint32_t number() const {
-        return static_cast<std::uint32_t>(dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
-    }
-    /// One cell forwards or backwards along an axis (0, 1, 2).
-    static constexpr Offset along(int axis, int by) {
-        return {axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0};
-    }
-    constexpr Offset operator+(Offset other) const {
-        return {dx + other.dx, dy + other.dy, dz + other.dz};
-    }
-    constexpr bool is_own() const { return dx == 0 && dy == 0 && dz == 0; }
-    friend constexpr bool operator==(Offset, Offset) = default;
-};
-
-/// A set of offsets, by their numbers.
-using Offsets = std::uint32_t;
-constexpr Offsets only(Offset offset) { return Offsets{1} << offset.number(); }
-inline constexpr Offsets own_cell = only(Offset{});
 
 /// The cells that may replace cells at these offsets if those are outside of the domain
 /// (lower_mask.cpp): the cell itself and, for a diagonal neighbour, the two cells in between.
@@ -61,21 +34,6 @@ struct Face {
     constexpr Offset cell() const { return Offset::along(axis, -side); }
     constexpr Offset next() const { return Offset::along(axis, 1 - side); }
 };
-
-/// The axes of more than one cell: 0 is x, 1 is y, 2 is z.
-struct Axes {
-    std::vector<int> present;
-
-    explicit Axes(const Grid& grid);
-    bool has(int axis) const;
-    Offsets crosswise() const;     ///< The cell itself and its neighbours along all axes.
-    Offsets edges() const;         ///< The neighbours across any two axes.
-    Offsets pair(int axis) const;  ///< The two neighbours along an axis.
-    Offsets diagonal(int first, int second) const;  ///< The four cells across two axes.
-};
-
-/// The offsets at which a stencil reads its last operand, including the cell itself.
-Offsets stencil_offsets(const Node& stencil, const Axes& axes);
 
 /// The approximate number of kernel operations of a node, given its operands.
 int operations_of(const Node& node);
@@ -118,7 +76,7 @@ public:
     };
     /// All operands that vary and are not planes, in order of their readers.
     const std::vector<OperandChoice>& choices() const { return choices_; }
-    const Axes& axes() const { return axes_; }
+    const GridAxes& axes() const { return axes_; }
     /// The offsets at which an operand is needed if its value is read at `offsets`.
     Offsets reach(Offsets offsets) const {
         return graph_.has_mask() ? offsets | stand_ins(offsets) : offsets;
@@ -143,7 +101,7 @@ private:
     bool is_expensive(NodeId id, std::uint32_t places) const;
 
     const PlanGraph& graph_;
-    Axes axes_;
+    GridAxes axes_;
     Materialise materialise_;
     std::uint32_t pass_count_ = 1;
     IdVector<NodeId, bool> needed_, written_, step_invariant_;

@@ -7,69 +7,68 @@
 // is (E − W)/2h (1 − h²/6 δ²).
 #include "lang/lower/graph_passes.h"
 
-#include <array>
+#include "core/check.h"
+#include "lang/program/stencils.h"
+
+#include <optional>
 
 namespace cascade::lowering {
 
 namespace {
 
-constexpr std::array second_derivatives{Function::dxx, Function::dyy, Function::dzz};
+/// The function that is a difference along axes.
+Function function_of(Difference difference, int first, int second) {
+    for (std::size_t k = 0; k < function_count; ++k) {
+        const auto own = difference_of(static_cast<Function>(k));
+        const bool is_found =
+            own && own->difference == difference && own->first == first && own->second == second;
+        if (is_found) return static_cast<Function>(k);
+    }
+    CHECK(false, "lowering: differences of stencils have functions");
+}
 
 class StencilPass : public GraphPass {
     using GraphPass::GraphPass;
 
-    bool is_fourth() const { return context().program.domain.stencil == StencilKind::fourth; }
-
-    /// a − h²/n b.
-    Term without_error(Term a, double n, Term b) {
+    /// A difference as the stencil of the domain has it.
+    Term written(const AppliedDifference& applied, const Node& node) {
+        const auto call = [&](Difference difference, Term of) {
+            return Term::call(function_of(difference, applied.first, applied.second), of);
+        };
+        const StencilRow row = stencil_row(context().program.domain.stencil, applied.difference);
+        Node base = node;
+        base.function = function_of(row.base, applied.first, applied.second);
+        const Term value = term(keep(base));
+        if (row.error == 0) return value;
         const double h = context().grid().spacing;
-        return a - leaf(h * h / n) * b;
+        const Term error = call(row.outer, call(row.inner, term(node.operands[0])));
+        return value - leaf(h * h / row.error) * error;
     }
 
-    Term laplacian(const Node& node) {
-        Node small = node;
-        small.function = Function::isotropic;
-        const Term isotropic = term(keep(small));
-        if (!is_fourth()) return isotropic;
-        const Term inner = lap(term(node.operands[0]));
-        return without_error(isotropic, 12, lap(inner));
+    Term along(int axis, NodeId of) {
+        Node node;
+        node.kind = Call();
+        node.operands = {of};
+        node.operand_count = 1;
+        return written({Difference::central, axis}, node);
     }
 
-    Term along(int axis, Term of) {
-        const auto k = static_cast<std::size_t>(axis);
-        const auto first = [&](Term e) { return Term::call(first_derivatives[k], e); };
-        const Term error = first(Term::call(second_derivatives[k], of));
-        return without_error(first(of), 6, error);
-    }
-
-    Term second(int axis, Term of) {
-        const auto second_along = second_derivatives[static_cast<std::size_t>(axis)];
-        const Term inner = Term::call(second_along, of);
-        return without_error(inner, 12, Term::call(second_along, inner));
-    }
-
-    Term squared_gradient(Term of) {
-        const Stencil stencil = context().grid().stencil();
-        const std::array has_axis{stencil.x, stencil.y, stencil.z};
+    Term squared_gradient(NodeId of) {
         SparseTerm sum{leaf(0.0)};
-        for (int axis = 0; axis < 3; ++axis) {
-            if (has_axis[static_cast<std::size_t>(axis)]) {
-                sum = sum + SparseTerm{square(along(axis, of))};
-            }
+        for (const int axis : GridAxes(context().grid().stencil()).present) {
+            sum = sum + SparseTerm{square(along(axis, of))};
         }
         return sum.term;
     }
 
     NodeId image_of(const Node& node) override {
-        if (node.calls(Function::lap)) return laplacian(node);
-        if (!is_fourth()) return keep(node);
-        const Term of = term(node.operands[0]);
-        if (node.calls(Function::grad2)) return squared_gradient(of);
-        const auto [order, first, other] =
-            node.is<Call>() ? derivative_of(node.function) : Derivative{};
-        if (order == 1) return along(first, of);
-        if (order == 2) return first == other ? second(first, of) : along(first, along(other, of));
-        return keep(node);
+        const auto applied = node.is<Call>() ? difference_of(node.function) : std::nullopt;
+        if (applied && applied->difference != Difference::mixed) return written(*applied, node);
+        const StencilKind stencil = context().program.domain.stencil;
+        if (stencil_row(stencil, Difference::central).error == 0) return keep(node);
+        if (node.calls(Function::grad2)) return squared_gradient(node.operands[0]);
+        if (!applied) return keep(node);
+        return along(applied->first, along(applied->second, node.operands[0]));
     }
 };
 

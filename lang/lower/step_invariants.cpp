@@ -42,7 +42,7 @@ public:
     Chooser(const PlanGraph& graph, std::span<const NodeId> roots)
         : graph_(graph),
           roots_(roots),
-          axes_(graph.grid()),
+          axes_(graph.grid().stencil()),
           places_(graph.size(), 0),
           number_(graph.size(), 0) {}
 
@@ -81,9 +81,9 @@ private:
             // A step-invariant is computed wherever its reader is.
             std::uint32_t places = graph_.is_step_invariant(id) ? places_[id] : 1;
             if (at_faces) {
-                places = count(axes_.crosswise());
+                places = count(crosswise(axes_));
             } else if (is_operator && is_stencil(node.function) && k + 1 == node.operand_count) {
-                places = count(stencil_offsets(node, axes_));
+                places = count(offsets_of(node, axes_));
             }
             need(node.operands[k], places);
         }
@@ -110,7 +110,7 @@ private:
 
     const PlanGraph& graph_;
     std::span<const NodeId> roots_;
-    Axes axes_;
+    GridAxes axes_;
     MinimumCut cut_;
     IdVector<NodeId, std::uint32_t>
         places_;  ///< By node: the approximate number of cells at which it is needed; 0: none.

@@ -18,6 +18,7 @@ struct Term {
     NodeId id{};
 
     operator NodeId() const { return id; }
+    friend bool operator==(Term a, Term b) { return a.id == b.id; }
     ValueType type() const { return (*graph)[id].type; }
     bool is(double value) const { return graph->is_number(id, value); }
     Term number(double value) const { return {graph, graph->number(value)}; }
