@@ -2,6 +2,8 @@
 // for many waves; tests/unit/analysis/stencils_test.cpp compares them with the weights.
 #include "analysis/wave_operators.h"
 
+#include "core/check.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,8 +64,10 @@ Complex symbol_of(WaveOperator each, const Lattice& lattice, const WaveKernels& 
         }
         case Difference::across: return 2.0 * i * std::sin(phase / 2) / h;
         case Difference::backward: return (1.0 - std::exp(-i * phase)) / h;
-        default: return (std::exp(i * phase) - 1.0) / h;
+        case Difference::forward: return (std::exp(i * phase) - 1.0) / h;
+        default: break;
     }
+    CHECK(false, "every difference of rates has a symbol");
 }
 
 }  // namespace
