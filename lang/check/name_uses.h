@@ -1,4 +1,4 @@
-// What the names of a script refer to, as a check finds it out.
+// What the names of a script refer to, as the checker finds out.
 #pragma once
 
 #include "core/source.h"
@@ -14,7 +14,7 @@ struct NameUse {
     Span declaration;
 };
 
-/// In no order, some several times. A span of a use may hold more than the name: `[u]`, `u[i]`.
+/// In any order, with repetitions. The span of a use may hold more than the name: `[u]`, `u[i]`.
 using NameUses = std::vector<NameUse>;
 
 }  // namespace cascade

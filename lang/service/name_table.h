@@ -1,4 +1,4 @@
-// Where the names of a script are declared and used, for editors: a text, a byte of it, an answer.
+// Where the names of a script are declared and used: answers for editors about a byte of a text.
 #pragma once
 
 #include "core/result.h"
@@ -18,21 +18,21 @@ namespace cascade {
 /// and constants. Names of options are left out.
 class NameTable {
 public:
-    /// Checks a script, which may have errors: then names that they hide are missing. `text` is its
-    /// source; the tree may hold systems and functions of other sources, too. Texts of the library
-    /// are added to `sources`, which must outlive the table.
+    /// Checks a script. It may have errors, which may hide names. `text` is its source. The tree
+    /// may hold systems and functions of other sources, too. Texts of the library are added to
+    /// `sources`, which must outlive the table.
     NameTable(const ast::Script& tree, Sources& sources, SourceId text);
 
     /// The name at a byte of the text or directly before it; nothing if there is none.
     std::optional<Span> name_at(std::uint32_t byte) const;
-    /// The statement that declares this name, in any of the sources: of several, one of which
-    /// changes the other, that which has a meaning there.
+    /// The declaration of this name, in any of the sources. If a derived system replaces a
+    /// declaration, it is the one that counts at this byte.
     std::optional<Span> declaration_at(std::uint32_t byte) const;
     /// Wherever this name is used or declared, in all sources, in ascending order.
     std::vector<Span> uses_at(std::uint32_t byte) const;
 
-    /// The text with another name in the place of this one. Fails if a part of it is in another
-    /// source, and if the new text would have errors or any name in it another meaning.
+    /// The text with this name replaced by another. Fails if the name also occurs in another
+    /// source, and if the new text would have errors or would change the meaning of any name.
     Result<std::string> renamed(std::uint32_t byte, std::string_view name) const;
 
 private:

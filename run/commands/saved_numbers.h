@@ -24,8 +24,8 @@ struct SavedLook {
 
 // Both throw what the JSON library throws, and return false if a number is out of range.
 
-/// Reads the time of a stage of fields with this solver, and what `look` had seen; nothing if it
-/// had not looked yet.
+/// Reads the time of a stage of fields with this solver, and the last evaluation of `steady`, if
+/// there was one.
 bool read_json(const nlohmann::json& json, Solver solver, StageMoment& progress,
                std::optional<SavedLook>& look);
 bool read_json(const nlohmann::json& json, TissueTime& time);

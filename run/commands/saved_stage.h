@@ -22,8 +22,8 @@ Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& s
                                   std::uint32_t stage);
 
 /// Reads a stage back, for a simulation in which it has started. `saved` is its part of the
-/// manifest. Fails, in words that follow "is damaged: ", on arrays that do not fit together and on
-/// numbers out of range. Throws what the JSON library throws.
+/// manifest. Fails on arrays that do not fit together and on numbers out of range; the message
+/// follows "is damaged: ". Throws what the JSON library throws.
 Result<StageRecord> read_stage(const std::filesystem::path& folder, const nlohmann::json& manifest,
                                const nlohmann::json& saved, const Simulation& simulation,
                                std::uint32_t stage);

@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// The stages of a run in other cells. Those whose values nothing reads have not started.
+/// The stages of a run in other cells. Stages that nothing reads have not started.
 struct StagesInOtherCells {
     std::unique_ptr<Environment> environment;
     std::vector<StageState> states;
@@ -24,17 +24,17 @@ Program coarser_program(const Script& script, const Program& fine, std::int64_t 
 /// The program in the cells in which a stage runs.
 Program program_of_stage(const Script& script, const Program& program, std::uint32_t stage);
 
-/// An environment for `program`, which is that of `known` in the cells to which `carrier` carries.
-/// The domain of both has neither a model, a surface nor a mask. `account` may be null.
+/// An environment for `program`: the program of `known` in the cells to which `carrier` carries.
+/// Neither domain has a model, a surface or a mask. `account` may be null.
 std::unique_ptr<Environment> environment_in_cells(const Environment& known, Program program,
                                                   const CellCarrier& carrier, TimeAccount* account);
 /// The same with cells `times` as wide.
 std::unique_ptr<Environment> on_coarser_grid(const Environment& fine, std::int64_t times,
                                              TimeAccount* account);
 
-/// What other stages and pictures read of a state, in the cells to which `carrier` carries, whose
-/// width is `spacing`: its moment, numbers, planes, frozen cells and sides, without what only steps
-/// need.
+/// The part of a state that other stages and pictures read, in the cells to which `carrier`
+/// carries. They are `spacing` wide. The part is its moment, numbers, planes, frozen cells and
+/// sides.
 StageState carried_state(const StageState& state, const CellCarrier& carrier, double spacing);
 /// The same on a grid whose cells are a whole number of times as wide or as short.
 StageState on_grid(const StageState& state, const Grid& from, const Grid& to);

@@ -1,4 +1,4 @@
-// What starting a stage again would not give: all that a run needs to go on from a moment of it.
+// Everything that a run needs to continue a stage from one moment.
 #pragma once
 
 #include "core/plane.h"
@@ -18,22 +18,22 @@ namespace cascade {
 
 struct TissueRecord;
 
-/// A moment of a stage from which its run can go on, in its own cells. With another `time` and
-/// `watch` than that of the moment, steps are chosen as at the start of a stage.
+/// A moment of a stage from which its run can continue, in the stage's own cells. If `time` and
+/// `watch` are empty, the lengths of steps are chosen as at the start of a stage.
 struct StageRecord : StageMoment {
-    /// By the names of items: all species, and those parameters that have other values than a start
-    /// gives them. Empty for cells that crawl.
+    /// By the names of items: all species, and parameters whose values the start does not give.
+    /// Empty for crawling cells.
     std::map<std::string, Field, std::less<>> fields;
-    std::shared_ptr<const TissueRecord> cells;  ///< Cells that crawl; null for fields.
+    std::shared_ptr<const TissueRecord> cells;  ///< Crawling cells. Null for fields.
 
-    std::size_t bytes() const;  ///< Of all its values.
+    std::size_t bytes() const;  ///< The size of all values.
 };
 
-/// The present moment of a stage that has started, with those parameters that are named.
+/// The present moment of a stage that has started, with the named parameters.
 StageRecord record_of(const StageState& state, const Program& program, std::uint32_t stage,
                       const std::set<std::string>& parameters = {});
 
-/// The items whose values a record may hold: species, and parameters that vary.
+/// The items that a record may hold: species, and parameters that vary by cell.
 std::vector<ItemId> recorded_items(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade
