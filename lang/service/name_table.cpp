@@ -11,9 +11,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace cascade {
@@ -23,6 +23,8 @@ using Declared = std::unordered_map<std::string_view, Span>;
 
 /// Finds the uses of names that a tree alone tells.
 class TreeNames {
+    static constexpr int most_levels = 1000;  ///< A base with more is not searched for indices.
+
 public:
     TreeNames(const ast::Script& tree, NameUses& uses) : tree_(tree), uses_(uses) {}
 
@@ -35,6 +37,10 @@ public:
             const auto* name = std::get_if<ast::Name>(&expr.node);
             const bool is_free = name != nullptr && !parameters_.contains(id);
             if (is_free && constants_.contains(name->name)) use_function({expr.span, name->name});
+        }
+        for (const ast::Block& block : tree_.blocks) {
+            const bool is_system = block.kind == ast::BlockKind::system && !block.name.empty();
+            if (is_system) systems_.try_emplace(block.name.text, &block);
         }
         for (const ast::Block& block : tree_.blocks) find_indices(block);
         if (const auto shape = picture_expression(tree_, "shape")) use_shape(*shape);
@@ -68,27 +74,22 @@ private:
             const auto found = name != nullptr ? own.find(name->name) : own.end();
             if (found == own.end()) continue;
             add(expr.span, found->second);
-            parameters_.insert({id, true});
+            parameters_.insert(id);
         }
     }
 
-    /// The indices of a block and of those that it is derived from; its own come first.
+    /// The indices of a block and of its bases. A block's own replace those of a base.
     Declared indices_of(const ast::Block& block) const {
         Declared indices;
         const ast::Block* next = &block;
-        for (std::size_t k = 0; next != nullptr && k < tree_.blocks.size(); ++k) {
+        for (int level = 0; next != nullptr && level < most_levels; ++level) {
             for (const ast::Statement& statement : next->statements) {
                 if (statement.kind == ast::StatementKind::index)
                     indices.try_emplace(statement.name.text, statement.name.span);
             }
-            const std::string_view base = next->base.text;
-            const ast::Block* const same = next;
-            next = nullptr;
-            for (const ast::Block& each : tree_.blocks) {
-                const bool is_base = each.kind == ast::BlockKind::system && &each != same &&
-                                     !base.empty() && each.name.text == base;
-                if (is_base) next = &each;
-            }
+            const auto base = systems_.find(next->base.text);
+            const bool is_other = base != systems_.end() && base->second != next;
+            next = is_other ? base->second : nullptr;
         }
         return indices;
     }
@@ -133,7 +134,8 @@ private:
     const ast::Script& tree_;
     NameUses& uses_;
     Declared functions_, constants_;
-    std::unordered_map<ast::ExprId, bool> parameters_;  ///< Names that are read as such.
+    std::unordered_map<std::string_view, const ast::Block*> systems_;  ///< By name.
+    std::unordered_set<ast::ExprId> parameters_;  ///< Names that are read as parameters.
 };
 
 /// The name in a span that may begin with a bracket and end with an index.
