@@ -9,9 +9,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cascade::test {
@@ -24,16 +27,18 @@ using ::testing::IsEmpty;
 /// A text in which `|` marks the position that is asked about.
 class Asked {
 public:
-    explicit Asked(std::string marked, std::string used = "") {
-        byte_ = static_cast<std::uint32_t>(marked.find('|'));
-        marked.erase(byte_, 1);
-        const SourceId text = sources_.add("asked.cascade", std::move(marked));
+    explicit Asked(std::string marked, std::string used = "")
+        : Asked(std::string(marked).erase(marked.find('|'), 1), marked.find('|'), std::move(used)) {
+    }
+    Asked(std::string text, std::size_t byte, std::string used)
+        : byte_(static_cast<std::uint32_t>(byte)) {
+        const SourceId source = sources_.add("asked.cascade", std::move(text));
         Diagnostics diagnostics;
-        tree_ = parse(text, sources_, diagnostics);
+        tree_ = parse(source, sources_, diagnostics);
         if (!used.empty()) {
             parse_used(sources_.add("used.cascade", std::move(used)), sources_, tree_, diagnostics);
         }
-        table_ = std::make_unique<NameTable>(tree_, sources_, text);
+        table_ = std::make_unique<NameTable>(tree_, sources_, source);
     }
 
     /// The lines of all uses, from 1.
@@ -140,13 +145,12 @@ TEST(NameTable, RenamesEverythingThatTheLibraryDeclares) {
     std::size_t count = 0;
     for (const LibraryText& text : library_texts()) {
         const std::string whole(text.text);
-        for (const Symbol& symbol : Asked("|" + whole).symbols()) {
+        for (const Symbol& symbol : Asked(whole, 0, "").symbols()) {
             if (symbol.kind != NameKind::system) continue;
             for (const Symbol& inside : symbol.inside) {
                 if (setting_named(inside.name)) continue;
-                std::string marked = whole;
-                marked.insert(inside.name_span.begin, "|");
-                const auto renamed = Asked(std::move(marked)).renamed("name_of_a_test");
+                const Asked asked(whole, inside.name_span.begin, "");
+                const auto renamed = asked.renamed("name_of_a_test");
                 count += renamed ? 1U : 0U;
                 if (renamed) continue;
                 // It is declared in a base, which another text of the library holds.
