@@ -235,14 +235,16 @@ Result<std::vector<PaintedNames>> go_on(Simulation& simulation, const Simulation
         const bool is_current = k + 1 == state.stages.size();
         const bool is_same_run = how == Continuation::same;
         const bool is_anew = !is_same_run && is_current && kept->record.steps == 0;
-        StageRecord record{StageMoment(kept->record), {}, {}};
-        if (!is_same_run) {
-            const bool is_done =
-                !is_current || is_over(program, k, simulation.state(k), kept->record);
-            record.done = record.done && is_done;
-            record.condition_met = record.condition_met && record.done;
-            record.time = {};
-            record.watch = {};
+        StageRecord record;
+        if (is_same_run) {
+            static_cast<StageMoment&>(record) = StageMoment(kept->record);
+        } else {
+            // The lengths of steps are chosen anew, so the rest of the moment is not copied.
+            record.steps = kept->record.steps;
+            record.t = kept->record.t;
+            record.done = kept->record.done &&
+                          (!is_current || is_over(program, k, simulation.state(k), kept->record));
+            record.condition_met = kept->record.condition_met && record.done;
         }
         PaintedNames& still_painted = painted.emplace_back();
         if (kept->record.cells) {
