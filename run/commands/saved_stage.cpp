@@ -33,7 +33,7 @@ std::string array_name(const Program& program, std::uint32_t stage, std::string_
     return fmt::format("{}.{}.npy", program.stages[stage].name, what);
 }
 
-std::string array_name(std::string_view item, std::string_view suffix) {
+std::string with_suffix(std::string_view item, std::string_view suffix) {
     return fmt::format("{}{}", item, suffix);
 }
 
@@ -168,7 +168,7 @@ nlohmann::json save_cells(ArrayWriter& arrays, const TissueRecord& record, const
         const auto species = system.species_of(item);
         arrays.add(name, species ? record.species[species->index()] : record.kept[item.index()]);
         if (!species || record.stiffest.empty()) continue;
-        arrays.add(array_name(name, stiffest), record.stiffest[species->index()]);
+        arrays.add(with_suffix(name, stiffest), record.stiffest[species->index()]);
     }
     return {{"count", record.numbers.size()},
             {"next_number", record.next_number},
@@ -215,7 +215,7 @@ Result<TissueRecord> read_cells(ArrayReader& arrays, const nlohmann::json& saved
         (species ? record.species[species->index()] : record.kept[item.index()]) =
             arrays.values(name);
         if (!species || !knows_stiffest) continue;
-        record.stiffest[species->index()] = arrays.values(array_name(name, stiffest));
+        record.stiffest[species->index()] = arrays.values(with_suffix(name, stiffest));
     }
     if (arrays.failure()) return tl::unexpected(*arrays.failure());
     const bool is_in_order =
@@ -245,8 +245,8 @@ std::vector<std::string> stage_arrays(const Program& program, std::uint32_t stag
         const std::string_view name = system.item_name(item);
         add(name);
         if (!system.is_species(item)) continue;
-        if (system.cells) add(array_name(name, stiffest));
-        else if (program.stages[stage].time.steady) add(array_name(name, last_look));
+        if (system.cells) add(with_suffix(name, stiffest));
+        else if (program.stages[stage].time.steady) add(with_suffix(name, last_look));
     }
     return names;
 }
@@ -270,7 +270,7 @@ Result<nlohmann::json> save_stage(SavedFolderChange& change, const Simulation& s
         }
         const std::span<const Field> looked_at = state.watch.last();
         for (std::size_t species = 0; species < looked_at.size(); ++species) {
-            arrays.add(array_name(species_name(system, species), last_look), looked_at[species]);
+            arrays.add(with_suffix(species_name(system, species), last_look), looked_at[species]);
         }
     }
     if (!arrays.result()) return tl::unexpected(arrays.result().error());
@@ -307,7 +307,8 @@ Result<StageRecord> read_stage(const std::filesystem::path& folder, const nlohma
     if (look) {
         std::vector<Field> looked_at;
         for (const ItemId item : system.species()) {
-            looked_at.push_back(arrays.finite_field(array_name(system.item_name(item), last_look)));
+            looked_at.push_back(
+                arrays.finite_field(with_suffix(system.item_name(item), last_look)));
         }
         if (look->formations.size() != looked_at.size())
             return failure("it lacks the course of a species");
