@@ -60,8 +60,8 @@ struct GlbLevel {
 };
 
 /// The same for a model and its coarser levels, finest first, by the extension MSFT_lod. Programs
-/// that do not know it show the first one. Of the others, level k = 0, 1, … is meant for a model
-/// that covers at least 4⁻¹⁻ᵏ of the screen, and the last one for all smaller ones.
+/// that do not know it show the first one. The others show level k = 0, 1, … if the model covers at
+/// least 4⁻¹⁻ᵏ of the screen, and the last level if it is smaller.
 Result<std::string> encode_glb(std::span<const GlbLevel> levels);
 
 }  // namespace cascade

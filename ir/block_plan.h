@@ -68,7 +68,8 @@ struct Plan {
     std::uint32_t register_count = 0;
 };
 
-/// Assigns a location to every value of a kernel. `Number` is that of its precision.
+/// Assigns a location to every value of a kernel. `Number` is float or double, by its
+/// precision.
 template <typename Number>
 Plan<Number> plan_blocks(const CellKernel& kernel);
 

@@ -41,7 +41,7 @@ public:
     void take_back(std::vector<Field>& from) { executor_->put(roles_.current, std::move(from)); }
     /// The planes of a scratch register, which may be read until the next step.
     const std::vector<Field>& scratch(RegisterId id) const { return executor_->fetch(id); }
-    /// The planes of the error estimate, one for each species.
+    /// The error estimate: one plane per species.
     const std::vector<Field>& error_planes() const { return scratch(*problem().error_register); }
 
     /// The passes in use.

@@ -22,7 +22,7 @@ namespace cascade {
 
 namespace {
 
-/// Smaller weights, such as those of the diagonals of squares, are rounding errors of zero.
+/// Smaller weights, such as the diagonals of squares have, are zero but for rounding.
 constexpr double rounding_of_weights = 1e-9;
 
 /// Distributes the area of a triangle to its corners: by Voronoi regions, or, if an angle is

@@ -133,8 +133,8 @@ void LinkedCells::begin_sums(Vector& vector) {
     }
 }
 
-/// Finds the addresses of the slice's first entry. The slice is number column / 16 of the row, at
-/// lane column mod 16, where column is that of the group's first cell.
+/// Finds the addresses of the slice's first entry. If the group's first cell is in column c, the
+/// slice is number c / 16 of the row, and the entry is at lane c mod 16.
 void LinkedCells::find_links() {
     const int vector = std::exchange(vector_, 0);
     push_column();

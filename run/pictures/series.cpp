@@ -116,7 +116,7 @@ Result<void> write_volume(const std::filesystem::path& path, const Simulation& s
     }
     const FormatRow* const format = find_format(path);
     const VolumeRow* const writer = format ? row_of(volume_writers, format->format) : nullptr;
-    CHECK(writer != nullptr, "the name is that of a volume");
+    CHECK(writer != nullptr, "the file has the ending of a volume format");
     return writer->write(path, {arrays, simulation.grid().spacing, mask ? &mask->inside : nullptr,
                                 texts, simulation.program().stages[stage].name,
                                 simulation.state(stage).steps, time_of(simulation, stage)});
