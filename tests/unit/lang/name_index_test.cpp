@@ -1,5 +1,5 @@
 // Declarations, uses and new names by position, and the outline of a script.
-#include "lang/service/name_table.h"
+#include "lang/service/name_index.h"
 
 #include "lang/library/library.h"
 #include "lang/service/symbols.h"
@@ -38,27 +38,27 @@ public:
         if (!used.empty()) {
             parse_used(sources_.add("used.cascade", std::move(used)), sources_, tree_, diagnostics);
         }
-        table_ = std::make_unique<NameTable>(tree_, sources_, source);
+        index_ = std::make_unique<NameIndex>(tree_, sources_, source);
     }
 
     /// The lines of all uses, from 1.
     std::vector<std::uint32_t> lines() const {
         std::vector<std::uint32_t> lines;
-        for (const Span use : table_->uses_at(byte_)) {
+        for (const Span use : index_->uses_at(byte_)) {
             lines.push_back(sources_[use.source].locate(use.begin).line);
         }
         return lines;
     }
     /// "asked.cascade:2:3", or "" where there is no name.
     std::string declaration() const {
-        const auto span = table_->declaration_at(byte_);
+        const auto span = index_->declaration_at(byte_);
         if (!span) return "";
         const Location at = sources_[span->source].locate(span->begin);
         return sources_[span->source].name() + ":" + std::to_string(at.line) + ":" +
                std::to_string(at.column);
     }
     Result<std::string> renamed(std::string_view name) const {
-        return table_->renamed(byte_, name);
+        return index_->renamed(byte_, name);
     }
     std::vector<Symbol> symbols() const { return symbols_of(tree_, 0); }
 
@@ -66,7 +66,7 @@ private:
     std::uint32_t byte_ = 0;
     Sources sources_;
     ast::Script tree_;
-    std::unique_ptr<NameTable> table_;
+    std::unique_ptr<NameIndex> index_;
 };
 
 constexpr const char* two_systems =
@@ -86,7 +86,7 @@ std::string with_mark(std::string text, std::string_view before) {
     return text.insert(text.find(before), "|");
 }
 
-TEST(NameTable, FindsAllUsesOfAQuantity) {
+TEST(NameIndex, FindsAllUsesOfAQuantity) {
     EXPECT_THAT(Asked(with_mark(two_systems, "k: 2")).lines(), ElementsAre(3, 4, 8, 10));
     EXPECT_THAT(Asked(with_mark(two_systems, "k * u")).lines(), ElementsAre(3, 4, 8, 10));
     EXPECT_THAT(Asked(with_mark(two_systems, "k: 4")).lines(), ElementsAre(3, 4, 8, 10));
@@ -95,13 +95,13 @@ TEST(NameTable, FindsAllUsesOfAQuantity) {
     EXPECT_THAT(Asked(with_mark(two_systems, "d - u")).lines(), ElementsAre(4, 5, 11));
 }
 
-TEST(NameTable, FindsSystemsAndStages) {
+TEST(NameIndex, FindsSystemsAndStages) {
     EXPECT_THAT(Asked(with_mark(two_systems, "a { k: 3")).lines(), ElementsAre(1, 8, 9));
     EXPECT_THAT(Asked(with_mark(two_systems, "one.u")).lines(), ElementsAre(9, 10));
     EXPECT_EQ(Asked(with_mark(two_systems, "b { u")).declaration(), "asked.cascade:8:8");
 }
 
-TEST(NameTable, FindsTheDeclarationThatCounts) {
+TEST(NameIndex, FindsTheDeclarationThatCounts) {
     EXPECT_EQ(Asked(with_mark(two_systems, "k * u")).declaration(), "asked.cascade:3:3");
     EXPECT_EQ(Asked(with_mark(two_systems, "k: 4")).declaration(), "asked.cascade:8:15");
     EXPECT_EQ(Asked(with_mark(two_systems, "noise")).declaration(), "");
@@ -109,7 +109,7 @@ TEST(NameTable, FindsTheDeclarationThatCounts) {
     EXPECT_THAT(Asked("# |u").lines(), IsEmpty());
 }
 
-TEST(NameTable, FindsFunctionsParametersConstantsAndIndices) {
+TEST(NameIndex, FindsFunctionsParametersConstantsAndIndices) {
     const std::string text =
         "fn bump(r, w) = exp(-(r/w)^2) * L\n"
         "let L = 2\n"
@@ -128,7 +128,7 @@ TEST(NameTable, FindsFunctionsParametersConstantsAndIndices) {
     EXPECT_THAT(Asked(with_mark(text, "u[i]'")).lines(), ElementsAre(6, 7, 7, 7));
 }
 
-TEST(NameTable, RenamesEverywhereAndNothingElse) {
+TEST(NameIndex, RenamesEverywhereAndNothingElse) {
     const auto text = Asked(with_mark(two_systems, "k: 2")).renamed("rate");
     ASSERT_TRUE(text);
     std::string expected = two_systems;
@@ -141,7 +141,7 @@ TEST(NameTable, RenamesEverywhereAndNothingElse) {
               "system s { v: 1; v'' = -v }\nstage t: s { }\n");
 }
 
-TEST(NameTable, RenamesEverythingThatTheLibraryDeclares) {
+TEST(NameIndex, RenamesEverythingThatTheLibraryDeclares) {
     std::size_t count = 0;
     for (const LibraryText& text : library_texts()) {
         const std::string whole(text.text);
@@ -162,7 +162,7 @@ TEST(NameTable, RenamesEverythingThatTheLibraryDeclares) {
     EXPECT_GT(count, 200U);
 }
 
-TEST(NameTable, RefusesNamesThatMeanSomethingElse) {
+TEST(NameIndex, RefusesNamesThatMeanSomethingElse) {
     const Asked k(with_mark(two_systems, "k: 2"));
     for (const char* taken : {"u", "d", "pi", "iterations", "x"}) {
         EXPECT_FALSE(k.renamed(taken)) << taken;
@@ -181,7 +181,7 @@ TEST(NameTable, RefusesNamesThatMeanSomethingElse) {
     EXPECT_THAT(used.renamed("t").error().message, HasSubstr("used.cascade"));
 }
 
-TEST(NameTable, AnswersForScriptsWithErrors) {
+TEST(NameIndex, AnswersForScriptsWithErrors) {
     const Asked asked("system s { u: 1; |k: 2; u' = k * missing + k }\nstage t: s { k: (\n");
     EXPECT_THAT(asked.lines(), ElementsAre(1, 1, 1, 2));
 }

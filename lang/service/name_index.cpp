@@ -1,6 +1,6 @@
 // The check says what names of systems and stages mean. Functions, indices and shapes mean the same
 // wherever they are read, so the tree alone says which names are theirs.
-#include "lang/service/name_table.h"
+#include "lang/service/name_index.h"
 
 #include "lang/check/check.h"
 #include "lang/service/known_names.h"
@@ -150,7 +150,7 @@ auto key_of(Span span) { return std::tuple(span.source, span.begin); }
 
 }  // namespace
 
-NameTable::NameTable(const ast::Script& tree, Sources& sources, SourceId text)
+NameIndex::NameIndex(const ast::Script& tree, Sources& sources, SourceId text)
     : sources_(sources), text_(text) {
     const auto note_source = [&](Span span) {
         const bool is_known = span.source == text || std::ranges::count(used_, span.source) > 0;
@@ -167,7 +167,7 @@ NameTable::NameTable(const ast::Script& tree, Sources& sources, SourceId text)
 }
 
 /// Words that refer to each other, directly or through others, are one group.
-void NameTable::add(const NameUses& uses) {
+void NameIndex::add(const NameUses& uses) {
     std::map<std::tuple<SourceId, std::uint32_t>, std::size_t> number;
     NameUses named;
     for (const NameUse& each : uses) {
@@ -205,7 +205,7 @@ void NameTable::add(const NameUses& uses) {
     for (std::size_t k = 0; k < count; ++k) words_[k].group = first_of(k);
 }
 
-const NameTable::Word* NameTable::find(std::uint32_t byte) const {
+const NameIndex::Word* NameIndex::find(std::uint32_t byte) const {
     const auto after = std::ranges::upper_bound(words_, std::tuple(text_, byte), {},
                                                 [](const Word& word) { return key_of(word.span); });
     if (after == words_.begin()) return nullptr;
@@ -213,19 +213,19 @@ const NameTable::Word* NameTable::find(std::uint32_t byte) const {
     return word.span.source == text_ && byte <= word.span.end ? &word : nullptr;
 }
 
-std::optional<Span> NameTable::name_at(std::uint32_t byte) const {
+std::optional<Span> NameIndex::name_at(std::uint32_t byte) const {
     const Word* const word = find(byte);
     if (word == nullptr) return std::nullopt;
     return word->span;
 }
 
-std::optional<Span> NameTable::declaration_at(std::uint32_t byte) const {
+std::optional<Span> NameIndex::declaration_at(std::uint32_t byte) const {
     const Word* const word = find(byte);
     if (word == nullptr) return std::nullopt;
     return words_[word->declaration].span;
 }
 
-std::vector<Span> NameTable::uses_at(std::uint32_t byte) const {
+std::vector<Span> NameIndex::uses_at(std::uint32_t byte) const {
     std::vector<Span> spans;
     const Word* const word = find(byte);
     for (const Word& each : words_) {
@@ -235,7 +235,7 @@ std::vector<Span> NameTable::uses_at(std::uint32_t byte) const {
 }
 
 /// For each word of the text, in order, the number of the first one that means the same.
-std::vector<std::size_t> NameTable::meanings() const {
+std::vector<std::size_t> NameIndex::meanings() const {
     std::map<std::size_t, std::size_t> numbers;
     std::vector<std::size_t> result;
     for (const Word& word : words_) {
@@ -245,7 +245,7 @@ std::vector<std::size_t> NameTable::meanings() const {
     return result;
 }
 
-Result<std::string> NameTable::renamed(std::uint32_t byte, std::string_view name) const {
+Result<std::string> NameIndex::renamed(std::uint32_t byte, std::string_view name) const {
     const auto written = name_at(byte);
     if (!written) return failure("there is no name that can be changed");
     const std::string_view before = sources_.text(*written);
@@ -273,7 +273,7 @@ Result<std::string> NameTable::renamed(std::uint32_t byte, std::string_view name
             sources.add(sources_[used].name(), std::string(sources_[used].text()));
         parse_used(copy, sources, tree, diagnostics);
     }
-    const NameTable after(tree, sources, source);
+    const NameIndex after(tree, sources, source);
     if (after.errors_ > errors_ || after.meanings() != meanings()) {
         return failure(fmt::format("'{}' cannot be called '{}' here", before, name),
                        "that name has another meaning");

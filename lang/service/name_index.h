@@ -16,12 +16,12 @@ namespace cascade {
 
 /// Systems, stages, shapes, their quantities and definitions, indices, functions, their parameters,
 /// and constants. Names of options are left out.
-class NameTable {
+class NameIndex {
 public:
     /// Checks a script. It may have errors, which may hide names. `text` is its source. The tree
     /// may hold systems and functions of other sources, too. Texts of the library are added to
-    /// `sources`, which must outlive the table.
-    NameTable(const ast::Script& tree, Sources& sources, SourceId text);
+    /// `sources`, which must outlive the index.
+    NameIndex(const ast::Script& tree, Sources& sources, SourceId text);
 
     /// The name at a byte of the text or directly before it; nothing if there is none.
     std::optional<Span> name_at(std::uint32_t byte) const;
