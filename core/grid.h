@@ -1,6 +1,8 @@
 // The grid of cells and the memory layout of a field on it.
 #pragma once
 
+#include "core/rows.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -89,27 +91,40 @@ struct Grid {
 /// and corners. A grid of several slices also has the halo slices −1 and `depth`.
 ///
 /// Rows are numbered through all slices: row r is row r % height of slice r / height.
+///
+/// A plane may hold a part of the grid: some rows, or some slices of several. Its cells keep their
+/// numbers in the grid, so positions, random numbers and row sums mean the same in any part, and
+/// kernels need not know of parts. The halo then surrounds the part.
 struct PlaneLayout {
     static constexpr std::int64_t row_pad = 16;
 
-    std::int64_t width = 0;
+    std::int64_t width = 0;  ///< Of the whole grid, as height and depth.
     std::int64_t height = 0;
     std::int64_t depth = 0;
+    RowRange rows;                  ///< The rows in memory, halo excluded; whole slices of several.
     std::int64_t stride = 0;        ///< Elements from a row to the next; a multiple of `row_pad`.
     std::int64_t slice_stride = 0;  ///< Elements from a slice to the next; a multiple of `stride`.
+    std::int64_t elements_before = 0;  ///< Of a part: the grid's elements before its first row.
 
     PlaneLayout() = default;
     explicit PlaneLayout(const Grid& grid)
+        : PlaneLayout(grid, RowRange{0, grid.height * grid.depth}) {}
+    PlaneLayout(const Grid& grid, RowRange part)
         : width(grid.width),
           height(grid.height),
           depth(grid.depth),
+          rows(part),
           stride((grid.width + row_pad - 1) / row_pad * row_pad + 2 * row_pad),
-          slice_stride((grid.height + 2) * stride) {}
+          slice_stride((grid.height + 2) * stride),
+          elements_before(row_start(part.begin)) {}
 
     bool has_halo_slices() const { return depth > 1; }
     std::int64_t row_count() const { return height * depth; }
     /// Rows of memory from one slice to the next.
     std::int64_t slice_rows() const { return height + 2; }
+    /// Does memory hold the halo before the first row or slice of the grid, and after the last?
+    bool has_first() const { return rows.begin <= 0; }
+    bool has_last() const { return rows.end >= row_count(); }
 
     /// Elements from cell (0, 0, 0) to the first cell of a row, numbered through all slices.
     std::int64_t row_start(std::int64_t row) const {
@@ -118,10 +133,14 @@ struct PlaneLayout {
     }
     /// Index of the element of cell (column i, row j, slice k) in the allocation.
     std::int64_t offset(std::int64_t i, std::int64_t j, std::int64_t k = 0) const {
-        return (k + (has_halo_slices() ? 1 : 0)) * slice_stride + (j + 1) * stride + row_pad + i;
+        return (k + (has_halo_slices() ? 1 : 0)) * slice_stride + (j + 1) * stride + row_pad + i -
+               elements_before;
     }
     /// The number of elements to allocate.
-    std::int64_t size() const { return (depth + (has_halo_slices() ? 2 : 0)) * slice_stride; }
+    std::int64_t size() const {
+        if (!has_halo_slices()) return (rows.count() + 2) * stride;
+        return (rows.count() / height + 2) * slice_stride;
+    }
 
     friend bool operator==(const PlaneLayout&, const PlaneLayout&) = default;
 };

@@ -1,21 +1,12 @@
 // A team of threads that stays alive for a run.
 #pragma once
 
-#include <cstdint>
+#include "core/rows.h"
+
 #include <functional>
 #include <memory>
 
 namespace cascade {
-
-/// Half-open range of rows.
-struct RowRange {
-    std::int64_t begin = 0;
-    std::int64_t end = 0;
-    bool empty() const { return begin >= end; }
-};
-
-/// Part `index` of `count` nearly equal parts of [0, rows).
-RowRange split_rows(std::int64_t rows, int index, int count);
 
 /// The number of threads that the machine offers this process, at least 1.
 int hardware_threads();

@@ -1,7 +1,7 @@
 // A part of the cells of a plane: some columns of some rows.
 #pragma once
 
-#include "core/parallel.h"
+#include "core/rows.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -47,7 +47,7 @@ public:
     void from_rows(std::int64_t slice, std::int64_t begin, std::int64_t end) const {
         fill_columns(slice, begin, end);
         const auto is_given = [&](Side side) {
-            return has_rows_ && begin <= source(side) && source(side) < end;
+            return has_rows_ && is_held(side) && begin <= source(side) && source(side) < end;
         };
         if (is_given(Side::top)) fill_row(Side::top, {source(Side::top), slice}, {-1, slice});
         if (is_given(Side::bottom)) {
@@ -55,7 +55,7 @@ public:
         }
         if (!layout_.has_halo_slices()) return;
         for (const Side side : {Side::front, Side::back}) {
-            if (slice != source(side)) continue;
+            if (slice != source(side) || !is_held(side)) continue;
             const std::int64_t to = side == Side::front ? -1 : layout_.depth;
             for (std::int64_t j = begin; j < end; ++j) fill_row(side, {j, slice}, {j, to});
             if (is_given(Side::top)) fill_row(side, {-1, slice}, {-1, to});
@@ -69,6 +69,12 @@ private:
     struct RowPlace {
         std::int64_t row, slice;
     };
+
+    /// Is the halo beyond a side in memory? Of a part of a grid, only some sides are.
+    bool is_held(Side side) const {
+        if (layout_.has_halo_slices() && side < Side::front) return true;
+        return static_cast<int>(side) % 2 == 0 ? layout_.has_first() : layout_.has_last();
+    }
 
     /// The side's value e at a cell beside it.
     static Number value_at(const SideRule& rule, std::int64_t cell) {
@@ -151,7 +157,8 @@ private:
 
 template <typename Number>
 void fill_slices(const HaloFill<Number>& fill, const PlaneLayout& layout, RowRange rows) {
-    CHECK(0 <= rows.begin && rows.end <= layout.row_count(), "a halo comes from rows of the plane");
+    CHECK(layout.rows.begin <= rows.begin && rows.end <= layout.rows.end,
+          "a halo comes from rows of the plane");
     while (rows.begin < rows.end) {
         const std::int64_t slice = rows.begin / layout.height;
         const std::int64_t first = rows.begin - slice * layout.height;
@@ -180,7 +187,7 @@ Field Field::converted(Precision precision) const {
 
 template <typename Number>
 void fill_halo(Number* origin, const PlaneLayout& layout, const SideRules& sides) {
-    fill_slices(HaloFill<Number>(origin, layout, sides, {}, true), layout, {0, layout.row_count()});
+    fill_slices(HaloFill<Number>(origin, layout, sides, {}, true), layout, layout.rows);
 }
 
 template <typename Number>

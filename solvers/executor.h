@@ -8,6 +8,7 @@
 #pragma once
 
 #include "core/plane.h"
+#include "solvers/exchange.h"
 #include "solvers/stage_clock.h"
 #include "solvers/step_problem.h"
 #include "solvers/stepping.h"
@@ -16,6 +17,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -112,12 +114,26 @@ public:
     virtual Stepping stepping() const = 0;
 };
 
+/// Makes an executor for a problem. The first copy is `species`; there are three copies if `keeps`,
+/// else two.
+using MakeExecutor =
+    std::function<std::unique_ptr<Executor>(const StepProblem& problem, std::vector<Field> species,
+                                            int most_threads, bool keeps)>;
+
 /// Threads of this process over planes in its memory. All threads are in use at first, but no more
-/// than the grid is worth. The first copy is `species`; there are three copies if `keeps`, else
-/// two.
+/// than the grid is worth.
 std::unique_ptr<Executor> make_thread_executor(const StepProblem& problem,
                                                std::vector<Field> species, int most_threads,
                                                bool keeps);
-using MakeExecutor = decltype(&make_thread_executor);
+
+/// The same for one part of the grid. Planes have the layout of layout_of(), and all parts call the
+/// same functions in the same order. `others` must outlive it.
+std::unique_ptr<Executor> make_part_executor(const StepProblem& problem, std::vector<Field> species,
+                                             int most_threads, bool keeps, Exchange& others);
+
+/// The grid in `count` parts of nearly equal size, or fewer if it has fewer rows or slices, each in
+/// a thread and in memory of its own. Convolutions, constraints and filters of waves are computed
+/// by one of them on planes that it gathers. Shows that parts change no bit.
+MakeExecutor in_parts(int count);
 
 }  // namespace cascade

@@ -34,7 +34,40 @@ std::optional<HaloColumns> copied_columns(const SideRules& sides, std::int64_t w
 
 }  // namespace
 
-PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(problem.grid) {
+PlaneLayout layout_of(const StepProblem& problem, const Exchange* others) {
+    if (others == nullptr) return PlaneLayout(problem.grid);
+    if (!problem.grid.linked) return PlaneLayout(problem.grid, others->rows());
+    return PlaneLayout(problem.grid,
+                       with_neighbours(problem.grid, others->rows(), rows_reached(problem), false));
+}
+
+struct PassRunner::WholeGrid {
+    PassRunner runner;
+    std::vector<std::vector<Field>> planes;
+    std::vector<std::span<Field>> registers;
+    std::vector<Worker> workers;
+
+    /// Planes for these registers, and a worker for each of `threads` threads.
+    WholeGrid(const StepProblem& problem, Registers parts, int threads)
+        : runner(problem), workers(static_cast<std::size_t>(threads)) {
+        for (const std::span<Field> part : parts) {
+            std::vector<Field>& of_register = planes.emplace_back();
+            for (std::size_t k = 0; k < part.size(); ++k) {
+                of_register.emplace_back(PlaneLayout(problem.grid), problem.precision);
+            }
+        }
+        for (std::vector<Field>& each : planes) registers.emplace_back(each);
+        for (int k = 0; k < threads; ++k) {
+            runner.prepare(workers[static_cast<std::size_t>(k)], k, threads);
+        }
+    }
+};
+
+PassRunner::PassRunner(const StepProblem& problem, Exchange* others)
+    : problem_(problem),
+      others_(others),
+      layout_(layout_of(problem, others)),
+      rows_(others != nullptr ? others->rows() : layout_.rows) {
     CHECK(!problem.passes.empty(), "a step has a pass");
     CHECK(!problem.links ||
               (problem.grid.linked && problem.links->precision() == problem.precision),
@@ -64,6 +97,7 @@ PassRunner::PassRunner(const StepProblem& problem) : problem_(problem), layout_(
             const auto made = std::make_shared<ConvolutionRunner<Number>>(problem.grid, weights);
             return all.emplace_back(&weights, made).second;
         };
+        if (others != nullptr) return;  // The whole grid's runner has them.
         for (const StepProblem::Pass& pass : problem.passes) {
             auto& solvers = helpers.solvers.emplace_back();
             for (const StepProblem::Solve& each : pass.solves) {
@@ -88,8 +122,9 @@ PassRunner::~PassRunner() = default;
 void PassRunner::prepare(Worker& worker, int number, int count) const {
     worker.number = number;
     worker.count = count;
-    worker.rows = split_rows(layout_.row_count(), number, count);
-    worker.cells = share_of(problem_.grid, number, count);
+    const RowRange own = split_rows(rows_.count(), number, count);
+    worker.rows = {rows_.begin + own.begin, rows_.begin + own.end};
+    worker.cells = others_ != nullptr ? Patch{worker.rows} : share_of(problem_.grid, number, count);
     with_number(problem_.precision, [&](auto zero) {
         using Number = decltype(zero);
         auto& arguments = worker.arguments.emplace<Arguments<Number>>();
@@ -134,12 +169,81 @@ void PassRunner::prepare_pass(Worker& worker, Team& team, std::size_t number, Re
     const StepProblem::Pass& pass = problem_.passes[number];
     std::visit(
         [&]<typename Number>(Arguments<Number>& arguments) {
-            if (!pass.solves.empty()) solve<Number>(worker, number, team, registers, moment);
-            if (!pass.convolutions.empty()) convolve<Number>(worker, number, team, registers);
+            const auto sum_around = [&](PassRunner& runner, Worker& own, Registers planes) {
+                if (!pass.solves.empty()) runner.solve<Number>(own, number, team, planes, moment);
+                if (!pass.convolutions.empty()) runner.convolve<Number>(own, number, team, planes);
+            };
+            const auto damp = [&](PassRunner& runner, Worker& own, Registers planes) {
+                auto& of_whole = std::get<Arguments<Number>>(own.arguments);
+                of_whole.aggregates = arguments.aggregates;
+                runner.filter(own, of_whole, *pass.filter, team, planes, moment);
+            };
+            if (!pass.solves.empty() || !pass.convolutions.empty()) {
+                on_whole_grid(worker, team, registers, sum_around);
+            }
             if (!pass.reductions.empty()) reduce(worker, arguments, number, team, registers);
-            if (pass.filter) filter(worker, arguments, *pass.filter, team, registers, moment);
+            if (pass.filter) on_whole_grid(worker, team, registers, damp);
         },
         worker.arguments);
+}
+
+template <typename Work>
+void PassRunner::on_whole_grid(Worker& worker, Team& team, Registers registers, const Work& work) {
+    if (others_ == nullptr) return work(*this, worker, registers);
+    std::vector<Field*> own, whole;
+    const auto list = [](Registers planes, IdVector<TemporaryId, Field>& temporaries,
+                         std::vector<Field*>& all) {
+        for (const std::span<Field> of_register : planes) {
+            for (Field& field : of_register) all.push_back(&field);
+        }
+        for (Field& field : temporaries) all.push_back(&field);
+    };
+    team.barrier();
+    if (worker.number == 0) {
+        if (others_->is_root() &&
+            (!whole_ || whole_->registers.size() != registers.size() ||
+             whole_->workers.size() != static_cast<std::size_t>(worker.count))) {
+            whole_ = std::make_unique<WholeGrid>(problem_, registers, worker.count);
+        }
+        list(registers, temporaries_, own);
+        if (whole_) list(whole_->registers, whole_->runner.temporaries_, whole);
+        others_->gather(own, whole);
+    }
+    team.barrier();
+    if (whole_) {
+        work(whole_->runner, whole_->workers[static_cast<std::size_t>(worker.number)],
+             whole_->registers);
+        team.barrier();
+    }
+    if (worker.number == 0) others_->scatter(whole, own);
+    team.barrier();
+}
+
+bool PassRunner::wraps(const SideRules& sides) const {
+    return !problem_.grid.linked &&
+           sides[problem_.grid.depth > 1 ? Side::front : Side::top].kind == SideKind::periodic;
+}
+
+void PassRunner::share(std::span<const Exchange::Shared> planes) const {
+    others_->fill_halos(planes, rows_reached(problem_));
+}
+
+void PassRunner::share_results(std::size_t pass, Registers registers) {
+    std::vector<Exchange::Shared> planes;
+    const std::vector<StepProblem::Result>& results = problem_.passes[pass].results;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        if (!results[k].needs_halo && problem_.has_halo()) continue;
+        planes.push_back({&written(results[k].plane, registers), wraps(sides_[pass].rules[k])});
+    }
+    share(planes);
+}
+
+void PassRunner::share_species(std::span<Field> species) const {
+    std::vector<Exchange::Shared> planes;
+    for (std::size_t k = 0; k < species.size(); ++k) {
+        planes.push_back({&species[k], wraps(problem_.sides_of(SpeciesId(k)))});
+    }
+    share(planes);
 }
 
 template <typename Number>
@@ -184,6 +288,14 @@ void PassRunner::reduce(Worker& worker, Arguments<Number>& arguments, std::size_
         }
     }
     team.barrier();
+    if (others_ != nullptr) {
+        std::vector<std::vector<double>*> rows;
+        for (const StepProblem::Reduction& reduction : pass.reductions) {
+            rows.push_back(&row_values_[reduction.aggregate]);
+        }
+        if (worker.number == 0) others_->share_rows(rows);
+        team.barrier();
+    }
     const std::int64_t cells = problem_.counted_cells();
     for (const StepProblem::Reduction& reduction : pass.reductions) {
         worker.row_values = row_values_[reduction.aggregate];

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/plane.h"
+#include "solvers/exchange.h"
 #include "solvers/step_problem.h"
 #include "solvers/wave_filter.h"
 
@@ -46,10 +47,16 @@ using RowsWritten = std::function<void(RowRange)>;
 template <typename Number>
 class ConstraintSolver;
 
+/// The planes of a problem in this process: of the whole grid, or of a part with as much of the
+/// other parts as passes read.
+PlaneLayout layout_of(const StepProblem& problem, const Exchange* others);
+
 class PassRunner {
 public:
-    /// Allocates temporaries. `problem` must outlive the runner.
-    explicit PassRunner(const StepProblem& problem);
+    /// Allocates temporaries. `others` are the other parts of the grid; null: it computes all of
+    /// it. The work of all threads in use then begins and ends with that of other parts. What
+    /// `problem` refers to lies on the whole grid. Both must outlive the runner.
+    explicit PassRunner(const StepProblem& problem, Exchange* others = nullptr);
     ~PassRunner();
 
     /// A pass with all data needed to run it on some rows.
@@ -106,11 +113,25 @@ public:
     /// Runs a bound level on some cells, and fills the halo that copies them.
     void run_cells(Worker& worker, std::size_t level, const Patch& cells) const;
 
+    // Of a part of the grid. One thread calls them when all threads have written their rows.
+
+    /// Fills the halos of all results of a pass from other parts.
+    void share_results(std::size_t pass, Registers registers);
+    /// The same of all species in one register.
+    void share_species(std::span<Field> species) const;
+
     const StepProblem& problem() const { return problem_; }
     const Field& temporary(TemporaryId id) const { return temporaries_[id]; }
     const PlaneLayout& layout() const { return layout_; }
 
 private:
+    /// Whole planes, on which the root of all parts computes what takes all cells.
+    struct WholeGrid;
+    /// Calls `work` with the runner, a worker and the registers of the whole grid.
+    template <typename Work>
+    void on_whole_grid(Worker& worker, Team& team, Registers registers, const Work& work);
+    void share(std::span<const Exchange::Shared> planes) const;
+    bool wraps(const SideRules& sides) const;
     const Field& read(const StepProblem::PlaneRef& ref, Registers registers) const;
     Field& written(const StepProblem::PlaneRef& ref, Registers registers);
     template <typename Number>
@@ -139,7 +160,10 @@ private:
     void fill_halo_of(const Level<Number>& level, std::size_t result, const Patch& cells) const;
 
     const StepProblem& problem_;
+    Exchange* others_;
+    std::unique_ptr<WholeGrid> whole_;  ///< Null until it is needed.
     PlaneLayout layout_;
+    RowRange rows_;  ///< The rows that are computed here.
     /// What passes need besides kernels.
     template <typename Number>
     struct Helpers {

@@ -179,9 +179,9 @@ struct StepProblem {
     void fill_halos(std::span<Field> species, SideMoment moment) const {
         if (!has_halo()) return;
         const SpeciesPlanes present = planes_of(species);
-        const Patch everywhere{{0, PlaneLayout(grid).row_count()}};
         for (std::size_t s = 0; s < species.size(); ++s) {
-            species[s].fill_halo(sides_of(SpeciesId(s), moment, present, everywhere));
+            const Patch here{species[s].layout().rows};
+            species[s].fill_halo(sides_of(SpeciesId(s), moment, present, here));
         }
     }
 };

@@ -9,7 +9,7 @@
 namespace cascade {
 
 Stepper::Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
-                 bool keeps, MakeExecutor make) {
+                 bool keeps, const MakeExecutor& make) {
     CHECK(problem.species_needs_halo.size() == species.size(), "a flag for every species");
     executor_ = make(problem, std::move(species), most_threads, keeps);
     if (!keeps) roles_.kept = CopyRoles::none;

@@ -21,7 +21,7 @@ public:
     /// Takes `species` as current, and as kept unless `keeps` is false; fills their halo. At first
     /// all threads are in use; `most_threads` is lowered to what the grid is worth.
     Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
-            bool keeps = true, MakeExecutor make = make_thread_executor);
+            bool keeps = true, const MakeExecutor& make = make_thread_executor);
 
     Executor& executor() { return *executor_; }
     const Executor& executor() const { return *executor_; }

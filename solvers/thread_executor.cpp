@@ -124,7 +124,7 @@ void StepPlanes::check(const Field& field) const {
 class ThreadExecutor final : public Executor {
 public:
     ThreadExecutor(const StepProblem& problem, std::vector<Field> species, int most_threads,
-                   bool keeps);
+                   bool keeps, Exchange* others);
 
     const StepProblem& problem() const override { return *problem_; }
     void prepare(const StepProblem& problem) override;
@@ -141,6 +141,7 @@ public:
     void fill_halos(int copy, SideMoment moment) override {
         const FlushDenormals environment;
         problem_->fill_halos(planes_.copy(copy), moment);
+        if (others_ != nullptr) runner_->share_species(planes_.copy(copy));
     }
 
     bool run(const StageClock& clock, StepPass first, std::size_t count, bool check,
@@ -152,6 +153,7 @@ public:
     int most_threads() const override { return team_.size(); }
     void use_threads(int threads) override;
     std::vector<Tiling> tilings_to_try() const override {
+        if (others_ != nullptr) return {Tiling{}};
         return cascade::tilings_to_try(*problem_, reach_, CacheSizes::here(), most_threads());
     }
     void use_tiling(const Tiling& tiling) override;
@@ -179,6 +181,7 @@ private:
         std::vector<double> of_errors, of_values;
     };
 
+    Tiling best_tiling() const;
     void set_tiling(const Tiling& tiling);
     void run(const Given& given, const StepPass& first, std::size_t count, const OwnCells& after);
     void run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
@@ -190,6 +193,7 @@ private:
     void add_squares(RowRange rows, const std::vector<Field>& values);
 
     const StepProblem* problem_;
+    Exchange* others_;  ///< Null unless planes are of a part of the grid.
     StepPlanes planes_;
     Team team_;
     std::optional<PassRunner> runner_;
@@ -203,15 +207,16 @@ private:
 };
 
 ThreadExecutor::ThreadExecutor(const StepProblem& problem, std::vector<Field> species,
-                               int most_threads, bool keeps)
+                               int most_threads, bool keeps, Exchange* others)
     : problem_(&problem),
-      planes_(PlaneLayout(problem.grid), problem.precision, std::move(species), keeps),
+      others_(others),
+      planes_(layout_of(problem, others), problem.precision, std::move(species), keeps),
       team_(worthwhile_threads(problem.grid, planes_.copy(0).size(), most_threads)),
-      runner_(std::in_place, problem),
+      runner_(std::in_place, problem, others),
       finite_(static_cast<std::size_t>(team_.size())) {
     planes_.make_registers(problem.registers);
-    if (problem.grid.linked) reach_ = rows_reached(problem);
-    tiling_ = choose_tiling(problem, reach_, CacheSizes::here());
+    reach_ = rows_reached(problem);
+    tiling_ = best_tiling();
     use_threads(team_.size());
 }
 
@@ -220,11 +225,16 @@ void ThreadExecutor::prepare(const StepProblem& problem) {
     CHECK(problem.grid == problem_->grid, "passes of one grid");
     problem_ = &problem;
     planes_.make_registers(problem.registers);
-    runner_.emplace(problem);
+    runner_.emplace(problem, others_);
     for (Worker& worker : workers_) {
         runner_->prepare(worker.passes, worker.passes.number, worker.passes.count);
     }
-    set_tiling(is_tiling_given_ ? tiling_ : choose_tiling(problem, reach_, CacheSizes::here()));
+    set_tiling(is_tiling_given_ ? tiling_ : best_tiling());
+}
+
+/// Parts meet after each pass.
+Tiling ThreadExecutor::best_tiling() const {
+    return others_ != nullptr ? Tiling{} : choose_tiling(*problem_, reach_, CacheSizes::here());
 }
 
 void ThreadExecutor::use_threads(int threads) {
@@ -237,7 +247,7 @@ void ThreadExecutor::use_threads(int threads) {
 }
 
 void ThreadExecutor::use_tiling(const Tiling& tiling) {
-    if (is_tiling_given_ && tiling == tiling_) return;
+    if (others_ != nullptr || (is_tiling_given_ && tiling == tiling_)) return;
     is_tiling_given_ = true;
     set_tiling(tiling);
 }
@@ -271,6 +281,14 @@ std::vector<ErrorOfStep> ThreadExecutor::run_judged(const StageClock& clock, Ste
     }
     const RowsWritten written = [&](RowRange rows) { add_squares(rows, values); };
     run({clock, cancel, &written}, first, problem_->passes.size() - first.pass, nullptr);
+    if (others_ != nullptr) {
+        std::vector<std::vector<double>*> rows;
+        for (Squares& squares : squares_) {
+            rows.push_back(&squares.of_errors);
+            rows.push_back(&squares.of_values);
+        }
+        others_->share_rows(rows);
+    }
     const std::int64_t cells = problem_->counted_cells();
     std::vector<ErrorOfStep> errors;
     for (const Squares& squares : squares_) {
@@ -330,13 +348,18 @@ void ThreadExecutor::run(const Given& given, const StepPass& first, std::size_t 
 void ThreadExecutor::run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                                 bool meets) {
     while (left > 0) {
-        const std::size_t together = passes_together(next, left);
+        const std::size_t together = passes_together(next, left), pass = next.pass;
         run_together(worker, given, next, together);
         left -= together;
+        if (others_ != nullptr) {
+            team_.barrier();
+            if (worker.passes.number == 0) runner_->share_results(pass, worker.registers);
+        }
         // One barrier is enough: after it no thread reads the copy that the next pass overwrites,
         // and every thread has filled the halo that copies its own rows. Tiles and columns may end
         // in any thread's cells.
-        const bool is_elsewhere = tiles_->levels() > 1 || has_few_rows(problem_->grid);
+        const bool is_elsewhere =
+            tiles_->levels() > 1 || has_few_rows(problem_->grid) || others_ != nullptr;
         if (left > 0 || (meets && is_elsewhere)) team_.barrier();
     }
     if (given.written_by_last == nullptr || !tiles_->is_along_columns()) return;
@@ -385,7 +408,14 @@ void ThreadExecutor::run_together(Worker& worker, const Given& given, StepPass& 
 std::unique_ptr<Executor> make_thread_executor(const StepProblem& problem,
                                                std::vector<Field> species, int most_threads,
                                                bool keeps) {
-    return std::make_unique<ThreadExecutor>(problem, std::move(species), most_threads, keeps);
+    return std::make_unique<ThreadExecutor>(problem, std::move(species), most_threads, keeps,
+                                            nullptr);
+}
+
+std::unique_ptr<Executor> make_part_executor(const StepProblem& problem, std::vector<Field> species,
+                                             int most_threads, bool keeps, Exchange& others) {
+    return std::make_unique<ThreadExecutor>(problem, std::move(species), most_threads, keeps,
+                                            &others);
 }
 
 }  // namespace cascade

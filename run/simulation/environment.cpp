@@ -167,6 +167,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
     here.grid = here.program->domain.grid;
     here.tiling = options.tiling;
     here.threads = options.threads > 0 ? options.threads : hardware_threads();
+    here.executor = options.executor;
     here.account = options.account;
     for (std::uint32_t k = 0; here.account != nullptr && k < script.stage_count(); ++k) {
         here.account->stage(k).name = here.stage(k).name;

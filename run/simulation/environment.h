@@ -16,6 +16,7 @@
 #include "run/stage/stage_plans.h"
 #include "run/stage/stage_state.h"
 #include "run/tissue/ground.h"
+#include "solvers/executor.h"
 
 #include <cstdint>
 #include <map>
@@ -35,6 +36,7 @@ struct Environment {
     Grid grid;
     double memory = 0;  ///< Bytes of all planes.
     int threads = 1;
+    MakeExecutor executor = make_thread_executor;
     std::optional<Tiling> tiling;          ///< None: chosen by size.
     std::unique_ptr<KeptTilings> tilings;  ///< Null on coarser grids.
     std::unique_ptr<StagePlans> plans;

@@ -36,6 +36,7 @@ std::unique_ptr<Environment> environment_in_cells(const Environment& known, Prog
     here.program = &*here.own_program;
     here.grid = here.program->domain.grid;
     here.threads = known.threads;
+    here.executor = known.executor;
     here.tiling = known.tiling;
     here.plans = std::make_unique<StagePlans>(*here.program, known.plans->options());
     here.kernels = std::make_unique<KernelMaker>(here.grid, known.kernels->stepper(),

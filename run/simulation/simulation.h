@@ -14,6 +14,7 @@
 #include "run/stage/step_work.h"
 #include "run/stage/time_account.h"
 #include "solvers/advance.h"
+#include "solvers/executor.h"
 
 #include <cstdint>
 #include <functional>
@@ -31,6 +32,8 @@ struct SimulationOptions {
     std::string_view backend = fastest_backend().name;  ///< A name of the table of backends.
     int lanes = 0;                                      ///< As in BackendOptions.
     int threads = 0;                                    ///< 0: all threads of the machine.
+    /// What takes the steps of stages of fields. No result depends on it.
+    MakeExecutor executor = make_thread_executor;
     /// Compiles the steps of several simulations, so that equal kernels are compiled once; null:
     /// each simulation has its own.
     std::shared_ptr<TieredBackend> stepper = nullptr;

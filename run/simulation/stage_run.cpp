@@ -174,6 +174,7 @@ Schedule StageRun::schedule() {
         look();
     };
     schedule.threads = here.threads;
+    schedule.executor = here.executor;
     schedule.tiling = here.tiling;
     if (tilings_) schedule.tilings = &*tilings_;
     schedule.keep_is_due = keeping_.is_due;

@@ -1,4 +1,5 @@
-// Whole scripts, interpreted and compiled, on one thread and several: the same bits.
+// Whole scripts, interpreted and compiled, on one thread and several, and on grids in parts: the
+// same bits.
 
 #include "random_scripts.h"
 
@@ -6,6 +7,7 @@
 #include "core/parallel.h"
 #include "ir/interpreter.h"
 #include "ir/multiply_add.h"
+#include "lang/library/library.h"
 #include "lang/lower/lower.h"
 #include "run/domain/input_files.h"
 #include "run/simulation/simulation.h"
@@ -72,6 +74,17 @@ void expect_same(const Outcome& expected, const Outcome& found, const std::strin
 
 SimulationOptions interpreted() { return {"interp", 0, 1}; }
 SimulationOptions compiled(int lanes, int threads) { return {"jit", lanes, threads}; }
+SimulationOptions compiled_in_parts(int lanes, int parts) {
+    return {"jit", lanes, 1, in_parts(parts)};
+}
+
+/// In 2, 3 or 5 parts if `number` is odd, else on 1, 2 or 3 threads.
+SimulationOptions compiled_some_way(std::uint64_t number) {
+    constexpr std::array<int, 3> parts{2, 3, 5};
+    const int lanes = 4 << (number % 3), some = static_cast<int>(number / 2 % 3);
+    return number % 2 == 0 ? compiled(lanes, 1 + some)
+                           : compiled_in_parts(lanes, parts[static_cast<std::size_t>(some)]);
+}
 
 void compare_random_scripts(Precision precision, int scripts) {
     OperationCounts counts;
@@ -82,9 +95,8 @@ void compare_random_scripts(Precision precision, int scripts) {
         const std::string text = random_script(static_cast<std::uint64_t>(seed));
         overrides.fast = seed % 4 == 3;
         const Outcome expected = run_script("random", text, overrides, interpreted());
-        const int lanes = 4 << (seed % 3);
-        expect_same(expected, run_script("random", text, overrides, compiled(lanes, 1 + seed % 3)),
-                    text);
+        const SimulationOptions options = compiled_some_way(static_cast<std::uint64_t>(seed));
+        expect_same(expected, run_script("random", text, overrides, options), text);
         failed += expected.failure.empty() ? 0 : 1;
         if (::testing::Test::HasFailure()) return;
 
@@ -258,9 +270,8 @@ TEST(Agreement, RandomScriptsOnModels) {
         if (!reads_neighbours) continue;
         overrides.fast = ++scripts % 4 == 3;
         const Outcome expected = run_script("random", text, overrides, interpreted());
-        const int lanes = 4 << (scripts % 3), threads = 1 + scripts % 2;
-        expect_same(expected, run_script("random", text, overrides, compiled(lanes, threads)),
-                    text);
+        const SimulationOptions options = compiled_some_way(static_cast<std::uint64_t>(scripts));
+        expect_same(expected, run_script("random", text, overrides, options), text);
         failed += expected.failure.empty() ? 0 : 1;
         if (::testing::Test::HasFailure()) break;
     }
@@ -279,7 +290,28 @@ std::vector<std::filesystem::path> examples() {
     return paths;
 }
 
-TEST(Agreement, EveryExampleOnEveryNumberOfLanesAndThreads) {
+TEST(Agreement, EverySystemOfTheLibraryInParts) {
+    int in_space = 0;
+    for (const LibraryText& each : library_texts()) {
+        Overrides overrides;
+        overrides.steps = 12;
+        for (const GridSize& size : {GridSize{36, 29, 1}, GridSize{12, 11, 7}}) {
+            overrides.grid = size;
+            const std::string text(each.text), name(each.system_name());
+            const bool fits = load_script(name, text, ".", overrides).program != nullptr;
+            EXPECT_TRUE(fits || size.depth > 1) << name;
+            if (!fits) continue;
+            in_space += size.depth > 1 ? 1 : 0;
+            const Outcome expected = run_script(name, text, overrides, interpreted());
+            SimulationOptions options = interpreted();
+            options.executor = in_parts(in_space % 2 == 0 ? 5 : 3);
+            expect_same(expected, run_script(name, text, overrides, options), name);
+        }
+    }
+    EXPECT_GT(in_space, 30);
+}
+
+TEST(Agreement, EveryExampleOnLanesThreadsAndParts) {
     ASSERT_GE(examples().size(), 25u);
     for (const auto& path : examples()) {
         const std::string text = read_file(path, 1u << 20).value();
@@ -289,9 +321,10 @@ TEST(Agreement, EveryExampleOnEveryNumberOfLanesAndThreads) {
         const Outcome expected = run_script(name, text, few_steps, interpreted());
         EXPECT_EQ(expected.failure, "") << name;
         EXPECT_FALSE(expected.fields.empty());
-        for (const auto& [lanes, threads] : {std::pair{4, 1}, {8, 3}, {16, 1}, {16, 8}}) {
-            expect_same(expected, run_script(name, text, few_steps, compiled(lanes, threads)),
-                        name + ", lanes " + std::to_string(lanes));
+        for (const SimulationOptions& options :
+             {compiled(4, 1), compiled(8, 3), compiled_in_parts(16, 5), compiled(16, 8)}) {
+            expect_same(expected, run_script(name, text, few_steps, options),
+                        name + ", lanes " + std::to_string(options.lanes));
         }
         few_steps.precision = Precision::binary64;
         few_steps.steps = 40;

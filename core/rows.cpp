@@ -1,6 +1,7 @@
-// Splits a team's work. Separate from the threads, which a browser's tab lacks.
+// Splits rows into nearly equal parts.
+#include "core/rows.h"
+
 #include "core/check.h"
-#include "core/parallel.h"
 
 #include <algorithm>
 
