@@ -7,7 +7,7 @@
 #include "export/instanced_model.h"
 #include "mesh/shapes.h"
 #include "picture/image.h"
-#include "lang/check/check_shape.h"
+#include "lang/check/picture_shape.h"
 #include "lang/library/library.h"
 #include "render/draw.h"
 #include "run/pictures/shape_meshes.h"

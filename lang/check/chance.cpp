@@ -2,7 +2,7 @@
 // length.
 #include "lang/check/chance.h"
 
-#include "lang/check/check_blocks.h"
+#include "lang/check/expressions/setting_words.h"
 #include "lang/program/nodes_of_rates.h"
 
 #include <fmt/format.h>

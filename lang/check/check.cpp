@@ -3,13 +3,14 @@
 
 #include "lang/program/models.h"
 
-#include "lang/check/check_blocks.h"
-#include "lang/check/check_coarse.h"
-#include "lang/check/check_shape.h"
-#include "lang/check/check_solver.h"
-#include "lang/check/check_side_values.h"
-#include "lang/check/check_time.h"
-#include "lang/check/user_functions.h"
+#include "lang/check/blocks/check_blocks.h"
+#include "lang/check/systems/check_systems.h"
+#include "lang/check/systems/check_coarse.h"
+#include "lang/check/blocks/check_shape.h"
+#include "lang/check/systems/check_solver.h"
+#include "lang/check/blocks/check_side_values.h"
+#include "lang/check/systems/check_time.h"
+#include "lang/check/expressions/user_functions.h"
 #include "lang/library/library.h"
 #include "lang/program/stage_kinds.h"
 
@@ -165,19 +166,6 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
         return std::nullopt;
     }
     return std::move(checked->formula);
-}
-
-std::optional<ast::Expression> picture_expression(const ast::Script& script,
-                                                  std::string_view setting) {
-    for (const ast::Block& block : script.blocks) {
-        if (block.kind != ast::BlockKind::picture) continue;
-        for (const ast::Statement& statement : block.statements) {
-            const bool is_sought = statement.kind == ast::StatementKind::value &&
-                                   statement.name.text == setting && !statement.values.empty();
-            if (is_sought) return statement.values[0];
-        }
-    }
-    return std::nullopt;
 }
 
 }  // namespace cascade

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/diagnostics.h"
-#include "lang/check/name_uses.h"
+#include "lang/check/names/name_uses.h"
 #include "lang/program/program.h"
 #include "lang/syntax/ast.h"
 
@@ -27,9 +27,5 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
                                   std::uint32_t stage, std::uint32_t last_stage,
                                   const Program& program, const Sources& sources,
                                   Diagnostics& diagnostics);
-
-/// The value of a setting of the script's picture block, such as `color`, if it has one.
-std::optional<ast::Expression> picture_expression(const ast::Script& script,
-                                                  std::string_view setting = "color");
 
 }  // namespace cascade

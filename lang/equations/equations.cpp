@@ -2,11 +2,11 @@
 // prints one kind after the other.
 #include "lang/equations/equations.h"
 
-#include "lang/check/check_names.h"
-#include "lang/check/system_statements.h"
+#include "lang/library/system_statements.h"
 #include "lang/equations/equation_formula.h"
 #include "lang/equations/equation_lines.h"
 #include "lang/equations/mathml.h"
+#include "lang/vocabulary/settings.h"
 
 #include <fmt/format.h>
 
@@ -114,7 +114,7 @@ public:
 private:
     static bool is_setting(const ast::Statement& statement) {
         return statement.kind == ast::StatementKind::value && statement.index.empty() &&
-               checking::reserved(statement.name.text) != checking::Reserved::no;
+               reserved(statement.name.text) != Reserved::no;
     }
     bool is_tex() const { return symbols_.notation == Notation::tex; }
     std::string typeset_value(const SaidStatement& said, const ast::Expression& value,

@@ -1,8 +1,7 @@
 // Reads the statements of the syntax tree, so that values are printed as they were written.
 #include "lang/print/system_listing.h"
 
-#include "lang/check/check_names.h"
-#include "lang/check/system_statements.h"
+#include "lang/library/system_statements.h"
 #include "lang/format/format_words.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/vocabulary/settings.h"
@@ -46,8 +45,8 @@ Row row_of(const SaidStatement& said, const SystemStatements& system) {
     const ast::Statement& statement = *said.statement;
     const std::string_view name = statement.name.text;
     const bool is_of_cells = system.is_cells() && is_setting_of(SettingBlock::cells, name);
-    const bool is_setting = statement.index.empty() &&
-                            (is_of_cells || checking::reserved(name) != checking::Reserved::no);
+    const bool is_setting =
+        statement.index.empty() && (is_of_cells || reserved(name) != Reserved::no);
     Row row;
     row.kind = is_setting ? "setting" : system.is_species(name) ? "species" : "parameter";
     row.name = statement.index.empty() ? std::string(name)

@@ -6,6 +6,7 @@
 #include "lang/service/known_names.h"
 #include "lang/syntax/index_words.h"
 #include "lang/syntax/parse.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "core/result.h"
 #include "core/source.h"
-#include "lang/check/name_uses.h"
+#include "lang/check/names/name_uses.h"
 #include "lang/syntax/ast.h"
 
 #include <cstdint>

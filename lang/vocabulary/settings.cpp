@@ -1,6 +1,8 @@
 // The table of settings.
 #include "lang/vocabulary/settings.h"
 
+#include "lang/vocabulary/functions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -86,6 +88,12 @@ std::string_view home_of(std::string_view word) {
         case SettingBlock::cell_stage: return "it is a setting of a stage of cells";
     }
     return "";
+}
+
+Reserved reserved(std::string_view name) {
+    if (is_setting_of(SettingBlock::stage, name)) return Reserved::setting;
+    if (name == "pi" || builtin_named(name)) return Reserved::builtin;
+    return Reserved::no;
 }
 
 }  // namespace cascade

@@ -98,4 +98,8 @@ inline constexpr std::string_view keywords[] = {
     "system", "cells", "stage", "domain", "picture", "shape", "system_name", "fn", "let",
     "use",    "and",   "or",    "not",    "over",    "in",    "after",       "pi"};
 
+/// Words that the language gives a meaning, so that a script cannot declare them.
+enum class Reserved : std::uint8_t { no, setting, builtin };
+Reserved reserved(std::string_view name);
+
 }  // namespace cascade

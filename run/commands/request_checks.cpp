@@ -10,6 +10,7 @@
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/material.h"
 #include "run/pictures/picture_size.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 

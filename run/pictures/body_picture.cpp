@@ -8,6 +8,7 @@
 #include "run/pictures/tissue_picture.h"
 #include "run/tissue/grown_body.h"
 #include "tissue/sense_kernel.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 

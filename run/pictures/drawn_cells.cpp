@@ -4,11 +4,12 @@
 #include "core/check.h"
 #include "core/parallel.h"
 #include "lang/check/check.h"
-#include "lang/check/check_shape.h"
+#include "lang/check/picture_shape.h"
 #include "lang/program/stage_kinds.h"
 #include "run/pictures/model_picture.h"
 #include "tissue/sense_kernel.h"
 #include "tissue/tissue.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 

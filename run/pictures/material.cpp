@@ -2,6 +2,7 @@
 #include "run/pictures/material.h"
 
 #include "lang/check/check.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 

@@ -15,6 +15,7 @@
 #include "run/pictures/surface_picture.h"
 #include "run/pictures/tissue_picture.h"
 #include "run/simulation/finer_view.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 

@@ -12,6 +12,7 @@
 #include "picture/image.h"
 #include "run/script/embedded_script.h"
 #include "run/script/option_statements.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

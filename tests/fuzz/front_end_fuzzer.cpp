@@ -7,6 +7,7 @@
 #include "lang/format/format_script.h"
 #include "lang/lower/lower.h"
 #include "lang/syntax/parse.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <cstddef>
 #include <cstdint>

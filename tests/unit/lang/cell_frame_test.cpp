@@ -1,5 +1,5 @@
 // The frame of a cell: its formulas, computed, against rotations of vectors.
-#include "lang/check/cell_frame.h"
+#include "lang/check/systems/cell_frame.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // Right texts: what the checker makes of them.
 #include "check_helpers.h"
+#include "lang/syntax/picture_expression.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Shapes by formulas against what they were meant to be.
 #include "run/pictures/shape_meshes.h"
 
-#include "lang/check/check_shape.h"
+#include "lang/check/picture_shape.h"
 #include "lang/library/library.h"
 #include "picture/srgb.h"
 #include "run/pictures/cells_from_outside.h"

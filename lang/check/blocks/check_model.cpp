@@ -1,0 +1,341 @@
+// The settings of a domain that is a model: mesh, cells, laplacian, unit, and surfaces by name.
+#include "lang/check/blocks/check_blocks.h"
+#include "lang/check/expressions/check_directions.h"
+#include "lang/check/expressions/setting_words.h"
+#include "lang/program/models.h"
+#include "lang/vocabulary/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+namespace cascade::checking {
+
+namespace {
+
+/// What a surface takes in brackets; the others stand alone.
+struct ShapeSizes {
+    ModelShape shape;
+    std::size_t most;
+    std::string_view arguments;  ///< In messages.
+    std::string_view example;
+};
+constexpr std::array<ShapeSizes, 4> shape_sizes{{
+    {ModelShape::torus, 2, "its two radii", "torus(1, 0.4)"},
+    {ModelShape::box, 3, "its three sides", "box(1, 1, 2)"},
+    {ModelShape::knot, 1, "the radius of its tube", "knot(0.4)"},
+    {ModelShape::implicit, 1, "an expression of x, y and z, and perhaps half the side of its box",
+     "implicit(1 - x^2 - y^2 - z^2)"},
+}};
+
+const ShapeSizes* sizes_of(ModelShape shape) {
+    for (const ShapeSizes& sizes : shape_sizes) {
+        if (sizes.shape == shape) return &sizes;
+    }
+    return nullptr;
+}
+
+std::optional<ModelShape> shape_of(std::string_view word) {
+    return word == word_of(ModelShape::implicit) ? ModelShape::implicit : shape_named(word);
+}
+
+/// The statement of a block that names a surface; null if there is none. Another one, which is
+/// wrong, may come before it.
+const ast::Statement* model_surface_of(const ast::Script& script, const ast::Block& domain) {
+    for (const ast::Statement& statement : domain.statements) {
+        if (statement.name.text == "surface" && is_model_surface(script, statement))
+            return &statement;
+    }
+    return nullptr;
+}
+
+/// The statement of a block that names a model; null if there is none.
+const ast::Statement* model_of(const ast::Script& script, const ast::Block& domain) {
+    for (const ast::Statement& statement : domain.statements) {
+        if (statement.name.text == "mesh" && !statement.values.empty()) return &statement;
+    }
+    return model_surface_of(script, domain);
+}
+
+/// The statement of --mesh, which names a file or a shape; null if it was not given.
+const ast::Statement* model_option(const ast::Script& script) {
+    const ast::Statement* mesh = find_option(script, "mesh");
+    return mesh != nullptr ? mesh : find_option(script, "surface");
+}
+
+class ModelChecker {
+public:
+    ModelChecker(Workspace& work, const ast::Script& script, const ast::Block& domain)
+        : work_(work), script_(script), domain_(domain), option_(model_option(script)) {}
+
+    void check() {
+        if (option_ != nullptr) {
+            check_named(*option_);
+        } else {
+            const ast::Statement* mesh = find("mesh");
+            const ast::Statement* surface = model_surface_of(script_, domain_);
+            if (mesh != nullptr && surface != nullptr) {
+                return report_twice(work_, surface->name.span, mesh->name.span,
+                                    "a domain has a mesh or a surface, not both");
+            }
+            check_named(mesh != nullptr ? *mesh : *surface);
+        }
+        if (!model_) return;
+        // A unit refers to the surface that the script has without --mesh, and how a model stands
+        // to the script's own model.
+        const bool is_own = option_ == nullptr;
+        if (const auto* cells = find("cells")) check_cells(*cells);
+        if (const auto* laplacian = find("laplacian")) {
+            put(model_->laplacian, read_word(work_, script_, *laplacian));
+        }
+        const auto* unit = is_own || model_of(script_, domain_) ? find("unit") : nullptr;
+        if (unit != nullptr) put(model_->unit, read_number(work_, script_, *unit));
+        if (const auto* up = is_own ? find("up") : find_option(script_, "up")) check_up(*up);
+        const auto* facing = is_own ? find("facing") : find_option(script_, "facing");
+        if (facing != nullptr) check_facing(*facing);
+        check_anisotropy(find("directions"), find("stretch"));
+        if (is_own) {
+            for (const ast::Statement& other : domain_.statements) refuse(other);
+        } else {
+            leave_borders();
+            if (const auto* grid = find_option(script_, "grid")) refuse(*grid);
+        }
+        take_model();
+    }
+
+private:
+    const ast::Statement* find(std::string_view name) const {
+        if (const auto* option = find_option(script_, name)) return option;
+        for (const ast::Statement& statement : domain_.statements) {
+            if (statement.name.text == name && !statement.values.empty()) return &statement;
+        }
+        return nullptr;
+    }
+
+    /// Reports a setting of a grid, which a model does not have.
+    void refuse(const ast::Statement& statement) {
+        const std::string_view word = statement.name.text;
+        const auto setting = setting_named(word);
+        if (!setting || includes(info(*setting).domains, Domains::model)) return;
+        const bool is_shape =
+            word == "grid" || word == "spacing" || word == "extent" || word == "metric";
+        work_.diagnostics.error(statement.name.span, fmt::format("a model has no {}", word),
+                                is_shape
+                                    ? "its cells are spread over it: cells: 20000, or --cells 20000"
+                                : word == "front"
+                                    ? "facing: -y says along which axis it looks"
+                                    : "it ends where its surface ends, and nothing flows out");
+    }
+
+    /// Drops what the script says about the borders of the plane that --mesh replaces.
+    void leave_borders() {
+        const DomainSettings& domain = work_.program.domain;
+        if (domain.mask) {
+            work_.diagnostics.warning(domain.mask->span, "a model has no mask: this is ignored");
+        }
+        for (const auto& side : domain.sides) {
+            if (!side || !takes_value(side->kind)) continue;
+            work_.diagnostics.warning(side->span, "a model has no sides: this is ignored");
+        }
+        if (const ast::Statement* stencil = find("stencil")) {
+            work_.diagnostics.warning(stencil->span, "a model has no stencil: this is ignored");
+        }
+    }
+
+    /// Resets the domain to the defaults of a model, except for seed and precision.
+    void take_model() {
+        DomainSettings& domain = work_.draft->domain;
+        domain.grid = rows_of_cells(model_->count);
+        domain.mask.reset();
+        domain.stencil = StencilKind::cross;
+        domain.surface.reset();
+        domain.sides = {};
+        domain.model = std::move(model_);
+    }
+
+    void check_named(const ast::Statement& statement) {
+        if (statement.name.text == "mesh") check_mesh(statement);
+        else check_shape(statement);
+    }
+
+    Span span_of(const ast::Statement& statement) const {
+        return value_of(script_, statement).span;
+    }
+
+    void check_mesh(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const ast::Expr& value = value_of(script_, statement);
+        if (std::holds_alternative<ast::Garbage>(value.node)) return;
+        const auto* text = std::get_if<ast::Text>(&value.node);
+        if (text == nullptr || text->value.empty()) {
+            work_.diagnostics.error(value.span, "a mesh is the name of a file in quotes",
+                                    shape_of(word_of(value))
+                                        ? fmt::format("write surface: {}", word_of(value))
+                                        : "mesh: \"horse.ply\"");
+            return;
+        }
+        model_.emplace();
+        model_->path = text->value;
+        model_->span = value.span;
+    }
+
+    void check_shape(const ast::Statement& statement) {
+        const ast::Expr& value = value_of(script_, statement);
+        const ModelShape shape = *shape_of(word_of(value));
+        const ShapeSizes* sizes = sizes_of(shape);
+        const std::vector<ast::Expression> arguments = arguments_of(script_, statement.values[0]);
+        const bool is_implicit = shape == ModelShape::implicit;
+        const bool has_box = is_implicit && arguments.size() == 2;
+        const bool fits = sizes != nullptr && arguments.size() == sizes->most;
+        if (!fits && !has_box && (is_implicit || !arguments.empty())) {
+            if (sizes == nullptr) {
+                work_.diagnostics.error(value.span,
+                                        fmt::format("'{}' stands alone", word_of(shape)),
+                                        fmt::format("surface: {}", word_of(shape)));
+            } else {
+                work_.diagnostics.error(value.span,
+                                        fmt::format("{} takes {} in brackets", word_of(shape),
+                                                    sizes->arguments),
+                                        fmt::format("surface: {}", sizes->example));
+            }
+            return;
+        }
+        ModelSettings model;
+        model.shape = shape;
+        model.span = value.span;
+        if (is_implicit) {
+            Scope scope;
+            scope.context = Context::position;
+            scope.reads_volumes = true;
+            auto checked = check_number(work_, script_, arguments[0], scope);
+            if (!checked) return;
+            model.implicit = std::move(checked->formula);
+        }
+        for (const ast::Expression each : std::span(arguments).subspan(is_implicit ? 1 : 0)) {
+            const auto size = check_constant(work_, script_, each, "a size");
+            if (!size) return;
+            if (!(*size >= 1e-6 && *size <= 1e6)) {
+                work_.diagnostics.error(script_.expressions[each.root].span,
+                                        "a size is from 1e-6 to 1e6");
+                return;
+            }
+            model.sizes.push_back(*size);
+        }
+        if (model.shape == ModelShape::torus && !model.sizes.empty() &&
+            model.sizes[1] >= model.sizes[0]) {
+            work_.diagnostics.error(value.span, "the tube of a torus is thinner than its ring",
+                                    "surface: torus(1, 0.4)");
+            return;
+        }
+        if (model.shape == ModelShape::knot && !model.sizes.empty() && model.sizes[0] > 0.55) {
+            work_.diagnostics.error(value.span, "the tube of a knot has a radius of at most 0.55",
+                                    "surface: knot(0.4)");
+            return;
+        }
+        model_ = std::move(model);
+    }
+
+    void check_cells(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const std::string_view word = word_of(value_of(script_, statement));
+        if (word == "faces" || word == "vertices") {
+            model_->cells = word == "faces" ? ModelCellKind::faces : ModelCellKind::vertices;
+            return;
+        }
+        if (std::holds_alternative<ast::Name>(value_of(script_, statement).node)) {
+            work_.diagnostics.error(span_of(statement), "cells are a number, faces or vertices",
+                                    did_you_mean(work_, word, words_taken_by(Setting::cells)));
+            return;
+        }
+        put(model_->count, read_number(work_, script_, statement));
+    }
+
+    void check_up(const ast::Statement& statement) {
+        if (const auto axis = read_word(work_, script_, statement)) {
+            model_->stance = usual_stance(static_cast<Axis>(*axis));
+        }
+    }
+
+    void check_facing(const ast::Statement& statement) {
+        if (!has_one_value(work_, script_, statement)) return;
+        const ast::Expr* value = &value_of(script_, statement);
+        const auto* minus = std::get_if<ast::Unary>(&value->node);
+        const bool is_backwards = minus != nullptr && minus->op == Function::negate;
+        if (is_backwards) value = &script_.expressions[minus->operand];
+        const auto axis = axis_of_name(word_of(*value));
+        if (!axis) {
+            work_.diagnostics.error(span_of(statement),
+                                    "the axis along which a model looks is x, -x, y, -y, z or -z");
+        } else if (*axis == model_->stance.up) {
+            work_.diagnostics.error(
+                span_of(statement),
+                fmt::format("a model does not look along {}, which points upwards", name_of(*axis)),
+                *axis == Axis::y ? "up: z says that another axis points upwards"
+                                 : "it looks along another axis");
+        } else {
+            model_->stance.facing = {*axis, is_backwards};
+        }
+    }
+
+    void check_anisotropy(const ast::Statement* directions, const ast::Statement* stretch) {
+        if (directions != nullptr)
+            model_->directions = check_directions(work_, script_, *directions);
+        if (model_->directions && model_->cells != ModelCellKind::spread) {
+            work_.diagnostics.error(model_->directions->span,
+                                    "only cells that are spread over a model can be stretched",
+                                    "cells: 20000, or --cells 20000");
+        }
+        if (stretch == nullptr) return;
+        if (directions == nullptr) {
+            work_.diagnostics.error(stretch->name.span, "cells are stretched along directions",
+                                    "directions: axis(0, 1, 0)");
+            return;
+        }
+        put(model_->stretch, read_number(work_, script_, *stretch));
+    }
+
+    Workspace& work_;
+    const ast::Script& script_;
+    const ast::Block& domain_;
+    const ast::Statement* option_;  ///< The option that names the model; null if the block does.
+    std::optional<ModelSettings> model_;
+};
+
+}  // namespace
+
+bool is_model_setting(std::string_view name) {
+    const auto setting = setting_named(name);
+    return setting && info(*setting).domains == Domains::model;
+}
+
+bool is_model_surface(const ast::Script& script, const ast::Statement& surface) {
+    return surface.values.size() == 1 && shape_of(word_of(value_of(script, surface)));
+}
+
+bool check_model(Workspace& work, const ast::Script& script, const ast::Block& domain) {
+    const ast::Statement* own = model_of(script, domain);
+    const bool gives_way = own != nullptr && find_option(script, "grid") != nullptr;
+    if (model_option(script) != nullptr || (own != nullptr && !gives_way)) {
+        ModelChecker(work, script, domain).check();
+        return true;
+    }
+    if (gives_way) {
+        work.diagnostics.warning(value_of(script, *own).span,
+                                 "the requested grid replaces this model");
+    }
+    const auto refuse = [&](const ast::Statement& statement) {
+        if (statement.values.empty() || !is_model_setting(statement.name.text)) return;
+        work.diagnostics.error(
+            statement.name.span, "only a domain with a model has this setting",
+            "mesh: \"horse.ply\", surface: sphere or --mesh sphere makes it one");
+    };
+    std::for_each(script.options.begin(), script.options.end(), refuse);
+    if (!gives_way) std::for_each(domain.statements.begin(), domain.statements.end(), refuse);
+    return gives_way;
+}
+
+}  // namespace cascade::checking

@@ -1,0 +1,14 @@
+// The kernels of convolutions (internal to the checker).
+#pragma once
+
+#include "lang/check/names/check_names.h"
+
+#include <cstdint>
+
+namespace cascade::checking {
+
+/// Checks that the parameters in the kernels of a stage's convolutions are the same in all cells
+/// and known before the stage.
+void check_kernels_of_stage(Workspace& work, std::uint32_t index);
+
+}  // namespace cascade::checking

@@ -1,0 +1,109 @@
+// How expressions are expanded: a stack of tasks, the functions that are open, and the values of
+// indices. Of this folder only.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "lang/check/expressions/expand.h"
+#include "lang/check/expressions/user_functions.h"
+#include "lang/syntax/ast.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace cascade::checking {
+
+/// Expands one expression. The last result on its stack is what the nodes done so far have become.
+class Expander {
+public:
+    Expander(Workspace& work, const ast::Script& script, const Scope& scope)
+        : work_(work), scope_(scope) {
+        frames_.push_back({&script, nullptr, 0, std::nullopt});
+        for (const IndexValue& index : scope.indices) values_[index.name].push_back(index.value);
+        // A system may have a parameter of this name.
+        has_laplacians_ =
+            scope.system == unknown_system || find(work.names[scope.system], "lap") == nullptr;
+    }
+
+    Expanded run(ast::ExprId root);
+
+private:
+    enum class TaskKind : std::uint8_t {
+        visit,    ///< Expand a node and its operands.
+        finish,   ///< The operands are done: write the node itself.
+        call,     ///< The arguments are done: go on with the body of the function or constant.
+        leave,    ///< The body is done.
+        repeat,   ///< An aggregate: bind its index to `value` and expand the operand.
+        combine,  ///< The operand is done for `value`.
+        apply,    ///< Apply an operator to the last result.
+        swap,     ///< Exchange the last two results.
+        scale,    ///< Multiply the last two results.
+    };
+    struct Task {
+        TaskKind kind = TaskKind::visit;
+        ast::ExprId part = 0;
+        std::int64_t value = 0;  ///< Of an index; for members the number of nodes before.
+    };
+    /// The body of a function that is being expanded; the bottom one is the expression itself.
+    struct Frame {
+        const ast::Script* script = nullptr;
+        const UserFunction* function = nullptr;
+        std::size_t first_argument = 0;  ///< In arguments_.
+        std::optional<Span> call;        ///< The outermost call.
+    };
+
+    const ast::Script& script() const { return *frames_.back().script; }
+    const ast::Expr& expr(ast::ExprId part) const { return script().expressions[part]; }
+    void visit(ast::ExprId part);
+    void visit_name(ast::ExprId part, const ast::Name& name);
+    void visit_call(ast::ExprId part, const ast::Call& call);
+    void visit_over(ast::ExprId part, const ast::Over& over);
+    void emit_length(Span span, const ast::Word& name);
+    void finish(const Task& task);
+    void finish_call(const ast::Expr& expr, const ast::Call& call);
+    void finish_member(const ast::Expr& expr, const ast::Indexed& member, std::size_t before);
+    void enter(ast::ExprId part);
+    void apply(ast::ExprId part);
+    void repeat(const Task& task);
+    void combine(const Task& task);
+    /// Does the name mean a constant of the script?
+    const UserFunction* find_constant(std::string_view name) {
+        return functions_of(work_, script()).find_constant(name);
+    }
+    std::optional<std::int64_t> index_value(ast::ExprId first, ast::ExprId last, Span span);
+
+    ast::ExprId append(Span span, decltype(ast::Expr::node) node);
+    void emit(Span span, decltype(ast::Expr::node) node) {
+        results_.push_back(append(span, std::move(node)));
+    }
+    void error(Span span, std::string message, std::string hint) {
+        work_.diagnostics.error(span, std::move(message), std::move(hint));
+        emit(span, ast::Garbage{});
+    }
+    ast::ExprId take() {
+        const ast::ExprId id = results_.back();
+        results_.pop_back();
+        return id;
+    }
+    void push(TaskKind kind, ast::ExprId part, std::int64_t value = 0) {
+        tasks_.push_back({kind, part, value});
+    }
+
+    Workspace& work_;
+    const Scope& scope_;
+    Expanded out_;
+    std::vector<Task> tasks_;
+    std::vector<Frame> frames_;
+    std::vector<ast::ExprId> arguments_;  ///< Of the functions in frames_.
+    std::vector<ast::ExprId> results_;    ///< Nodes of out_ that are not yet used as operands.
+    bool has_laplacians_ = true;          ///< Means `lap` without brackets the operator?
+    std::size_t open_indices_ = 0;        ///< Number of members whose index is being expanded.
+    /// The values of the indices, the innermost last. Functions cannot read them.
+    std::unordered_map<std::string_view, std::vector<std::int64_t>> values_;
+};
+
+}  // namespace cascade::checking

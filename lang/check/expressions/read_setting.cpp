@@ -1,0 +1,102 @@
+// What a setting takes is said by its row, and so is the message about another value.
+#include "lang/check/expressions/read_setting.h"
+
+#include "core/check.h"
+#include "lang/check/names/check_names.h"
+#include "lang/check/expressions/setting_words.h"
+#include "lang/vocabulary/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace cascade::checking {
+
+namespace {
+
+/// A hint for `0,0125`, digits on both sides of a comma: a decimal comma.
+std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() != 2) return "";
+    const Span whole = span_of(script, statement.values[0]);
+    const Span part = span_of(script, statement.values[1]);
+    const auto is_number = [&](std::size_t k) {
+        return std::holds_alternative<ast::Number>(
+            script.expressions[statement.values[k].root].node);
+    };
+    if (!is_number(0) || !is_number(1) || part.begin != whole.end + 1) return "";
+    const std::string_view name = statement.name.text;
+    const bool is_count = name == "iterations" || name == "interval" || name == "duration";
+    if (is_count && part.end - part.begin == 3) {
+        const auto number = [&](std::size_t k) {
+            return std::get<ast::Number>(script.expressions[statement.values[k].root].node).value;
+        };
+        return fmt::format("write '{}'", 1000 * number(0) + number(1));
+    }
+    return "the decimal separator is a point: write '.' for ','";
+}
+
+}  // namespace
+
+bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
+    if (statement.values.size() == 1) return true;
+    if (statement.values.empty()) return false;
+    work.diagnostics.error(span_of(script, statement.values[1]),
+                           fmt::format("'{}' takes one value", statement.name.text),
+                           hint_of_decimal_comma(script, statement));
+    return false;
+}
+
+namespace {
+
+/// Why a number is no value of a setting.
+std::string refusal_of(const SettingInfo& setting, double value) {
+    using Kind = SettingLimits::Kind;
+    const auto& [kind, low, high] = setting.limits;
+    if (kind == Kind::count) {
+        if (value < low) return fmt::format("{} must be at least {}", setting.word, low);
+        if (value > high) return fmt::format("{} must be at most {}", setting.word, high);
+        return fmt::format("{} must be a whole number", setting.word);
+    }
+    if (kind == Kind::length && !(value > 0)) {
+        return fmt::format("{} must be above 0", setting.word);
+    }
+    if (!setting.refusal.empty()) return std::string(setting.refusal);
+    return fmt::format("{} must be {}from {} to {}", setting.word,
+                       kind == Kind::whole ? "a whole number " : "", low, high);
+}
+
+}  // namespace
+
+std::optional<double> read_number(Workspace& work, const ast::Script& script,
+                                  const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return std::nullopt;
+    const SettingInfo& row = info(*setting_named(statement.name.text));
+    CHECK(row.limits.kind != SettingLimits::Kind::none, "the row says which numbers it takes");
+    const auto value = check_constant(work, script, statement.values[0], row.word);
+    if (!value || row.limits.contain(*value)) return value;
+    // A part of a step may be meant as a length of time.
+    const bool fits = row.limits.kind != SettingLimits::Kind::count || (*value > 0 && *value < 1);
+    work.diagnostics.error(value_of(script, statement).span, refusal_of(row, *value),
+                           std::string(fits ? row.hint : ""));
+    return std::nullopt;
+}
+
+std::optional<std::size_t> read_word(Workspace& work, const ast::Script& script,
+                                     const ast::Statement& statement) {
+    if (!has_one_value(work, script, statement)) return std::nullopt;
+    const ast::Expr& value = value_of(script, statement);
+    if (std::holds_alternative<ast::Garbage>(value.node)) return std::nullopt;
+    const SettingInfo& row = info(*setting_named(statement.name.text));
+    const auto* const name = std::get_if<ast::Name>(&value.node);
+    const std::string_view word = name != nullptr ? name->name : std::string_view();
+    const std::vector<std::string> words = words_taken_by(row);
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+    work.diagnostics.error(value.span, std::string(row.refusal), did_you_mean(work, word, words));
+    return std::nullopt;
+}
+
+}  // namespace cascade::checking

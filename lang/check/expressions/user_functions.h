@@ -1,0 +1,76 @@
+// Functions that a script defines, `fn bump(r, w) = exp(-(r/w)^2)`, and its constants, `let L = 10`
+// (internal to the checker).
+//
+// A function reads only its parameters, built-in values, constants and other functions, and is not
+// recursive. So a call can be expanded: replaced by the function's body with the arguments in place
+// of parameters. A constant is a function without parameters that is read without brackets.
+#pragma once
+
+#include "lang/check/names/check_names.h"
+
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace cascade::checking {
+
+struct UserFunction {
+    const ast::FunctionDefinition* definition = nullptr;
+    ast::Expression body;  ///< As defined, or of a constant as `--set` says.
+    std::unordered_map<std::string_view, std::uint32_t> parameters;  ///< Their numbers, from 0.
+    bool has_error = false;  ///< An error has been reported; calls are not.
+};
+
+/// The functions of one script, by name.
+class FunctionTable {
+public:
+    /// Null if the script has no function of this name.
+    const UserFunction* find(std::string_view name) const {
+        const auto found = by_name_.find(name);
+        return found == by_name_.end() ? nullptr : &functions_[found->second];
+    }
+    /// Null if the script has no constant of this name.
+    const UserFunction* find_constant(std::string_view name) const {
+        const UserFunction* found = find(name);
+        return found != nullptr && found->definition->is_constant ? found : nullptr;
+    }
+    bool empty() const { return functions_.empty(); }
+    std::vector<std::string> names() const;
+
+private:
+    friend class FunctionTableMaker;
+    std::vector<UserFunction> functions_;
+    std::unordered_map<std::string_view, std::uint32_t> by_name_;
+};
+
+/// A function and the script that it is written in.
+struct FoundFunction {
+    const UserFunction* function = nullptr;
+    const ast::Script* script = nullptr;
+    explicit operator bool() const { return function != nullptr; }
+};
+
+/// The function that a call in `script` means: one of the script's own, else one of cells; nothing
+/// if there is none.
+FoundFunction find_function(Workspace& work, const ast::Script& script, std::string_view name);
+
+/// True for functions of the language and aggregates over an index.
+bool is_function_name(std::string_view name);
+
+/// Reports that there is no such function; `own` are the names of the script's functions.
+void report_unknown_function(Workspace& work, const ast::Word& name,
+                             const std::vector<std::string>& own);
+
+/// True if a call has as many arguments as the function has parameters; else reports an error.
+bool has_right_count(Workspace& work, const UserFunction& function, const ast::Call& call,
+                     Span span);
+
+/// The functions and constants of a script; they are checked when first requested.
+const FunctionTable& functions_of(Workspace& work, const ast::Script& script);
+
+/// Reports constants that have the name of a parameter, definition or index of a system: a reader
+/// could not tell which of the two an expression means.
+void check_names_of_constants(Workspace& work, const ast::Script& script);
+
+}  // namespace cascade::checking

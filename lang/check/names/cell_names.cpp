@@ -1,0 +1,85 @@
+// Names of cells that crawl: their values, and what they can read of other stages.
+#include "lang/check/names/check_names.h"
+#include "lang/program/stage_kinds.h"
+
+#include <fmt/format.h>
+
+namespace cascade::checking {
+
+bool is_of_cells(const Workspace& work, const Scope& scope) {
+    if (scope.context == Context::shape) return true;
+    const auto& systems = work.program.systems;
+    return scope.system < systems.next() && systems[scope.system].cells;
+}
+
+bool is_of_each_cell(std::string_view name) {
+    return cell_value_named(name) || name == "p" || name == "r" || name == "age";
+}
+
+std::optional<Node> resolve_cell_value(Workspace& work, const Scope& scope, CellValue value,
+                                       Span span) {
+    Diagnostic diagnostic;
+    if (scope.context == Context::bound) {
+        diagnostic.message = "a bound is made of numbers and parameters only";
+    } else if (scope.context == Context::value && is_of_frame(value)) {
+        diagnostic.message = fmt::format("'{}' has no value when a stage starts",
+                                         cell_value_names[static_cast<std::size_t>(value)]);
+        diagnostic.hint = "it can be read in rates, definitions and pictures";
+    } else {
+        return Node{value, span, is_vector(value) ? ValueType::vector : ValueType::number};
+    }
+    diagnostic.span = span;
+    add_call(work, diagnostic);
+    work.diagnostics.add(std::move(diagnostic));
+    return std::nullopt;
+}
+
+bool knows_cells(Workspace& work, const Scope& scope, StageItem item, Span span) {
+    const Program& program = work.program;
+    const Stage& source = program.stages[item.stage];
+    if (!source.uniform.empty() && source.uniform[item.item]) return true;
+    if (!is_of_cells(work, scope)) {
+        report(work, span, "a stage of fields cannot read cells that crawl",
+               fmt::format("stage '{}' is one of cells", source.name));
+        return false;
+    }
+    if (scope.context == Context::picture) {
+        report(work, span,
+               fmt::format("the cells of stage '{}' are not those of '{}'", source.name,
+                           program.stages[*scope.stage].name),
+               "a value that is carried on, as in c: c, can be shown");
+        return false;
+    }
+    const auto before = stage_of_cells_before(program, *scope.stage);
+    if (program.stages[*scope.stage].founders) {
+        report(work, span,
+               fmt::format("stage '{}' starts with other cells than those of '{}'",
+                           program.stages[*scope.stage].name, source.name),
+               "without 'founders' a stage goes on with the cells before it");
+        return false;
+    }
+    if (before == item.stage) return true;
+    report(work, span,
+           fmt::format("the cells of '{}' have gone on to stage '{}'", source.name,
+                       program.stages[*before].name),
+           "carry the value on in each stage between, as in c: c");
+    return false;
+}
+
+std::optional<std::uint32_t> find_sensed_stage(Workspace& work, const ast::Qualified& qualified) {
+    const std::string_view name = qualified.stage.text;
+    const auto found = work.stages.find(std::string(name));
+    if (found == work.stages.end()) {
+        std::vector<std::string> names;
+        for (const Stage& each : work.program.stages) names.push_back(each.name);
+        report(work, qualified.stage.span, fmt::format("there is no stage '{}'", name),
+               is_hopeless(work) ? "" : did_you_mean(work, name, names));
+        return std::nullopt;
+    }
+    if (!work.cell_stages[found->second]) return found->second;
+    report(work, qualified.stage.span, "cells sense stages of fields only",
+           fmt::format("stage '{}' is one of cells", name));
+    return std::nullopt;
+}
+
+}  // namespace cascade::checking

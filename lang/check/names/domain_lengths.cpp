@@ -1,0 +1,88 @@
+// The grid is known when expressions of systems, stages and pictures are checked.
+#include "lang/check/names/domain_lengths.h"
+
+#include "lang/program/scaled_lengths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cascade::checking {
+
+namespace {
+
+struct Row {
+    std::string_view name, builtin;
+    double (*factor)(const Grid& grid);
+};
+
+double longest(const Grid& grid) { return grid.spacing * static_cast<double>(grid.longest_side()); }
+
+constexpr std::array rows = {
+    Row{"x", "x", longest},
+    Row{"y", "y", longest},
+    Row{"z", "z", longest},
+    Row{"width", "",
+        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.width); }},
+    Row{"height", "",
+        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.height); }},
+    Row{"depth", "",
+        [](const Grid& grid) { return grid.spacing * static_cast<double>(grid.depth); }},
+    Row{"spacing", "", [](const Grid& grid) { return grid.spacing; }},
+};
+
+}  // namespace
+
+std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
+                                          const ast::Word& name) {
+    const auto refuse = [&](std::string message, std::string hint) {
+        work.diagnostics.error(name.span, std::move(message), std::move(hint));
+        return std::nullopt;
+    };
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const Row& each) { return each.name == name.text; });
+    if (row == rows.end()) {
+        return refuse(fmt::format("'{}' is not a length of the domain", name.text),
+                      "they are domain.x, .y, .z, .width, .height, .depth and .spacing");
+    }
+    if (scope.context == Context::constant || scope.context == Context::position ||
+        scope.context == Context::shape) {
+        return refuse("lengths of the domain cannot be read here",
+                      "values, rates, definitions, masks and pictures read them");
+    }
+    const DomainSettings& domain = work.program.domain;
+    if (domain.model || domain.surface) {
+        return refuse("lengths of the domain are those of a grid with straight axes",
+                      domain.model ? "x, y and z are from 0 to 1 along the model's longest side"
+                                   : "sx and sy are from 0 to 1 along the sides of the surface");
+    }
+    if (is_of_cells(work, scope)) {
+        return refuse("cells that crawl do not lie on the grid",
+                      "p.x, p.y and p.z are their place");
+    }
+    return DomainLength{row->builtin, row->factor(domain.grid)};
+}
+
+double content_of_cell(const Program& program) {
+    const DomainSettings& domain = program.domain;
+    if (domain.model || domain.surface) return 1;
+    return std::pow(domain.grid.spacing, axes_of(domain));
+}
+
+const ast::Word* name_of_length(const ast::Script& script, const ast::Expr& expr) {
+    if (const auto* qualified = std::get_if<ast::Qualified>(&expr.node)) {
+        return qualified->stage.text == domain_word ? &qualified->name : nullptr;
+    }
+    const auto* component = std::get_if<ast::Component>(&expr.node);
+    if (component == nullptr) return nullptr;
+    const auto* name = std::get_if<ast::Name>(&script.expressions[component->operand].node);
+    return name != nullptr && name->name == domain_word ? &component->name : nullptr;
+}
+
+bool is_integral(const ast::Over& over) {
+    return over.function.text == integral_word && over.index.text == domain_word;
+}
+
+}  // namespace cascade::checking

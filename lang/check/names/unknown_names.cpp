@@ -1,0 +1,165 @@
+// Hints come from the tables of words of other programs, then from similar names.
+#include "lang/check/names/unknown_names.h"
+
+#include "lang/vocabulary/words_elsewhere.h"
+#include "lang/library/library.h"
+#include "lang/vocabulary/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace cascade::checking {
+
+namespace {
+
+std::vector<std::string> readable_names(const System& system, const Scope& scope) {
+    std::vector<std::string> names = quantity_names(system);
+    if (scope.context == Context::rate || scope.is_side) {
+        for (const Definition& definition : system.definitions) names.push_back(definition.name);
+    }
+    for (const std::string_view name : builtin_names) {
+        if (varies_by_cell(name)) names.emplace_back(name);
+    }
+    for (const char* name : {"pi", "frozen", "speed"}) names.push_back(name);
+    return names;
+}
+
+/// "write 'dxx(u)'" for u_xx, if there is a u.
+std::string hint_of_subscript(std::string_view name, const std::vector<std::string>& known) {
+    const std::size_t bar = name.rfind('_');
+    if (bar == name.npos) return "";
+    const std::string_view of = name.substr(0, bar), axes = name.substr(bar + 1);
+    const bool is_derivative = !axes.empty() && axes.size() <= 2 &&
+                               axes.find_first_not_of("xyz") == axes.npos &&
+                               function_named(fmt::format("d{}", axes));
+    if (!is_derivative || std::find(known.begin(), known.end(), of) == known.end()) return "";
+    return fmt::format("write 'd{}({})'", axes, of);
+}
+
+}  // namespace
+
+void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    if (scope.context == Context::position) {
+        report(work, span, fmt::format("a surface cannot read '{}'", name),
+               "it is made of numbers, sx, sy, pi and functions of them");
+        return;
+    }
+    if (scope.context == Context::mask) {
+        report(work, span, fmt::format("a mask cannot read '{}'", name),
+               "it is made of coordinates, numbers, shapes, noise and files");
+        return;
+    }
+    if (scope.context == Context::shape) {
+        report(work, span, fmt::format("a shape cannot read '{}'", name),
+               "it is made of t, s, part, numbers of its own and functions of them");
+        return;
+    }
+    if (reserved(name) == Reserved::builtin && varies_by_cell(name)) {
+        report(work, span,
+               fmt::format("{} must be one number, but '{}' varies by cell", scope.subject, name),
+               "");
+        return;
+    }
+    report(work, span, fmt::format("{} must be one number", scope.subject),
+           "only numbers, operators and functions of them can stand here");
+}
+
+std::string not_a_parameter(std::string_view name, const System& system) {
+    return fmt::format("'{}' is not a parameter of {}", name, system.name);
+}
+
+void report_unknown_own(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    const System& system = work.program.systems[scope.system];
+    if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
+    if (auto explained = explain_family(work, system, name)) {
+        return report(work, span, std::move(explained->message), std::move(explained->hint));
+    }
+    if (is_incomplete(work, scope.system)) return;
+    const std::string names = list_names(quantity_names(system));
+    std::string hint(advice_about(name, WordContext::value));
+    const std::vector<std::string> readable = readable_names(system, scope);
+    if (hint.empty()) hint = hint_of_subscript(name, readable);
+    if (hint.empty()) hint = did_you_mean(work, name, readable);
+    if (hint.empty() && scope.context == Context::rate)
+        hint = fmt::format("add {}: 0.1, for example", name);
+    if (function_named(name)) hint = fmt::format("'{0}' is a function: {0}(…)", name);
+    if (name == "steady") hint = "write steady(0.1)";
+    if (cell_value_named(name)) hint = fmt::format("'{}' is known to cells that crawl only", name);
+    std::string note = fmt::format("{} has {}", system.name, names);
+    if (scope.context == Context::value && scope.stage) {
+        note = fmt::format("[name] reads this stage ({}: {})", system.name, names);
+        if (reserved(name) == Reserved::builtin) {
+            hint = fmt::format("'{}' is built in and needs no brackets", name);
+        }
+    }
+    report(work, span, not_a_parameter(name, system), std::move(hint), std::move(note));
+}
+
+void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span) {
+    std::string hint;
+    if (scope.system != unknown_system && !is_hopeless(work)) {
+        const System& system = work.program.systems[scope.system];
+        if (find(work.names[scope.system], name) != nullptr) {
+            hint = fmt::format("[{0}] is the '{0}' of this stage", name);
+        } else {
+            hint = did_you_mean(work, name, readable_names(system, scope));
+        }
+    }
+    report(work, span,
+           fmt::format("'{}' reads the previous stage, but this is the first stage", name),
+           std::move(hint));
+}
+
+void report_unknown_previous(Workspace& work, const Scope& scope, std::string_view name,
+                             Span span) {
+    const Stage& previous = work.program.stages[*scope.stage - 1];
+    const System& system = work.program.systems[previous.system];
+    if (is_hopeless(work)) return report(work, span, not_a_parameter(name, system), "");
+    if (auto explained = explain_family(work, system, name)) {
+        return report(work, span, std::move(explained->message), std::move(explained->hint));
+    }
+    if (is_incomplete(work, previous.system)) return;
+    std::string hint;
+    if (scope.system != unknown_system && find(work.names[scope.system], name) != nullptr) {
+        hint = fmt::format("[{0}] is the '{0}' of this stage", name);
+    } else {
+        hint = advice_about(name, WordContext::value);
+        if (hint.empty()) hint = did_you_mean(work, name, readable_names(system, scope));
+    }
+    report(work, span, not_a_parameter(name, system), std::move(hint),
+           fmt::format("bare names read the previous stage '{}' ({}: {})", previous.name,
+                       system.name, list_names(quantity_names(system))));
+}
+
+void report_unknown_system(Workspace& work, const ast::Word& name) {
+    std::vector<std::string> names;
+    if (!is_hopeless(work)) {
+        for (const LibraryText& text : library_texts()) names.emplace_back(text.system_name());
+        for (const System& system : work.program.systems) {
+            if (!system.built_in) names.push_back(system.name);
+        }
+    }
+    Diagnostic diagnostic;
+    diagnostic.span = name.span;
+    diagnostic.message = fmt::format("there is no system '{}'", name.text);
+    diagnostic.hint = did_you_mean(work, name.text, names);
+    diagnostic.notes.push_back({std::nullopt, "'cascade systems' lists those of the library"});
+    work.diagnostics.add(std::move(diagnostic));
+}
+
+void report_unknown_shape(Workspace& work, const ast::Script& script, const ast::Word& name) {
+    std::vector<std::string> names;
+    for (const LibraryText& text : library_shapes()) names.emplace_back(text.system_name());
+    for (const ast::Block& block : script.blocks) {
+        if (block.kind == ast::BlockKind::shape) names.emplace_back(block.name.text);
+    }
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    const std::string hint = did_you_mean(work, name.text, names);
+    work.diagnostics.error(name.span, fmt::format("there is no shape '{}'", name.text),
+                           hint.empty() ? "shapes are " + list_names(names) : hint);
+}
+
+}  // namespace cascade::checking

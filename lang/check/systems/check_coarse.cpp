@@ -1,0 +1,104 @@
+// The number of times is checked where it is written, and the sides of the grid when all is known.
+#include "lang/check/systems/check_coarse.h"
+
+#include "lang/check/expressions/setting_words.h"
+#include "lang/program/trial_program.h"
+
+#include <fmt/format.h>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::int64_t most_coarse = 64;
+constexpr std::int64_t fewest_cells = 4;  // Along an axis of the coarsest grid.
+
+/// Why a domain has no coarser grid, after "a coarser grid, "; null if it has.
+const char* obstacle_in(const DomainSettings& domain) {
+    return domain.model     ? "which a model does not have"
+           : domain.surface ? "which a surface does not have"
+           : domain.mask    ? "on which a masked domain has another shape"
+                            : nullptr;
+}
+
+/// Reports a side that has no whole number of cells `times` as wide, or too few of them.
+void check_sides(const Grid& grid, std::int64_t times, Span span, Diagnostics& diagnostics) {
+    for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
+        if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
+        diagnostics.error(span,
+                          fmt::format("a side of {} cells cannot have cells {} times as wide",
+                                      cells, times),
+                          fmt::format("sides must be multiples of {}, and {} at least", times,
+                                      fewest_cells * times));
+        return;
+    }
+}
+
+}  // namespace
+
+std::optional<Coarse> check_coarse(Workspace& work, const ast::Script& script,
+                                   ast::Expression value, std::string_view setting,
+                                   std::string_view meaning) {
+    const ast::Expr& written = script.expressions[value.root];
+    if (std::holds_alternative<ast::Garbage>(written.node)) return std::nullopt;
+    const auto refuse = [&](Span span, std::string message, std::string hint) {
+        work.diagnostics.error(span, std::move(message), std::move(hint));
+        return std::nullopt;
+    };
+    const std::string example = fmt::format("as in {}: coarse(4)", setting);
+    if (!std::holds_alternative<ast::Call>(written.node) || word_of(written) != "coarse")
+        return refuse(written.span, std::string(meaning), example);
+    const auto arguments = arguments_of(script, value);
+    if (arguments.size() != 1) {
+        return refuse(written.span, "coarse takes one value: how many times wider its cells are",
+                      example);
+    }
+    const auto times = check_constant(work, script, arguments[0], "coarse");
+    if (!times) return std::nullopt;
+    for (std::int64_t power = 2; power <= most_coarse; power *= 2) {
+        if (static_cast<double>(power) == *times) return Coarse{power, written.span};
+    }
+    return refuse(script.expressions[arguments[0].root].span,
+                  fmt::format("coarse takes 2, 4, 8, … {}", most_coarse),
+                  setting == "start" ? "each grid has cells half as wide as the one before it"
+                                     : "it is a power of two, so that stages share whole cells");
+}
+
+void check_coarse_grids(const Program& program, Diagnostics& diagnostics) {
+    if (program.domain.coarse > 1) return;  // The domain of the script has been checked.
+    const char* const obstacle = obstacle_in(program.domain);
+    for (const Stage& stage : program.stages) {
+        const bool starts_there = stage.time.coarse > 1;
+        if (!starts_there && stage.coarse == 1) continue;
+        const Span span = starts_there ? stage.time.coarse_span : stage.coarse_span;
+        if (obstacle != nullptr) {
+            diagnostics.error(span, fmt::format("stage '{}' {} on a coarser grid, {}", stage.name,
+                                                starts_there ? "starts" : "runs", obstacle));
+        } else {
+            check_sides(program.domain.grid, stage.coarse * stage.time.coarse, span, diagnostics);
+        }
+    }
+}
+
+void check_sizes(const Program& program, Diagnostics& diagnostics) {
+    if (program.domain.coarse > 1) return;  // The domain of the script has been checked.
+    for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
+        if (!program.stages[k].size) continue;
+        const auto trial = trial_program(program, k);
+        if (!trial) {
+            diagnostics.error(trial.error().span, trial.error().message, trial.error().hint);
+            continue;
+        }
+        // Cells of surfaces have the size that their unit gives them, which is known in the run.
+        const DomainSettings& domain = program.domain;
+        if (domain.model || domain.surface) continue;
+        const Grid& grid = domain.grid;
+        const auto times = static_cast<double>(program.stages[k].coarse);
+        if (const auto unfit = unfit_size(*program.stages[k].size, grid.spacing * times,
+                                          static_cast<double>(grid.longest_side()) / times)) {
+            diagnostics.error(unfit->span, unfit->message, unfit->hint);
+        }
+    }
+}
+
+}  // namespace cascade::checking

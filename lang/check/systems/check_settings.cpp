@@ -1,0 +1,65 @@
+// Settings of systems and stages: iterations, interval, frozen, speed, show. Those of time are in
+// check_time.cpp.
+#include "lang/check/systems/check_systems.h"
+#include "lang/check/systems/check_time.h"
+#include "lang/check/expressions/read_setting.h"
+#include "lang/vocabulary/settings.h"
+
+#include <fmt/format.h>
+
+namespace cascade::checking {
+
+void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
+                   const Scope& scope, Settings& settings) {
+    if (!has_one_value(work, script, statement)) return;
+    const std::string_view name = statement.name.text;
+    const Setting setting = *setting_named(name);
+    const bool is_speed = setting == Setting::speed && !is_automatic(script, statement);
+    const bool has_cells = is_of_cells(work, scope);
+    if (has_cells && is_speed) {
+        work.diagnostics.error(statement.name.span, "cells choose the length of their steps",
+                               "leave speed out; largest_step limits it");
+        return;
+    }
+    if (has_cells && setting == Setting::start) {
+        work.diagnostics.error(statement.name.span, "cells that crawl have no coarser grid");
+        return;
+    }
+    if (setting == Setting::iterations) {
+        put(settings.iterations, read_number(work, script, statement));
+    } else if (setting == Setting::interval) {
+        put(settings.interval, read_number(work, script, statement));
+    } else if (setting == Setting::show) {
+        Scope picture = scope;
+        picture.context = Context::picture;
+        picture.last_stage = scope.stage.value_or(0);
+        auto checked = check_expression(work, script, statement.values[0], picture);
+        if (!checked) return;
+        if (checked->type() != ValueType::number && checked->type() != ValueType::colour) {
+            const TypeWords words = words_of(checked->type(), has_cells);
+            work.diagnostics.error(span_of(script, statement.values[0]),
+                                   fmt::format("{} cannot be shown", words.name),
+                                   std::string(words.hint));
+            return;
+        }
+        settings.show = std::move(checked->formula);
+    } else if (setting == Setting::frozen || is_speed) {
+        auto checked = check_number(work, script, statement.values[0], scope);
+        if (!checked) return;
+        if (is_speed && checked->constant && !(*checked->constant > 0)) {
+            work.diagnostics.error(span_of(script, statement.values[0]), "speed must be above 0");
+            return;
+        }
+        if (is_speed) settings.time.automatic_speed = false;
+        (is_speed ? settings.speed : settings.frozen) = std::move(checked->formula);
+    } else {
+        check_time_setting(work, script, statement, scope, settings);
+    }
+    if (!has_cells && is_end_setting(name) && settings.time.duration && settings.iterations) {
+        work.diagnostics.error(statement.name.span,
+                               "a stage ends by its iterations or by its duration, not by both",
+                               "leave one of them out");
+    }
+}
+
+}  // namespace cascade::checking

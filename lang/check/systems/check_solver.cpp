@@ -1,0 +1,145 @@
+// Semi-implicit solvers need the diffusion that lang/calculus finds, and a domain with plane waves.
+#include "lang/check/systems/check_solver.h"
+
+#include "lang/calculus/derivative.h"
+#include "lang/calculus/diffusion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cascade::checking {
+
+namespace {
+
+/// Does a rate depend on the values in its cell?
+bool has_reaction(const LocalJacobian& jacobian) {
+    return std::ranges::any_of(jacobian.rows, [&](const auto& row) {
+        return std::ranges::any_of(row,
+                                   [&](NodeId id) { return !jacobian.algebra.is_number(id, 0); });
+    });
+}
+
+bool is_there(const Formula& factor) { return !factor.nodes.empty(); }
+
+bool has_diffusion(const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
+    return std::any_of(diffusion.begin(), diffusion.end(), [](const SpeciesDiffusion& species) {
+        return std::any_of(species.begin(), species.end(), is_there);
+    });
+}
+
+/// A species that is held at a side and whose rate applies lap to its own lap, if there is one. The
+/// inner lap is stored in a plane, which is mirrored at sides, so its waves are not the species'.
+std::optional<SpeciesId> held_and_nested(const Stage& stage,
+                                         const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
+    for (const SpeciesId s : stage.sides.ids()) {
+        const bool is_held =
+            std::any_of(stage.sides[s].begin(), stage.sides[s].end(),
+                        [](const SideSetting& side) { return side.kind == SideKind::fixed; });
+        const auto powers = diffusion[s].begin() + laplacian_powers;
+        if (is_held && std::any_of(diffusion[s].begin() + 1, powers, is_there)) return s;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void check_local_solver(const Program& program, std::uint32_t stage, Span span,
+                        Diagnostics& diagnostics) {
+    const Stage& checked = program.stages[stage];
+    if (!is_locally_implicit(checked.time.solver)) return;
+    const std::string subject =
+        fmt::format("stage '{}': {}", checked.name, name_of(checked.time.solver));
+    const std::size_t species = program.system_of(stage).species_count();
+    if (species > most_species_in_equations) {
+        diagnostics.error(span,
+                          fmt::format("{} solves equations of all species in each cell, and {} are "
+                                      "too many: at most {}",
+                                      subject, species, most_species_in_equations),
+                          "rkl2 takes any number of species");
+        return;
+    }
+    const auto jacobian = local_jacobian(program, stage);
+    if (!jacobian) {
+        diagnostics.error(
+            span,
+            subject +
+                " needs the derivatives of the rates by the species, and there "
+                "is no rule for one of them",
+            "there is none through the thresholds of smoothstep and tensors that turn "
+            "with a species; rkl2 takes any rate");
+    } else if (!has_reaction(*jacobian)) {
+        diagnostics.error(span, subject + " finds no reaction to take implicitly",
+                          "it looks for species in the rates outside of operators; rkl2 takes "
+                          "long steps of diffusion");
+    }
+}
+
+void check_semi_implicit(const Program& program, std::uint32_t stage, Span span,
+                         Diagnostics& diagnostics) {
+    const Stage& checked = program.stages[stage];
+    const System& system = program.system_of(stage);
+    const Solver solver = checked.time.solver;
+    if (!is_semi_implicit(solver)) return;
+    if (program.domain.model) {
+        diagnostics.error(span,
+                          fmt::format("stage '{}': the solver {} needs the waves of a grid, which "
+                                      "a model does not have",
+                                      checked.name, name_of(solver)),
+                          "rkl1 takes long steps on models");
+        return;
+    }
+    if (program.domain.surface && program.domain.surface->has_metric) {
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} needs cells that are squares, and these "
+                                      "lie on a surface",
+                                      checked.name, name_of(solver)),
+                          "rkl1 takes long steps there");
+        return;
+    }
+    if (program.domain.mask) {
+        diagnostics.error(
+            span,
+            fmt::format("stage '{}': {} needs all cells of the grid, and the domain has "
+                        "a mask",
+                        checked.name, name_of(solver)),
+            "rkl1 takes long steps there");
+        return;
+    }
+    if (program.domain.stencil != StencilKind::cross) {
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} knows the waves of stencil: cross alone",
+                                      checked.name, name_of(solver)),
+                          "rkl2 takes long steps with any stencil");
+        return;
+    }
+    if (!checked.uniform[system.frozen_item()]) {
+        diagnostics.error(span,
+                          fmt::format("stage '{}' freezes cells, which {} cannot: its waves run "
+                                      "through all of them",
+                                      checked.name, name_of(solver)),
+                          "rkl1 takes long steps around frozen cells");
+        return;
+    }
+    const auto diffusion = diffusion_of(program, stage);
+    if (const auto held = held_and_nested(checked, diffusion)) {
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} cannot hold {} at a side, for its rate "
+                                      "applies lap to lap of it",
+                                      checked.name, name_of(solver),
+                                      system.item_name(system.species()[*held])),
+                          "rkl1 can");
+    } else if (!has_diffusion(diffusion)) {
+        diagnostics.error(span,
+                          fmt::format("stage '{}': {} finds no diffusion to take implicitly",
+                                      checked.name, name_of(solver)),
+                          "it looks for lap, dxx, diffuse or div(k * grad(u)) in the rate of u; "
+                          "rk45 takes any rate");
+    }
+}
+
+}  // namespace cascade::checking

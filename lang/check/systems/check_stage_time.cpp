@@ -1,0 +1,160 @@
+// Time of a stage: defaults of its settings, and whether they are compatible.
+#include "lang/check/systems/check_solver.h"
+#include "lang/check/systems/check_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace cascade::checking {
+
+namespace {
+
+constexpr std::int64_t default_iterations = 1000;
+/// A stage with an `until` condition gives up after this number of steps.
+constexpr std::int64_t most_iterations_until = 1'000'000;
+
+template <typename T>
+T pick(const std::optional<T>& own, const std::optional<T>& other, T otherwise) {
+    return own.value_or(other.value_or(std::move(otherwise)));
+}
+
+/// Sets the duration of a stage with automatic steps from its iterations: the time that this number
+/// of steps of the given speed would take.
+void count_duration_in_steps(Stage& stage) {
+    if (stage.time.has_duration() || stage.time.open_end) return;
+    stage.time.duration_in_steps = stage.iterations;
+    stage.iterations = most_iterations;
+}
+
+template <typename Time>
+bool has_condition(const Time& time) {
+    return time.until || time.steady;
+}
+
+void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
+    // An end in the stage overrides either end in its system.
+    const bool own_end = own.iterations || own.time.duration;
+    const auto& iterations = own_end ? own.iterations : defaults.iterations;
+    stage.time.duration = own_end ? own.time.duration : defaults.time.duration;
+    // A condition in the stage replaces iterations in its system; one beside them ends it earlier.
+    stage.time.open_end =
+        has_condition(stage.time) && !own_end && (has_condition(own.time) || !defaults.iterations);
+    stage.iterations = stage.time.duration   ? most_iterations
+                       : stage.time.open_end ? most_iterations_until
+                                             : iterations.value_or(default_iterations);
+    if (is_adaptive(stage.time.solver)) count_duration_in_steps(stage);
+    const std::int64_t tenth = std::max<std::int64_t>(1, stage.iterations / 10);
+    stage.interval = pick(own.interval, defaults.interval, stage.time.has_duration() ? 0 : tenth);
+}
+
+/// The first node of a formula that reads an item; null if there is none.
+const Node* find_reader(const Formula& formula, ItemId item) {
+    const auto found = std::find_if(formula.nodes.begin(), formula.nodes.end(),
+                                    [&](const Node& node) { return node.is(item); });
+    return found == formula.nodes.end() ? nullptr : &*found;
+}
+
+/// The first node that reads `speed`, which must then be a number known in advance; null if none.
+const Node* reader_of_speed(const Program& program, const Stage& stage) {
+    const System& system = program.systems[stage.system];
+    std::vector<const Formula*> formulas;
+    for (const Formula& formula : stage.items) formulas.push_back(&formula);
+    for (const Formula& rate : system.rates) formulas.push_back(&rate);
+    for (const Definition& definition : system.definitions) formulas.push_back(&definition.formula);
+    for (const Invariant& invariant : system.invariants) formulas.push_back(&invariant.bound);
+    if (stage.time.until) formulas.push_back(&*stage.time.until);
+    for (const Formula* formula : formulas) {
+        if (const Node* node = find_reader(*formula, system.speed_item())) return node;
+    }
+    return nullptr;
+}
+
+/// The first node that makes a formula vary by cell. Operands come before their users.
+const Node* varying_part(const Program& program, std::uint32_t stage, const Formula& formula) {
+    IdVector<NodeId, const Node*> cause(formula.nodes.size(), nullptr);
+    for (const NodeId part : cause.ids()) {
+        const Node& node = formula.nodes[part];
+        if (differs_by_cell(node, false, program, stage)) cause[part] = &node;
+        if (!node.is<Call>() || info(node.function).is_aggregate) continue;
+        for (const NodeId operand : node.reads()) {
+            if (cause[part] == nullptr) cause[part] = cause[operand];
+        }
+    }
+    return cause.back();
+}
+
+void check_condition(Workspace& work, std::uint32_t stage) {
+    const Node* varying = varying_part(work.program, stage, *work.program.stages[stage].time.until);
+    if (varying == nullptr) return;
+    work.diagnostics.error(varying->span,
+                           "a stage ends for all cells at once, and this differs by cell",
+                           "take one number of all cells, as in mean(u over domain) > 0.5");
+}
+
+}  // namespace
+
+void fill_time(Stage& stage, const Settings& own, const Settings& defaults) {
+    StageTime& time = stage.time;
+    time.solver = pick(own.time.solver, defaults.time.solver, Solver::euler);
+    time.solver_span = (own.time.solver ? own : defaults).time.solver_span;
+    time.tolerance = own.time.tolerance ? own.time.tolerance : defaults.time.tolerance;
+    const TimeSettings& largest = own.time.largest_step ? own.time : defaults.time;
+    time.largest_step = largest.largest_step;
+    time.largest_step_span = largest.largest_step_span;
+    time.automatic_speed = pick(own.time.automatic_speed, defaults.time.automatic_speed, false);
+    time.coarse = pick(own.time.coarse, defaults.time.coarse, time.coarse);
+    time.coarse_span = (own.time.coarse ? own : defaults).time.coarse_span;
+    time.check = own.time.check ? own.time.check : defaults.time.check;
+    const TimeSettings& condition = has_condition(own.time) ? own.time : defaults.time;
+    time.until = condition.until;
+    time.steady = condition.steady;
+    fill_end(stage, own, defaults);
+}
+
+void check_time(Workspace& work, std::uint32_t index) {
+    const Stage& stage = work.program.stages[index];
+    const System& system = work.program.systems[stage.system];
+    const StageTime& time = stage.time;
+    const Formula& speed = stage.items[system.speed_item()];
+    const Span speed_span = speed.nodes.back().span;
+    if (!takes_speed_by_cell(time.solver) && !stage.uniform[system.speed_item()]) {
+        work.diagnostics.error(speed_span,
+                               fmt::format("with {} the speed is the same in all cells",
+                                           name_of(time.solver)),
+                               "euler and symplectic take one that varies");
+    }
+    if (time.automatic_speed && !time.has_duration() && !time.open_end && !system.cells) {
+        work.diagnostics.error(speed_span, "with 'speed: auto' a stage ends by its duration",
+                               "write duration: … in place of iterations");
+    }
+    if (time.largest_step && !time.chooses_steps()) {
+        work.diagnostics.error(time.largest_step_span,
+                               "'largest_step' limits steps that are chosen, and these "
+                               "are as long as 'speed' says",
+                               "write speed: auto, or take the solver rk23 or rk45");
+    }
+    if (time.chooses_steps()) {
+        if (const Node* reader = reader_of_speed(work.program, stage)) {
+            work.diagnostics.error(reader->span,
+                                   fmt::format("stage '{}' chooses its steps as it runs: its speed "
+                                               "cannot be read",
+                                               stage.name));
+        }
+    }
+    if (time.until) check_condition(work, index);
+}
+
+void change_solver(Stage& stage, const TimeSettings& asked) {
+    StageTime& time = stage.time;
+    time.solver = *asked.solver;
+    time.solver_span = asked.solver_span;
+    if (is_adaptive(time.solver) || takes_long_steps(time.solver)) {
+        count_duration_in_steps(stage);
+        if (time.has_duration()) stage.interval = 0;
+    }
+    if (takes_long_steps(time.solver)) time.automatic_speed = true;
+    if (!time.chooses_steps()) time.largest_step.reset();
+}
+
+}  // namespace cascade::checking

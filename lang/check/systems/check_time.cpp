@@ -1,0 +1,124 @@
+// The settings of time, each by itself. check_stage_time.cpp checks whether they are compatible.
+#include "lang/check/systems/check_time.h"
+#include "lang/check/systems/check_systems.h"
+#include "lang/check/systems/check_coarse.h"
+#include "lang/check/expressions/read_setting.h"
+#include "lang/check/expressions/setting_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace cascade::checking {
+
+namespace {
+
+const ast::Expr& root_of(const ast::Script& script, ast::Expression expression) {
+    return script.expressions[expression.root];
+}
+
+/// The name that an expression consists of, or "".
+std::string_view word_of(const ast::Script& script, ast::Expression expression) {
+    const auto* name = std::get_if<ast::Name>(&root_of(script, expression).node);
+    return name == nullptr ? std::string_view() : name->name;
+}
+
+/// The call of `name` that an expression consists of, or null.
+const ast::Call* call_of(const ast::Script& script, ast::Expression expression,
+                         std::string_view name) {
+    const auto* call = std::get_if<ast::Call>(&root_of(script, expression).node);
+    return call != nullptr && call->function.text == name ? call : nullptr;
+}
+
+/// The argument of a call with one argument, as an expression: the nodes before the call itself.
+ast::Expression argument_of(const ast::Script& script, ast::Expression expression,
+                            const ast::Call& call) {
+    return {expression.first, script.arguments[call.first_argument]};
+}
+
+void check_solver(Workspace& work, const ast::Script& script, ast::Expression value,
+                  TimeSettings& time) {
+    const std::string_view word = word_of(script, value);
+    const Span span = root_of(script, value).span;
+    if (word.empty()) {
+        if (std::holds_alternative<ast::Garbage>(root_of(script, value).node)) return;
+        work.diagnostics.error(span, "a solver is one word",
+                               fmt::format("solvers are {}", list_names(solver_names())));
+        return;
+    }
+    time.solver = solver_of(word);
+    time.solver_span = span;
+    if (time.solver) return;
+    std::string hint = did_you_mean(work, word, solver_names());
+    if (hint.empty()) hint = fmt::format("solvers are {}", list_names(solver_names()));
+    work.diagnostics.error(span, fmt::format("there is no solver '{}'", word), std::move(hint));
+}
+
+void check_until(Workspace& work, const ast::Script& script, ast::Expression value,
+                 const Scope& scope, TimeSettings& time) {
+    if (const ast::Call* call = call_of(script, value, "steady")) {
+        if (call->argument_count != 1) {
+            work.diagnostics.error(root_of(script, value).span,
+                                   "steady takes one value: the largest change that counts as none",
+                                   "as in steady(0.01)");
+            return;
+        }
+        const ast::Expression change = argument_of(script, value, *call);
+        const auto largest = check_constant(work, script, change, "steady");
+        if (largest && !(*largest >= 1e-6 && *largest <= 0.9)) {
+            work.diagnostics.error(root_of(script, change).span,
+                                   "steady must be from 1e-06 to 0.9");
+            return;
+        }
+        time.steady = largest;
+        return;
+    }
+    // A condition reads the stage as it is when tested, as a picture does.
+    Scope present = scope;
+    present.context = Context::picture;
+    present.last_stage = scope.stage.value_or(0);
+    auto checked = check_number(work, script, value, present);
+    if (checked) time.until = std::move(checked->formula);
+}
+
+}  // namespace
+
+bool is_automatic(const ast::Script& script, const ast::Statement& speed) {
+    return word_of(script, speed.values[0]) == "auto";
+}
+
+bool is_end_setting(std::string_view name) { return name == "iterations" || name == "duration"; }
+
+void check_time_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
+                        const Scope& scope, Settings& settings) {
+    const std::string_view name = statement.name.text;
+    const ast::Expression value = statement.values[0];
+    TimeSettings& time = settings.time;
+    if (name == "speed") {
+        time.automatic_speed = true;
+        settings.speed = Formula{{Node{1.0, root_of(script, value).span}}};
+    } else if (name == "solver") {
+        check_solver(work, script, value, time);
+    } else if (name == "tolerance") {
+        put(time.tolerance, read_number(work, script, statement));
+    } else if (name == "largest_step") {
+        put(time.largest_step, read_number(work, script, statement));
+        time.largest_step_span = statement.name.span;
+    } else if (name == "duration") {
+        put(time.duration, read_number(work, script, statement));
+    } else if (name == "check") {
+        put(time.check, read_number(work, script, statement));
+    } else if (name == "until") {
+        check_until(work, script, value, scope, time);
+    } else {
+        const auto coarse =
+            check_coarse(work, script, value, "start",
+                         "a stage starts as its values say, or on coarser grids first");
+        if (!coarse) return;
+        time.coarse = coarse->times;
+        time.coarse_span = coarse->span;
+    }
+}
+
+}  // namespace cascade::checking
