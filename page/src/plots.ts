@@ -7,13 +7,13 @@ function short(value: number | null) {
     if (value === null || value === undefined) return "";
     return value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential(0) : compact.format(value);
 }
-const colours = ["#1f8a66", "#d1703c", "#7a5fd0", "#b8518f", "#4a87c4", "#9a8b2c"];
-export const colour_of_curve = (k: number) => colours[k % colours.length];
+/// One of those in the style sheet.
+export const colour_of_curve = (k: number) => `var(--curve-${k % 6})`;
 const swatch = document.createElement("span");
-/// The colour of a variable of the style sheet as canvases understand it.
-function css(name: string) {
+/// A colour of the style sheet as canvases understand it.
+function css(colour: string) {
     if (!swatch.isConnected) document.body.append(Object.assign(swatch, { hidden: true }));
-    swatch.style.color = `var(${name})`;
+    swatch.style.color = colour;
     return getComputedStyle(swatch).color;
 }
 
@@ -46,10 +46,10 @@ export class Plot {
     private marked?: number;
 
     private make(curves: Curve[]) {
-        const axis = { stroke: () => css("--faint"), grid: { stroke: () => css("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui", values: (_: uPlot, marks: number[]) => marks.map(short) };
+        const axis = { stroke: () => css("var(--faint)"), grid: { stroke: () => css("var(--line)"), width: 1 }, ticks: { show: false }, font: "11px system-ui", values: (_: uPlot, marks: number[]) => marks.map(short) };
         const series = curves.map(({ name }, k) => ({
-            label: name, stroke: colour_of_curve(k), width: 1.5, points: { show: false }, value: (_: uPlot, value: number) => short(value),
-            ...(this.is_histogram && { paths: uPlot.paths.bars!({ size: [1, 100] }), fill: `${colours[k]}80` }),
+            label: name, stroke: () => css(colour_of_curve(k)), width: 1.5, points: { show: false }, value: (_: uPlot, value: number) => short(value),
+            ...(this.is_histogram && { paths: uPlot.paths.bars!({ size: [1, 100] }), fill: () => css(`color-mix(in srgb, ${colour_of_curve(k)} 50%, transparent)`) }),
         }));
         return new uPlot({
             ...this.size, legend: { show: false }, cursor: { show: true, y: false, points: { show: false } },
@@ -64,7 +64,7 @@ export class Plot {
         if (this.marked === undefined) return;
         const x = plot.valToPos(this.marked, "x", true), { ctx, bbox } = plot;
         ctx.save();
-        ctx.strokeStyle = css("--accent");
+        ctx.strokeStyle = css("var(--accent)");
         ctx.lineWidth = devicePixelRatio;
         ctx.beginPath();
         ctx.moveTo(x, bbox.top);

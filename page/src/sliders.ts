@@ -34,6 +34,7 @@ function make_slider(control: Control, ask: Ask): HTMLElement {
         step: String(control.step ?? (control.high - control.low) / 1000),
     });
     name.textContent = control.label;
+    input.ariaLabel = control.name;
     label.title = control.doc;
     label.append(name, value, input);
     if (control.doc) label.append(Object.assign(document.createElement("small"), { textContent: control.doc }));

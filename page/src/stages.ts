@@ -36,8 +36,10 @@ export class Stages {
 
     private make(stage: number) {
         const item = document.createElement("li"), go = document.createElement("button"), picture = document.createElement("canvas");
+        // Else the progress is a part of the button's name; its title tells it.
+        const progress = Object.assign(document.createElement("progress"), { ariaHidden: "true" });
         picture.hidden = true;
-        go.append(picture, document.createElement("span"), document.createElement("progress"));
+        go.append(picture, document.createElement("span"), progress);
         go.addEventListener("click", () => this.go_to(stage));
         item.append(go);
         return item;
