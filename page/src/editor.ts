@@ -72,7 +72,7 @@ export class Editor {
             state: EditorState.create({ extensions: [
                 lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), bracketMatching(),
                 language, syntaxHighlighting(colours), theme, listen, EditorView.lineWrapping,
-                EditorView.contentAttributes.of({ "aria-label": "Script" }),
+                EditorView.contentAttributes.of({ "aria-label": "Script; Tab indents, Escape leaves the text" }),
                 editor_help(engine),
                 keymap.of([{ key: "Escape", run: (view) => (view.contentDOM.blur(), true) }, indentWithTab, ...defaultKeymap, ...historyKeymap]),
             ] }),

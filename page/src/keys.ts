@@ -17,6 +17,7 @@ export const keys: Key[] = [
     { key: "h", act: "hold", does: "hold the range" },
     { key: "m", act: "measure", does: "measure" },
     { key: "p", act: "pick", does: "choose a cell to measure" },
+    { key: "Escape", act: "", does: "leave the text" },
     { key: "?", also: ["Shift+?"], act: "help", does: "this help" },
 ];
 
@@ -33,7 +34,7 @@ export function obey_keys(actions: Record<string, () => void>) {
         const ctrl = event.ctrlKey || event.metaKey;
         const name = ctrl ? `Ctrl+${event.shiftKey ? "Shift+" : ""}${event.key}` : event.key;
         const found = keys.find(({ key, also }) => key === name || also?.includes(name));
-        if (!found) return;
+        if (!found?.act) return;
         event.preventDefault();
         actions[found.act]();
     });

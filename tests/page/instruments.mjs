@@ -373,7 +373,11 @@ async function first_visit() {
     for (let k = 0; k < 60; ++k) {
         await browser.press("Tab");
         const id = await browser.evaluate(`document.activeElement.id || document.activeElement.parentElement.id || document.activeElement.parentElement.textContent`);
-        if (id === "editor") await browser.press("Escape");
+        if (id === "editor") {
+            const label = await browser.evaluate(`document.activeElement.shadowRoot.activeElement.ariaLabel`);
+            expect(label.includes("Escape leaves"), `the text is called ${label}`);
+            await browser.press("Escape");
+        }
         if (reached.includes(id) && !id.includes("feed") && id !== "editor" && id !== "stages") break;
         reached.push(id);
     }
