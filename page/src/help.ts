@@ -39,8 +39,10 @@ export class Help {
         const [id, words] = steps[step];
         const taught = document.getElementById(id)!;
         taught.setAttribute("data-taught", "");
-        taught.scrollIntoView({ block: "nearest" });
-        this.card.querySelector("p")!.textContent = words;
+        this.card.scrollIntoView({ block: "nearest" });
+        // On a narrow screen the pattern stays in sight, and what is below it is told.
+        const is_seen = taught.getBoundingClientRect().top < innerHeight;
+        this.card.querySelector("p")!.textContent = is_seen ? words : `Below the pattern: ${words[0].toLowerCase()}${words.slice(1)}`;
         this.card.querySelector("small")!.textContent = `${step + 1} of ${steps.length}`;
         this.card.querySelector("#tour_next")!.textContent = step + 1 === steps.length ? "done" : "next";
     }

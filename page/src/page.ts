@@ -16,17 +16,17 @@ import { picture_fields } from "./picture_fields";
 import { PlaneView } from "./plane_view";
 import { Pointed } from "./pointed";
 import { close_popups } from "./popups";
+import { Progress } from "./progress";
 import { Recording } from "./recording";
 import { Slices } from "./slices";
 import { show_sliders } from "./sliders";
-import { Stages, in_numbers } from "./stages";
+import { Stages } from "./stages";
 import { SolidView } from "./solid_view";
 import { Stroke } from "./stroke";
 import { in_words } from "./words";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const button = (id: string) => element<HTMLButtonElement>(id);
-const compact = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 2 });
 
 const has_shaders = !location.search.includes("2d");
 const solid = new SolidView(element<HTMLCanvasElement>("solid"), has_shaders);
@@ -197,6 +197,7 @@ async function ask<Reply = object>(what: string, fields: Record<string, unknown>
 }
 
 const pace = new Pace(ask);
+const progress = new Progress(pace);
 /// Numbers and strokes: what has ended goes on after them.
 async function change(what: string, fields: Record<string, unknown>) {
     const answer = await ask(what, fields);
@@ -232,11 +233,8 @@ function choose_palette() {
 function show_state(snapshot: Snapshot) {
     const { stages } = snapshot;
     strip.show(snapshot);
-    const { is_going_on, steps_per_second } = pace;
-    const { cells } = stages[snapshot.stage - 1], crawling = cells ? ` · ${cells.count.toLocaleString("en")} cells` : "";
-    const rate = is_going_on && steps_per_second > 0 ? ` · ${compact.format(steps_per_second)} steps/s` : "";
-    element("place").textContent = `step ${snapshot.steps.toLocaleString("en")}${crawling}${rate}`;
-    element("place").title = cells ? in_numbers(cells) : "";
+    progress.show(snapshot);
+    const { is_going_on } = pace;
     button("run").toggleAttribute("data-going", is_going_on);
     button("run").ariaLabel = is_going_on ? "Pause" : "Run";
     const is_over = stages.every((stage) => stage.has_ended);

@@ -352,9 +352,17 @@ async function first_visit() {
     await browser.until(`!${card}.hidden && ${card}.textContent.includes("1 of 4")`);
     for (const [k, id] of ["text", "controls", "frame", "stages"].entries()) {
         expect(await browser.evaluate(`document.querySelector("[data-taught]").id`) === id, `step ${k + 1} is not about ${id}`);
-        if (k === 2) writeFileSync("first_visit.png", await browser.screenshot());
+        // They cover nothing, and on a phone the pattern stays in sight.
+        for (const width of [1400, 390]) {
+            await size(width, 900);
+            const [end, start, frame] = await browser.evaluate(`[${card}.getBoundingClientRect().bottom, document.querySelector("main").getBoundingClientRect().top, document.getElementById("frame").getBoundingClientRect().bottom]`);
+            expect(end <= start && start < frame && frame < 900, `step ${k + 1} on ${width} pixels ends at ${end}, above the page at ${start} and the pattern up to ${frame}`);
+            if (k === 1) writeFileSync(`first_visit_${width}.png`, await browser.screenshot());
+        }
+        expect(k !== 1 || (await browser.evaluate(`${card}.textContent`)).startsWith("Below the pattern: sliders"), "a phone is not told where the sliders are");
         await click("tour_next");
     }
+    await size(1400, 900);
     expect(await browser.evaluate(`${card}.hidden && document.querySelector("[data-taught]") === null`), "the steps do not end");
     await browser.call("Page.reload");
     await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.getElementById("place").textContent !== ""`);

@@ -98,7 +98,7 @@ async function steer() {
     await browser.evaluate("window.is_old = true");
     await browser.call("Page.reload");
     await browser.until(`!window.is_old && document.getElementById("place")?.textContent.startsWith("step 0")`);
-    await new Promise((resolve) => setTimeout(resolve, 200));
+    await browser.until(`document.getElementById("paused").textContent === "paused"`);
     expect(await steps() === 0, "the reload has started what was not growing");
     await choose_leopard();
 
@@ -110,6 +110,7 @@ async function steer() {
     await until_steps("0");
     await browser.press(" ");
     await browser.until(is_over);
+    expect(await browser.evaluate(`document.getElementById("paused").textContent`) === "", "what has ended is called paused");
     await expect_the_picture("the canvas");
     writeFileSync("page.png", await browser.screenshot());
 
