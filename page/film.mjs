@@ -41,14 +41,14 @@ async function release() { await point(hand_x, hand_y, "mouseReleased"); }
 await browser.call("Emulation.setDeviceMetricsOverride", { width: 1200, height: 760, deviceScaleFactor: 1, mobile: false });
 await browser.call("Page.addScriptToEvaluateOnNewDocument", { source: `try { localStorage.was_taught = "yes"; localStorage.speed = "-1"; } catch { }` });
 await browser.call("Page.navigate", { url: address });
-await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.querySelectorAll("#controls input").length > 1`);
+await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.querySelectorAll("#controls [type=range]").length > 1`);
 await browser.evaluate(`{
     window.hand = document.createElement("div");
     hand.innerHTML = '<svg width="18" height="24" viewBox="0 0 18 24"><path d="M1 1v18l4.5-4 3 7 3-1.3-3-6.7H15z" fill="#111" stroke="#fff" stroke-width="1.3"/></svg>';
     Object.assign(hand.style, { position: "fixed", zIndex: 9, pointerEvents: "none", left: "${hand_x}px", top: "${hand_y}px" });
     document.body.append(hand);
 }`);
-const kill = "#controls label:nth-of-type(2) input", pattern = "#pattern";
+const kill = "#controls .slider:nth-of-type(2) [type=range]", pattern = "#pattern";
 await watch(22);
 await move(await place(kill, 0.5), 6);
 await press();

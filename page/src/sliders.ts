@@ -1,4 +1,4 @@
-// A slider for each parameter with a range.
+// A slider, and a field for a typed value, for each parameter with a range.
 import type { Answer, Control } from "./connection";
 
 /// As many digits as the step may need, but not those by which binary32 differs from decimals.
@@ -19,25 +19,31 @@ export function show_sliders(controls: Control[], ask: Ask) {
             return [title, slider];
         }));
     }
-    box.querySelectorAll("input").forEach((input, k) => {
+    box.querySelectorAll<HTMLElement>(".slider").forEach((slider, k) => {
+        const [typed, input] = slider.querySelectorAll("input");
         // What comes now is older than what its user wants.
-        if (input.matches(":active") || "isBusy" in input.dataset) return;
+        if (input.matches(":active") || "isBusy" in input.dataset || "isTyped" in typed.dataset) return;
         input.value = String(controls[k].value);
-        input.parentElement!.querySelector("output")!.value = exact(controls[k].value);
+        typed.value = exact(controls[k].value);
+        typed.classList.remove("wrong");
     });
 }
 
 function make_slider(control: Control, ask: Ask): HTMLElement {
-    const label = document.createElement("label"), name = document.createElement("span"), value = document.createElement("output");
-    const input = Object.assign(document.createElement("input"), {
-        type: "range", min: String(control.low), max: String(control.high),
-        step: String(control.step ?? (control.high - control.low) / 1000),
+    const slider = document.createElement("div"), name = document.createElement("label");
+    const typed = Object.assign(document.createElement("input"), {
+        inputMode: "decimal", ariaLabel: `Value of ${control.name}`, title: `A number or a formula; the slider goes from ${exact(control.low)} to ${exact(control.high)}`,
     });
+    const input = Object.assign(document.createElement("input"), {
+        type: "range", min: String(control.low), max: String(control.high), id: `slider ${control.name}`,
+        step: String(control.step ?? (control.high - control.low) / 1000), ariaLabel: control.name,
+    });
+    slider.className = "slider";
+    slider.title = control.doc;
     name.textContent = control.label;
-    input.ariaLabel = control.name;
-    label.title = control.doc;
-    label.append(name, value, input);
-    if (control.doc) label.append(Object.assign(document.createElement("small"), { textContent: control.doc }));
+    name.htmlFor = input.id;
+    slider.append(name, typed, input);
+    if (control.doc) slider.append(Object.assign(document.createElement("small"), { textContent: control.doc }));
     // All values of one move are undone together. A move may have ended when its values are still being sent.
     let move = 0, taken = -1, is_sending = false, wanted = { text: "", move };
     const send = async () => {
@@ -48,15 +54,23 @@ function make_slider(control: Control, ask: Ask): HTMLElement {
             sent = wanted;
             const answer = await ask("set", { name: control.name, expression: sent.text, joins_last: taken === sent.move });
             if (answer.is_done) taken = sent.move;
+            typed.classList.toggle("wrong", !answer.is_done);
         }
         is_sending = false;
         delete input.dataset.isBusy;
     };
     input.addEventListener("input", () => {
         wanted = { text: exact(input.valueAsNumber), move };
-        value.value = wanted.text;
+        typed.value = wanted.text;
         void send();
     });
     input.addEventListener("change", () => ++move);
-    return label;
+    typed.addEventListener("input", () => (typed.dataset.isTyped = ""));
+    typed.addEventListener("change", () => {
+        delete typed.dataset.isTyped;
+        wanted = { text: typed.value, move: ++move };
+        ++move;
+        void send();
+    });
+    return slider;
 }

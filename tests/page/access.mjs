@@ -51,7 +51,7 @@ const states = {
 
 async function look_at(engine, url, names) {
     await browser.call("Page.navigate", { url });
-    await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.querySelector("#controls input") !== null`);
+    await browser.until(`document.querySelectorAll("#stages li").length === 2 && document.querySelector("#controls [type=range]") !== null`);
     await set(`localStorage.was_taught = "yes"; document.getElementById("tour").hidden = true`);
     // A wrong text has its messages.
     await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").focus()`);

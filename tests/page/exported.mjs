@@ -88,7 +88,7 @@ try {
     writeFileSync("exported.png", await browser.screenshot());
 
     // A slider, a stroke and undo, as with the program.
-    await browser.evaluate(`{ const slider = document.querySelector("#controls input"); slider.value = 0.06; slider.dispatchEvent(new Event("input")); slider.dispatchEvent(new Event("change")); }`);
+    await browser.evaluate(`{ const slider = document.querySelector("#controls [type=range]"); slider.value = 0.06; slider.dispatchEvent(new Event("input")); slider.dispatchEvent(new Event("change")); }`);
     await browser.until(`!document.getElementById("undo").disabled`);
     await click("undo");
     await browser.until(`document.getElementById("undo").disabled`);

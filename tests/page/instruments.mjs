@@ -286,12 +286,12 @@ async function lose_the_connection() {
             }
         };` });
     await browser.call("Page.reload");
-    await browser.until(`window.sockets?.at(-1)?.readyState === 1 && document.querySelectorAll("#stages li").length === 2 && document.querySelector("#controls input")`);
+    await browser.until(`window.sockets?.at(-1)?.readyState === 1 && document.querySelectorAll("#stages li").length === 2 && document.querySelector("#controls [type=range]")`);
     await click("restart");
     await until_steps("0");
     const box = await browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
     const press = (column, row) => browser.drag(box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3], box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3]);
-    const slide = (value) => browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "${value}"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
+    const slide = (value) => browser.evaluate(`{ const input = document.querySelector("#controls [type=range]"); input.value = "${value}"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
 
     // Answers that are lost on their way: what was asked is not done again.
     await browser.evaluate(`window.sockets.at(-1).onmessage = () => {}, window.is_cut = true`);
@@ -309,7 +309,7 @@ async function lose_the_connection() {
     await browser.evaluate(`window.is_cut = false`);
     await browser.until(`window.sockets.at(-1).readyState === 1`);
     await until_text_is_read();
-    await browser.until(`document.querySelector("#controls output").value === "0.05" && document.getElementById("notice").textContent === ""`);
+    await browser.until(`document.querySelector("#controls .slider input").value === "0.05" && document.getElementById("notice").textContent === ""`);
     expect((await browser.evaluate(`${in_editor(".cm-content")}.textContent`)).includes("0.061"), "the text that was typed is lost");
     // One stroke after the other is answered.
     let log = await log_of_session();
@@ -413,8 +413,8 @@ async function save_files() {
     await choose("palette", "leopard");
     await click("step");
     await until_steps("1");
-    await browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "0.03"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
-    await browser.until(`document.querySelector("#controls output").value === "0.03" && !document.getElementById("undo").disabled`);
+    await browser.evaluate(`{ const input = document.querySelector("#controls [type=range]"); input.value = "0.03"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
+    await browser.until(`document.querySelector("#controls .slider input").value === "0.03" && !document.getElementById("undo").disabled`);
     const picture = await file("spots.png", "picture");
     expect(picture.readUInt32BE(16) === 960 && picture.readUInt32BE(20) === 640, `the picture has ${picture.readUInt32BE(16)} pixels`);
     const { status, stderr } = spawnSync(program, ["run", join(folder, "spots.png"), "-o", join(folder, "again.png"), "--quiet"], { encoding: "utf8" });

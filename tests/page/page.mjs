@@ -124,26 +124,44 @@ async function steer() {
     await show("");
 
     // A slider: one undo takes it back.
-    await browser.evaluate(`document.querySelector("#controls input").focus()`);
+    await browser.evaluate(`document.querySelector("#controls [type=range]").focus()`);
     for (let k = 0; k < 3; ++k) await browser.press("ArrowRight");
-    const value = `document.querySelector("#controls output").value`;
+    const value = `document.querySelector("#controls .slider input").value`;
     await browser.until(`${value} === "0.04" && !document.getElementById("undo").disabled`);
-    const sliders = await browser.evaluate(`document.querySelectorAll("#controls input").length`);
+    const sliders = await browser.evaluate(`document.querySelectorAll("#controls [type=range]").length`);
     expect(sliders === 2, `${sliders} sliders instead of 2`);
     // What had ended goes on: as many steps again as all stages have.
     await until_steps("2,500");
     await browser.until(is_over);
 
     // Moves are undone one by one, however quickly they follow each other.
-    await browser.until(`!("isBusy" in document.querySelector("#controls input").dataset)`);
+    await browser.until(`!("isBusy" in document.querySelector("#controls [type=range]").dataset)`);
     await browser.evaluate(`{
-        const input = document.querySelector("#controls input"), send = (kind) => input.dispatchEvent(new Event(kind));
+        const input = document.querySelector("#controls [type=range]"), send = (kind) => input.dispatchEvent(new Event(kind));
         for (const value of ["0.05", "0.06"]) input.value = value, send("input"), send("input"), send("change");
     }`);
-    await browser.until(`!("isBusy" in document.querySelector("#controls input").dataset)`);
+    await browser.until(`!("isBusy" in document.querySelector("#controls [type=range]").dataset)`);
     for (const before of ["0.06", "0.05", "0.04"]) {
         await browser.until(`${value} === "${before}"`);
         if (before !== "0.04") await click("undo");
+    }
+
+    // A typed value, be it a formula or beyond the slider; what is no number is refused, and each is undone by itself.
+    const type_value = (typed) => browser.evaluate(`{
+        const [field] = document.querySelectorAll("#controls .slider input"), send = (kind) => field.dispatchEvent(new Event(kind));
+        field.value = "${typed}", send("input"), send("change");
+    }`);
+    for (const [typed, shown, at] of [["0.0455", "0.0455", "0.045"], ["1/16", "0.0625", "0.063"], ["0.2", "0.2", "0.08"]]) {
+        await type_value(typed);
+        await browser.until(`${value} === "${shown}" && Math.abs(document.querySelector("#controls [type=range]").value - ${at}) < 1.1e-3`);
+    }
+    for (const typed of ["a word", "", "1/0"]) {
+        await type_value(typed);
+        await browser.until(`document.querySelector("#controls .slider input").classList.contains("wrong") && document.getElementById("notice").textContent !== ""`);
+    }
+    for (const before of ["0.0625", "0.0455", "0.04"]) {
+        await click("undo");
+        await browser.until(`${value} === "${before}" && !document.querySelector("#controls .wrong")`);
     }
 
     // A wrong text: its place and message; the run stays as it is.
@@ -156,25 +174,25 @@ async function steer() {
 
     // Fine steps are rounded neither in what is shown nor in what is sent.
     await type_script(text.replace("kill: 0.06", "kill: 0.060001 in 0 .. 1 step 0.000001").replace("iterations: 500", "iterations: 600"));
-    const fine = `document.querySelectorAll("#controls output")[1]?.value`;
+    const fine = `document.querySelectorAll("#controls .slider")[1]?.querySelector("input")?.value`;
     await browser.until(`${fine} === "0.060001"`);
     await browser.evaluate(`{
-        const input = document.querySelectorAll("#controls input")[1];
+        const input = document.querySelectorAll("#controls [type=range]")[1];
         input.value = "0.060002", input.dispatchEvent(new Event("input")), input.dispatchEvent(new Event("change"));
     }`);
-    await browser.until(`!("isBusy" in document.querySelectorAll("#controls input")[1].dataset) && ${fine} === "0.060002"`);
+    await browser.until(`!("isBusy" in document.querySelectorAll("#controls [type=range]")[1].dataset) && ${fine} === "0.060002"`);
     await click("undo");
     await browser.until(`${fine} === "0.060001"`);
     await click("undo");
-    await browser.until(`document.querySelectorAll("#controls input").length === 2`);
+    await browser.until(`document.querySelectorAll("#controls [type=range]").length === 2`);
 
     // Without sliders the pattern does not move into their place.
     await type_script(text.replace("in 0.01 .. 0.08 step 0.001", "").replace("iterations: 500", "iterations: 600"));
-    await browser.until(`document.querySelectorAll("#controls input").length === 0`);
+    await browser.until(`document.querySelectorAll("#controls [type=range]").length === 0`);
     const wide = await browser.evaluate(`document.getElementById("pattern").getBoundingClientRect().width`);
     expect(wide > 500, `without sliders the pattern is only ${wide} pixels wide`);
     await click("undo");
-    await browser.until(`document.querySelectorAll("#controls input").length === 2`);
+    await browser.until(`document.querySelectorAll("#controls [type=range]").length === 2`);
 
     // A stroke is seen where the pointer was.
     const box_of_pattern = () => browser.evaluate(
@@ -328,8 +346,8 @@ async function steer() {
     await browser.call("Page.navigate", { url: address.replace("/#", "/?2d#") });
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
     await choose_leopard();
-    await browser.until(`document.querySelector("#controls input") !== null`);
-    await browser.evaluate(`{ const input = document.querySelector("#controls input"); input.value = "0.037"; input.dispatchEvent(new Event("input")); }`);
+    await browser.until(`document.querySelector("#controls [type=range]") !== null`);
+    await browser.evaluate(`{ const input = document.querySelector("#controls [type=range]"); input.value = "0.037"; input.dispatchEvent(new Event("input")); }`);
     await browser.until(`${value} === "0.037"`);
     await grow();
     await browser.until(is_over);

@@ -72,7 +72,7 @@ async function follow() {
     // Change it while it grows, or after its end.
     await browser.until(is_over);
     await move("#speed", 2);
-    await move("#controls label:nth-of-type(2) input", 0.063);
+    await move("#controls .slider:nth-of-type(2) [type=range]", 0.063);
     await until_steps(17000);
     await browser.press(" ");
     await browser.until(`!(${is_growing})`);
@@ -87,10 +87,10 @@ async function follow() {
     await save_picture("change");
     await browser.press("z", 2);
     await browser.press("z", 2);
-    await browser.until(`document.querySelector("#controls label:nth-of-type(2) output").value === "0.06"`);
+    await browser.until(`document.querySelector("#controls .slider:nth-of-type(2) input").value === "0.06"`);
     await browser.until(`document.getElementById("place").textContent === "step 12,000"`);
     await browser.press("Z", 10);
-    await browser.until(`document.querySelector("#controls label:nth-of-type(2) output").value === "0.063"`);
+    await browser.until(`document.querySelector("#controls .slider:nth-of-type(2) input").value === "0.063"`);
 
     // Read.
     const [left, middle] = await browser.evaluate(`(({ x, y }) => [x, y + 10])([...document.getElementById("editor").shadowRoot.querySelectorAll(".cm-line")].find((line) => line.textContent.includes("v' =")).getBoundingClientRect())`);
