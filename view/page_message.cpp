@@ -115,7 +115,7 @@ PageRequest change(Change made, FieldReader& fields) {
     return SessionCommand(MakeChange{std::move(made), fields.flag("joins_last")});
 }
 
-constexpr std::array<Verb, 22> verbs{{
+constexpr std::array<Verb, 23> verbs{{
     {"text", [](FieldReader& fields) { return change(SetText{fields.text("text")}, fields); }},
     {"set",
      [](FieldReader& fields) {
@@ -161,6 +161,10 @@ constexpr std::array<Verb, 22> verbs{{
     {"explain",
      [](FieldReader& fields) -> PageRequest {
          return PageQuestion(AskAboutName{fields.text("text")});
+     }},
+    {"fixes",
+     [](FieldReader& fields) -> PageRequest {
+         return PageQuestion(AskForFixes{fields.text("text")});
      }},
     {"values",
      [](FieldReader& fields) -> PageRequest {

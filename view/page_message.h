@@ -23,6 +23,7 @@ struct NextSnapshot {};
 struct AskForLog {};
 struct AskForNames { std::string text; };  ///< Candidates for its last word.
 struct AskAboutName { std::string text; };  ///< About its last word.
+struct AskForFixes { std::string text; };  ///< Of the errors in it.
 /// The spread of each species, and its value in a cell: column + width · row, with rows numbered
 /// through all slices. −1 for no cell.
 struct AskForValues { std::int64_t cell = -1; };
@@ -35,8 +36,8 @@ struct AskForPicture { PictureRequest request; };
 /// The page asks for the mesh of the newest snapshot's surface.
 struct AskForSurface {};
 
-using PageQuestion =
-    std::variant<AskForLog, AskForNames, AskAboutName, AskForValues, AskForMeasures, AskForPicture>;
+using PageQuestion = std::variant<AskForLog, AskForNames, AskAboutName, AskForFixes, AskForValues,
+                                  AskForMeasures, AskForPicture>;
 using PageRequest =
     std::variant<SessionCommand, NextSnapshot, NamePage, AskForSurface, PageQuestion>;
 

@@ -3,12 +3,14 @@
 
 #include "core/base64.h"
 #include "lang/equations/equations.h"
+#include "lang/service/advice.h"
 #include "lang/service/known_names.h"
 #include "measure/spectrum.h"
 #include "picture/image.h"
 #include "run/pictures/body_picture.h"
 #include "run/pictures/drawn_cells.h"
 #include "run/pictures/measured.h"
+#include "run/session/changed_script.h"
 #include "run/session/kept_state.h"
 #include "run/session/session_picture.h"
 #include "tissue/tissue.h"
@@ -19,6 +21,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace cascade {
@@ -28,6 +33,8 @@ using Json = nlohmann::json;
 
 constexpr std::size_t bins_of_histogram = 64, bins_of_density = 48;
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
+constexpr std::size_t most_fixes = 5;  ///< Each costs a check of the whole text.
+constexpr std::size_t largest_fixed_text = std::size_t{1} << 16;
 
 Json reply_to(const AskForLog&, LiveRun& run) {
     return {{"kind", "log"}, {"text", print_session_log(run.log())}};
@@ -193,6 +200,41 @@ Json reply_to(const AskForMeasures& question, LiveRun& run) {
     const bool is_small = grid.cell_count() <= most_cells_of_spectrum;
     if (is_small && !simulation.model() && !system.cells) add_spectrum(reply, samples[0]);
     return reply;
+}
+
+std::multiset<std::string> errors_of(const Script& script) {
+    std::multiset<std::string> messages;
+    for (const Diagnostic& each : script.diagnostics.sorted()) {
+        if (each.severity == Severity::error) messages.insert(each.message);
+    }
+    return messages;
+}
+
+/// What the hint of an error tells to write; nothing unless that leaves fewer errors and no other
+/// ones.
+std::optional<std::string> fix_of(const Diagnostic& error, const Script& faulty,
+                                  const Script& now) {
+    const std::string fix(text_to_write(error.hint));
+    const Span span = error.span;
+    if (fix.empty() || faulty.sources[span.source].text() != faulty.text) return std::nullopt;
+    std::string text = faulty.text;
+    text.replace(span.begin, span.end - span.begin, fix);
+    const auto before = errors_of(faulty), after = errors_of(with_text(now, text));
+    const bool is_better = after.size() < before.size() && std::ranges::includes(before, after);
+    return is_better ? std::optional(fix) : std::nullopt;
+}
+
+Json reply_to(const AskForFixes& question, LiveRun& run) {
+    Json fixes = Json::array();
+    if (question.text.size() > largest_fixed_text) return {{"kind", "fixes"}, {"fixes", fixes}};
+    const Script faulty = with_text(run.script(), question.text);
+    for (const Diagnostic& diagnostic : faulty.diagnostics.sorted()) {
+        if (diagnostic.severity != Severity::error) continue;
+        const auto fix = fix_of(diagnostic, faulty, run.script());
+        fixes.push_back(fix ? Json(*fix) : Json());
+        if (fixes.size() == most_fixes) break;
+    }
+    return {{"kind", "fixes"}, {"fixes", std::move(fixes)}};
 }
 
 Json reply_to(const AskForPicture& question, LiveRun& run) {

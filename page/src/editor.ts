@@ -51,6 +51,8 @@ const theme = EditorView.theme({
     ".cm-tooltip": { background: "var(--raised)", border: "1px solid var(--line)", color: "var(--ink)" },
 });
 
+type Place = [line: number, column: number];
+
 export class Editor {
     readonly view: EditorView;
 
@@ -93,14 +95,20 @@ export class Editor {
         this.is_silent = false;
     }
 
+    /// Writes a text as if it were typed.
+    replace(from: Place, to: Place, text: string) {
+        this.view.dispatch({ changes: { from: this.offset(from), to: this.offset(to), insert: text } });
+        this.view.focus();
+    }
+
+    private offset([line, column]: Place) {
+        const { doc } = this.view.state, found = doc.line(Math.min(Math.max(line, 1), doc.lines));
+        return Math.min(found.from + column, found.to);
+    }
+
     show(messages: Message[]) {
-        const doc = this.view.state.doc;
-        const offset = ([line, column]: [number, number]) => {
-            const found = doc.line(Math.min(Math.max(line, 1), doc.lines));
-            return Math.min(found.from + column, found.to);
-        };
         this.view.dispatch(setDiagnostics(this.view.state, messages.filter((m) => m.from && m.to).map((m) => ({
-            from: offset(m.from!), to: offset(m.to!), severity: m.is_error ? "error" as const : "warning" as const,
+            from: this.offset(m.from!), to: this.offset(m.to!), severity: m.is_error ? "error" as const : "warning" as const,
             message: in_words({ ...m, from: undefined }),
         }))));
     }

@@ -164,6 +164,9 @@ const editor = new Editor(element("editor"), engine_help, () => (element("text")
     element("text").ariaBusy = "false";
     is_text_open = !answer.is_done;
     show_messages(answer.messages);
+    if (!answer.messages.some(({ is_error, hint }) => is_error && hint)) return;
+    const { fixes } = await connection.ask<{ fixes: (string | null)[] }>("fixes", { text });
+    if (text === editor.text) show_messages(answer.messages, fixes);
 });
 
 /// A notice stays for some seconds, or until the next one.
@@ -180,11 +183,16 @@ function notice(text: string, is_wrong = false, seconds = 0) {
     }, 1000 * seconds + 100);
 }
 
-function show_messages(messages: Message[]) {
+/// With a button for each of the first errors that the engine has found a text against.
+function show_messages(messages: Message[], fixes: (string | null)[] = []) {
     editor.show(messages);
-    element("messages").replaceChildren(...messages.filter((m) => m.is_error).slice(0, 5).map((m) => {
-        const line = document.createElement("p");
+    element("messages").replaceChildren(...messages.filter((m) => m.is_error).slice(0, 5).map((m, k) => {
+        const line = document.createElement("p"), fix = fixes[k];
         line.textContent = in_words(m);
+        if (!fix || !m.from || !m.to) return line;
+        const use = Object.assign(document.createElement("button"), { textContent: `write ${fix}` });
+        use.addEventListener("click", () => editor.replace(m.from!, m.to!, fix));
+        line.append(" ", use);
         return line;
     }));
 }

@@ -169,6 +169,21 @@ async function steer() {
     await type_script(text.replace("- u * v^2 +", "- u * w^2 +"));
     await browser.until(`document.getElementById("messages").textContent.includes("line 8:")`);
     expect(await steps() === reached_before, "a wrong text has changed the run");
+
+    // The button beside a message writes what its hint tells, wherever that mends it.
+    await type_script(`# µ²🙂\n${text.replace("u * v^2 -", "u (v) -")}`);
+    await browser.until(`document.querySelectorAll("#messages p").length > 0`);
+    await browser.evaluate("new Promise((resolve) => setTimeout(resolve, 300))");
+    expect(await browser.evaluate(`document.querySelector("#messages button") === null`), "a button mends what it cannot mend");
+    await type_script(`# µ²🙂\n${text.replace("lap(v)", "lapp(v)").replace("u * v^2 -", "2 * u ** v -")}`);
+    await browser.until(`document.querySelectorAll("#messages button").length === 2`);
+    writeFileSync("fixes.png", await browser.screenshot());
+    for (const [left, written] of [[1, "lap"], [0, "^"]]) {
+        await browser.evaluate(`[...document.querySelectorAll("#messages button")].find((button) => button.textContent === "write ${written}").click()`);
+        await browser.until(`document.getElementById("text").ariaBusy === "false" && document.querySelectorAll("#messages p").length === ${left}`);
+        if (left > 0) await browser.until(`document.querySelector("#messages button")`);
+    }
+    expect((await browser.evaluate(`document.getElementById("editor").shadowRoot.querySelector(".cm-content").innerText`)).includes("lap(v) + 2 * u ^ v -"), "the buttons have not written what they said");
     await type_script(text.replace("iterations: 500", "iterations: 600"));
     await browser.until(`document.getElementById("messages").textContent === ""`);
 

@@ -8,6 +8,7 @@
 // something must be the hint of a case. Hints that only explain are no concern of this test.
 #include "check_helpers.h"
 #include "hint_cases.h"
+#include "lang/service/advice.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <gtest/gtest.h>
@@ -45,17 +46,6 @@ const std::map<std::string_view, std::string_view> frames{
 std::string framed(std::string_view frame, std::string_view text) {
     std::string script(frames.at(frame));
     return script.replace(script.find('@'), 1, text);
-}
-
-/// The text that a hint tells to write: 'x' of "write 'x' to multiply" and of "did you mean 'x'?",
-/// else all after "write ".
-std::string text_to_write(const std::string& hint) {
-    static const std::regex quoted("(?:write|add|put|did you mean) '(.+?)'(?=$|[ ?,;:])");
-    static const std::regex bare("(?:write|add) (.+)");
-    std::smatch found;
-    if (std::regex_search(hint, found, quoted)) return found[1];
-    if (std::regex_search(hint, found, bare)) return found[1];
-    return "";
 }
 
 std::optional<Diagnostic> find_hint(const Checked& checked, std::string_view hint) {
@@ -125,7 +115,7 @@ std::string used(WordContext context, std::string_view word) {
 }
 
 std::string advised(WordContext context, const std::string& advice) {
-    const std::string text = text_to_write(advice);
+    const std::string text(text_to_write(advice));
     const std::string_view frame = frame_of(context);
     // Another block, in place of the statement.
     for (const char* block : {"stage ", "domain ", "picture "}) {

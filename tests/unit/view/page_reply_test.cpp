@@ -101,6 +101,19 @@ TEST_F(PageReply, Measures) {
     EXPECT_FALSE(this->reply(AskForMeasures{"u", "k"}).contains("histogram"));
 }
 
+TEST_F(PageReply, FixesMendWhatTheirHintsTell) {
+    const auto fixes = [&](const std::string& text) { return reply(AskForFixes{text})["fixes"]; };
+    const auto script = [](const std::string& rate) {
+        return "system s { u: 1; k: 2\n u' = " + rate + " }\nstage a: s { }\n";
+    };
+    EXPECT_EQ(fixes(script("k * lapp(u)")), Json({"lap"}));
+    EXPECT_EQ(fixes(script("k ** u")), Json({"^"}));
+    EXPECT_EQ(fixes(script("kk + vv + lapp(u)")), Json({"k", nullptr, "lap"}));
+    EXPECT_EQ(fixes(script("k (u - 1)")), Json({nullptr})) << "it leaves something open";
+    EXPECT_EQ(fixes(script("u")), Json::array());
+    EXPECT_EQ(fixes(script("kk") + std::string(65536, '#')), Json::array()) << "too long";
+}
+
 TEST_F(PageReply, Picture) {
     PictureRequest request;
     request.palette = "leopard";
