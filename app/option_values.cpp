@@ -267,8 +267,8 @@ Result<std::string> parse_output_path(std::string_view text) {
     const std::string ending = lower_ending(std::filesystem::path(text));
     if (ending == ".npy" || ending == ".csv" || ending == ".h5" || ending == ".txt") {
         return failure(fmt::format("'{}' is a file of numbers, and -o writes pictures", text),
-                       "--save FOLDER writes each species as .npy; --log FILE.csv writes numbers "
-                       "over time");
+                       "--save FOLDER writes each species as .npy, --series NAME.npy or NAME.csv "
+                       "fields over time, --log EXPR a table of numbers over time");
     }
     return failure(
         fmt::format("'{}' has no ending of a file that can be written", text),

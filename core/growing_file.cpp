@@ -41,11 +41,19 @@ std::filesystem::path GrowingFile::temporary_path() const {
     return folder_of(target_) / file_->name();
 }
 
-Result<void> GrowingFile::append(std::string_view bytes) {
-    if (const int error = write_all(file_->file(), bytes)) {
-        return cannot("write", path_.string(), error);
+Result<void> GrowingFile::append(std::string_view bytes) { return replace_end(size_, bytes); }
+
+Result<void> GrowingFile::replace_end(std::uint64_t place, std::string_view bytes) {
+    const int number = file_->file().number();
+    std::string former(size_ - place, '\0');
+    const ssize_t read = ::pread(number, former.data(), former.size(), static_cast<off_t>(place));
+    if (read != static_cast<ssize_t>(former.size())) return cannot("read", path_.string(), EIO);
+    if (auto done = overwrite(place, bytes); !done) {
+        (void)overwrite(place, former);
+        [[maybe_unused]] const int cut = ::ftruncate(number, static_cast<off_t>(size_));
+        return done;
     }
-    size_ += bytes.size();
+    size_ = place + bytes.size();
     return {};
 }
 
@@ -61,9 +69,19 @@ Result<void> GrowingFile::overwrite(std::uint64_t place, std::string_view bytes)
     return {};
 }
 
+Result<void> GrowingFile::appear() {
+    if (const int error = file_->take_name(target_.filename().string())) {
+        return cannot("write", path_.string(), error);
+    }
+    has_appeared_ = true;
+    return {};
+}
+
 Result<void> GrowingFile::complete() {
     int error = file_->write({});  // Syncs to disk.
-    if (error == 0) error = file_->rename_to(target_.filename().string());
+    if (error == 0) {
+        error = has_appeared_ ? file_->stay() : file_->rename_to(target_.filename().string());
+    }
     if (error != 0) return cannot("write", path_.string(), error);
     return {};
 }

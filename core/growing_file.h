@@ -12,24 +12,28 @@
 
 namespace cascade {
 
-/// Grows under a temporary name in the folder of its target. If destroyed before complete(), it
-/// leaves no file, and a file that already has the name stays as it is.
+/// Grows under a temporary name in the folder of its target. If destroyed before complete() or
+/// appear(), it leaves no file, and a file that already has the name stays as it is.
 class GrowingFile {
 public:
     /// Begins an empty file. Fails as write_file does, and if `path` is a pipe or a device, whose
     /// bytes cannot be overwritten later.
     static Result<std::unique_ptr<GrowingFile>> create(const std::filesystem::path& path);
 
-    /// Adds bytes at the end.
+    /// Adds bytes at the end. If it fails, the file is as before.
     Result<void> append(std::string_view bytes);
+    /// Replaces everything from byte `place` on. If it fails, the file is as before.
+    Result<void> replace_end(std::uint64_t place, std::string_view bytes);
     /// Replaces bytes written before, from byte `place` on.
     Result<void> overwrite(std::uint64_t place, std::string_view bytes);
-    /// The number of appended bytes.
+    /// Takes the final name already, for a file that can be read at any moment.
+    Result<void> appear();
+    /// The number of bytes.
     std::uint64_t size() const { return size_; }
     /// The path of the file until it is complete, for another program that writes it.
     std::filesystem::path temporary_path() const;
 
-    /// Syncs the file to the disk and renames it to its final name. Must be the last call.
+    /// Syncs the file to the disk and gives it its final name. Must be the last call.
     Result<void> complete();
 
 private:
@@ -40,6 +44,7 @@ private:
     Descriptor folder_;
     std::optional<TemporaryFile> file_;
     std::uint64_t size_ = 0;
+    bool has_appeared_ = false;
 };
 
 /// Fails if something other than a regular file has this name, because only regular files can grow.

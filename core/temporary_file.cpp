@@ -99,6 +99,11 @@ int TemporaryFile::write(std::string_view bytes) {
 int TemporaryFile::rename_to(const std::string& name) {
     if (error_ != 0) return error_;
     if (!file_.close()) return errno;
+    return take_name(name);
+}
+
+int TemporaryFile::take_name(const std::string& name) {
+    if (error_ != 0) return error_;
     if (::renameat(folder_.number(), name_.c_str(), folder_.number(), name.c_str()) != 0)
         return errno;
     is_ours_ = false;

@@ -31,7 +31,7 @@ public:
     /// Creates an empty file in an open folder. The umask applies to its mode.
     explicit TemporaryFile(const Descriptor& folder, mode_t mode = 0666,
                            std::string_view ending = usual_ending);
-    /// Removes the file, unless rename_to() or stay() has succeeded.
+    /// Removes the file, unless rename_to(), take_name() or stay() has succeeded.
     ~TemporaryFile();
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -46,6 +46,8 @@ public:
     /// Closes the file and renames it to `name` in the folder, replacing any file of that name.
     /// Returns 0 or the error number.
     int rename_to(const std::string& name);
+    /// Renames it likewise, and leaves it open.
+    int take_name(const std::string& name);
     /// Closes the file and leaves it under its temporary name. Returns 0 or the error number.
     int stay();
 

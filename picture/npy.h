@@ -38,7 +38,8 @@ Result<NpyArray> read_npy(const std::filesystem::path& path,
 
 /// The header of a .npy file as NumPy writes it, version 1.0. The elements follow it in C order.
 /// `type` is NumPy's, such as "<f4". `shape` is the inside of a tuple, such as "2, 3" or "2,".
-std::string npy_head(std::string_view type, std::string_view shape);
+/// `spare`: characters by which a shape that replaces it later may be longer.
+std::string npy_head(std::string_view type, std::string_view shape, std::size_t spare = 0);
 
 /// A field as a .npy file in memory: version 1.0, rows × columns (slices × rows × columns if there
 /// are several slices) of little-endian float32 or float64 in C order. Every NaN is 0x7fc00000 or

@@ -13,9 +13,10 @@ constexpr std::size_t alignment = 64;    // NumPy aligns the elements to it.
 
 }  // namespace
 
-std::string npy_head(std::string_view type, std::string_view shape) {
+std::string npy_head(std::string_view type, std::string_view shape, std::size_t spare) {
     std::string text =
         fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
+    text.append(spare, ' ');
     const std::size_t used = prefix_size + text.size() + 1;
     text.append((alignment - used % alignment) % alignment, ' ');
     text += '\n';

@@ -49,6 +49,8 @@ outputs=(
     'sheet.png --sheet sheet.png'
     'volume.vti --volume volume.vti'
     'series.pvd --series series.pvd'
+    'array.json --series array.npy'
+    'line.csv --series line.csv'
     'fine.png -o fine.png --detail 2'
     'flat.gif -o flat.gif --flat'
     'stopped.gif -o stopped.gif --stop-at coat:3'

@@ -13,7 +13,7 @@ namespace cascade {
 namespace {
 
 constexpr double usual_rate = 10;  // Frames per second.
-constexpr std::size_t most_samples = 6;
+constexpr std::size_t most_table_frames = 6;
 
 /// At most `most` of the numbers 0 … count − 1 at equal distances, with both ends.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
@@ -62,7 +62,7 @@ void FilmCrew::note(const Failure& failure) {
 
 Result<void> FilmCrew::begin(const FilmPlan& plan, const Draw& draw) {
     settings_.frames_per_second = plan.frames_per_second;
-    for (const std::size_t k : evenly(plan.frames.size(), has_gif() ? most_samples : 1)) {
+    for (const std::size_t k : evenly(plan.frames.size(), has_gif() ? most_table_frames : 1)) {
         auto frame = enough_memory_for([&] { return draw(plan.frames[k]); });
         if (!frame) return tl::unexpected(frame.error());
         numbers_.push_back(plan.frames[k]);

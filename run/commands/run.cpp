@@ -170,7 +170,7 @@ RunResults Runner::results() {
             frames_ ? &*frames_ : nullptr,
             earlier_frames_,
             log_ ? &*log_ : nullptr,
-            series_ ? &*series_ : nullptr,
+            series_.get(),
             report_};
 }
 

@@ -43,7 +43,8 @@ struct RunRequest {
     std::filesystem::path save;       ///< `--save DIR`; empty for none.
     double checkpoint_seconds = 0;    ///< Above 0: seconds between saves during the run.
     std::filesystem::path volume;     ///< `--volume FILE`; empty for none.
-    std::filesystem::path series;     ///< `--series FILE.pvd`; empty for none.
+    std::filesystem::path series;     ///< `--series FILE`; empty for none.
+    std::vector<std::string> fields;  ///< Expressions of `--field`: the arrays of `series`.
     std::filesystem::path resume;     ///< `--resume DIR`; empty to start anew.
     std::optional<StopAt> stop_at;
     /// Played instead of the stages; its script at the end is the one that is run.

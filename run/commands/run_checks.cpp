@@ -100,7 +100,7 @@ std::vector<OutputFile> files_of(const Script& script, const RunRequest& request
         files.push_back({log_path(request, outputs[0]), "the log"});
     }
     if (!request.volume.empty()) files.push_back({request.volume, "--volume"});
-    if (!request.series.empty()) files.push_back({request.series, "--series"});
+    if (!request.series.empty()) add(files_of_series(request.series), "--series");
     return files;
 }
 

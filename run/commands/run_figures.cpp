@@ -3,6 +3,7 @@
 #include "core/printable.h"
 #include "run/commands/run_results.h"
 #include "run/pictures/figure.h"
+#include "run/pictures/measured.h"
 
 #include <fmt/format.h>
 
@@ -23,18 +24,6 @@ std::string title_of(const Script& script, const Simulation& simulation) {
     const double time = time_of(simulation, stage);
     if (std::isfinite(time)) title += fmt::format(", t = {:.6g}", time);
     return title;
-}
-
-/// The name of the number that is shown; empty if it has none.
-std::string name_of_number(const Script& script, const Simulation& simulation,
-                           const PictureRequest& request) {
-    if (!request.show.empty()) return request.show;
-    const std::uint32_t stage = simulation.shown_stage().value_or(0);
-    const Formula& show = script.program->stages[stage].show;
-    if (show.nodes.empty()) return {};
-    const auto* const item = show.nodes.back().as<ItemId>();
-    return item == nullptr ? std::string()
-                           : std::string(script.program->system_of(stage).item_name(*item));
 }
 
 /// The value of a part of a formula that is made of numbers alone.
@@ -81,7 +70,7 @@ PlaneExtent extent_of(const Grid& grid, const PictureRequest& request) {
 
 Drawing RunResults::figure_of(Painter& of, const Canvas& canvas, const std::string& title) const {
     const PictureRequest& wanted = of.request();
-    const std::string name = name_of_number(script, simulation, wanted);
+    const std::string name = name_of_number(script, simulation.shown_stage().value_or(0), wanted);
     const Grid& grid = simulation.grid();
     if (of.is_flat() && grid.height == 1 && grid.depth == 1 && !canvas.is_colour()) {
         std::vector<double> values;

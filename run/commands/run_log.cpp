@@ -2,7 +2,7 @@
 #include "run/commands/run_log.h"
 
 #include "core/file.h"
-#include "run/commands/csv.h"
+#include "core/csv.h"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #include "run/commands/runner.h"
 
 #include "export/bake.h"
+#include "run/commands/series_fields.h"
 #include "run/pictures/frame_folder.h"
 #include "run/pictures/map_size.h"
 #include "run/pictures/picture_size.h"
@@ -37,6 +38,9 @@ Result<void> Runner::prepare() {
         if (!log) return tl::unexpected(log.error());
         log_ = std::move(*log);
     }
+    Result<SeriesFields> fields = SeriesFields();
+    if (!request_.series.empty()) fields = series_fields(script_, request_, *painter_);
+    if (!fields) return tl::unexpected(fields.error());
     // Making the cells of a model takes a while, so what is written is checked before it, too.
     if (script_.program->domain.model || request_.session) {
         if (auto good = check_places(Folders::tried); !good) return good;
@@ -59,9 +63,9 @@ Result<void> Runner::prepare() {
         frames_ = std::move(*frames);
     }
     if (!request_.series.empty()) {
-        auto series = SeriesWriter::create(request_.series);
+        auto series = make_series(request_.series, *std::move(fields), !request_.resume.empty());
         if (!series) return tl::unexpected(series.error());
-        series_ = std::move(*series);
+        series_ = *std::move(series);
     }
     keep_while_running();
     if (request_.resume.empty()) return {};

@@ -285,12 +285,12 @@ Result<void> RunResults::write_volume() {
 }
 
 Result<void> RunResults::write_series() {
-    const auto removed = series->finish();
-    if (!removed) return tl::unexpected(removed.error());
-    report.written.push_back(request.series);
-    if (*removed > 0 && control.note) {
+    const auto written = series->finish();
+    if (!written) return tl::unexpected(written.error());
+    report.written.insert(report.written.end(), written->paths.begin(), written->paths.end());
+    if (written->removed > 0 && control.note) {
         control.note(fmt::format("removed {} of an earlier run beside {}",
-                                 counted(static_cast<std::int64_t>(*removed), "file"),
+                                 counted(static_cast<std::int64_t>(written->removed), "file"),
                                  request.series.string()));
     }
     return {};

@@ -80,7 +80,7 @@ private:
     std::optional<FrameLabels> labels_;
     std::vector<std::filesystem::path> earlier_frames_;  ///< Of an earlier run, in their folder.
     std::optional<RunLog> log_;
-    std::optional<SeriesWriter> series_;
+    std::unique_ptr<SeriesWriter> series_;
     double tenths_seen_ = 0;  ///< Of the stage's duration, at the last frame.
     std::optional<std::pair<std::uint32_t, std::int64_t>> last_in_series_;  ///< Stage and step.
 };

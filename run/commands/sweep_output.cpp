@@ -4,7 +4,7 @@
 #include "film/film.h"
 #include "picture/caption.h"
 #include "picture/map.h"
-#include "run/commands/csv.h"
+#include "core/csv.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/sweep.h"
 #include "run/script/embedded_script.h"

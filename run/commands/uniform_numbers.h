@@ -2,12 +2,10 @@
 #pragma once
 
 #include "core/result.h"
-#include "lang/program/program.h"
-#include "run/script/script.h"
+#include "run/commands/stage_formulas.h"
 #include "run/simulation/simulation.h"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,14 +19,12 @@ public:
     static Result<UniformNumbers> create(Script& script, const std::string& option,
                                          std::span<const std::string> expressions);
 
-    std::size_t count() const { return formulas_.size(); }
+    std::size_t count() const { return formulas_.count(); }
     /// The numbers in a started stage; NaN where an expression has no meaning in it.
     std::vector<double> at(const Simulation& simulation, std::uint32_t stage) const;
 
 private:
-    bool add(Script& script, const std::string& option, const std::string& text);
-
-    std::vector<std::vector<std::optional<Formula>>> formulas_;  ///< By expression and stage.
+    StageFormulas formulas_;
 };
 
 }  // namespace cascade

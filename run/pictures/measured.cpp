@@ -37,6 +37,16 @@ Field shown_number(Painter& painter, const Simulation& simulation) {
     return std::move(simulation.evaluate(simulation.program().stages[stage].show, stage)[0]);
 }
 
+std::string name_of_number(const Script& script, std::uint32_t stage,
+                           const PictureRequest& request) {
+    if (!request.show.empty()) return request.show;
+    const Formula& show = script.program->stages[stage].show;
+    if (show.nodes.empty()) return {};
+    const auto* const item = show.nodes.back().as<ItemId>();
+    return item == nullptr ? std::string()
+                           : std::string(script.program->system_of(stage).item_name(*item));
+}
+
 measure::Features measure_shown(Painter& painter, const Simulation& simulation) {
     const Field shown = shown_number(painter, simulation);
     const auto& tissue = simulation.state(simulation.shown_stage().value_or(0)).tissue;

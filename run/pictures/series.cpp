@@ -1,4 +1,4 @@
-// The list is the collection of ParaView: XML with a time and a file for each moment.
+// The list of .pvd is the collection of ParaView: XML with a time and a file for each moment.
 #include "run/pictures/series.h"
 
 #include "core/check.h"
@@ -10,6 +10,7 @@
 #include "picture/vdb.h"
 #include "picture/vti.h"
 #include "picture/xml_text.h"
+#include "run/pictures/array_series.h"
 #include "run/pictures/model_files.h"
 #include "run/pictures/refined_model.h"
 #include "surface/cell_filter.h"
@@ -57,15 +58,14 @@ std::vector<std::string> files_in(const std::filesystem::path& list) {
     return files;
 }
 
-/// The time of all stages up to the one shown.
+}  // namespace
+
 double time_since_start(const Simulation& simulation) {
     double time = 0;
     const std::uint32_t last = simulation.shown_stage().value_or(0);
     for (std::uint32_t k = 0; k <= last; ++k) time += time_of(simulation, k);
     return time;
 }
-
-}  // namespace
 
 std::vector<Channel> species_channels(const Simulation& simulation, const FieldNumbers& numbers) {
     const std::uint32_t stage = simulation.shown_stage().value_or(0);
@@ -122,27 +122,49 @@ Result<void> write_volume(const std::filesystem::path& path, const Simulation& s
                                 simulation.state(stage).steps, time_of(simulation, stage)});
 }
 
-/// The mesh that carries the values of cells.
-struct SeriesWriter::Surface {
-    explicit Surface(const ModelCells& model)
-        : team(hardware_threads()),
-          mesh(model.mesh_of_file()),
-          filter(mesh, model.spread().cells, team),
-          refined(refined_for_colours(mesh, model.spread().cells)) {}
+namespace {
 
-    Team team;
-    SurfaceMesh mesh;  ///< In the coordinates of the model's file.
-    CellFilter filter;
-    RefinedMesh refined;
+class ParaviewSeries : public SeriesWriter {
+public:
+    static Result<std::unique_ptr<SeriesWriter>> create(const std::filesystem::path& path,
+                                                        SeriesFields);
+
+    void add(const Simulation& simulation) override;
+    Result<WrittenSeries> finish() override;
+
+private:
+    /// The mesh that carries the values of cells.
+    struct Surface {
+        explicit Surface(const ModelCells& model)
+            : team(hardware_threads()),
+              mesh(model.mesh_of_file()),
+              filter(mesh, model.spread().cells, team),
+              refined(refined_for_colours(mesh, model.spread().cells)) {}
+
+        Team team;
+        SurfaceMesh mesh;  ///< In the coordinates of the model's file.
+        CellFilter filter;
+        RefinedMesh refined;
+    };
+    struct Moment {
+        std::string file;
+        double time = 0;  ///< Since the start of the run. NaN where steps have no length.
+    };
+
+    explicit ParaviewSeries(std::filesystem::path path) : path_(std::move(path)) {}
+    Result<void> write(const std::filesystem::path& path, const Simulation& simulation);
+    Result<void> write_surface(const std::filesystem::path& path, const Simulation& simulation);
+
+    std::filesystem::path path_;
+    std::vector<std::string> former_;  ///< The files of the previous list.
+    std::vector<Moment> moments_;
+    std::unique_ptr<Surface> surface_;  ///< The model's, made on the first use.
+    std::optional<Failure> failure_;
 };
 
-SeriesWriter::SeriesWriter(std::filesystem::path path) : path_(std::move(path)) {}
-SeriesWriter::~SeriesWriter() = default;
-SeriesWriter::SeriesWriter(SeriesWriter&&) noexcept = default;
-SeriesWriter& SeriesWriter::operator=(SeriesWriter&&) noexcept = default;
-
-Result<SeriesWriter> SeriesWriter::create(const std::filesystem::path& path) {
-    SeriesWriter writer(path);
+Result<std::unique_ptr<SeriesWriter>> ParaviewSeries::create(const std::filesystem::path& path,
+                                                             SeriesFields) {
+    std::unique_ptr<ParaviewSeries> writer(new ParaviewSeries(path));
     std::error_code error;
     const std::filesystem::path folder = path.parent_path() / path.stem();
     std::filesystem::create_directories(folder, error);
@@ -150,11 +172,11 @@ Result<SeriesWriter> SeriesWriter::create(const std::filesystem::path& path) {
         return failure(fmt::format("cannot make the folder '{}' for the files of '{}': {}",
                                    folder.string(), path.string(), error.message()));
     }
-    writer.former_ = files_in(path);
+    writer->former_ = files_in(path);
     return writer;
 }
 
-void SeriesWriter::add(const Simulation& simulation) {
+void ParaviewSeries::add(const Simulation& simulation) {
     if (failure_) return;
     std::string file = name_of_file(path_, moments_.size() + 1, simulation.model() != nullptr);
     const auto written =
@@ -166,12 +188,13 @@ void SeriesWriter::add(const Simulation& simulation) {
     moments_.push_back({std::move(file), time_since_start(simulation)});
 }
 
-Result<void> SeriesWriter::write(const std::filesystem::path& path, const Simulation& simulation) {
+Result<void> ParaviewSeries::write(const std::filesystem::path& path,
+                                   const Simulation& simulation) {
     return simulation.model() ? write_surface(path, simulation) : write_volume(path, simulation);
 }
 
-Result<void> SeriesWriter::write_surface(const std::filesystem::path& path,
-                                         const Simulation& simulation) {
+Result<void> ParaviewSeries::write_surface(const std::filesystem::path& path,
+                                           const Simulation& simulation) {
     const ModelCells& model = *simulation.model();
     if (!surface_) surface_ = std::make_unique<Surface>(model);
     const auto channels = species_channels(simulation, [&](const Field& field) {
@@ -182,7 +205,7 @@ Result<void> SeriesWriter::write_surface(const std::filesystem::path& path,
     return write_model(path, surface_->refined.mesh, {{}, at_points});
 }
 
-Result<std::size_t> SeriesWriter::finish() {
+Result<WrittenSeries> ParaviewSeries::finish() {
     // Numbers moments without a time.
     const bool has_times = std::all_of(moments_.begin(), moments_.end(), [](const Moment& moment) {
         return std::isfinite(moment.time);
@@ -199,14 +222,48 @@ Result<std::size_t> SeriesWriter::finish() {
     text += "  </Collection>\n</VTKFile>\n";
     if (auto done = write_file(path_, text); !done) return tl::unexpected(done.error());
     if (failure_) return tl::unexpected(*failure_);
-    std::size_t removed = 0;
+    WrittenSeries written{{path_}, 0};
     for (const std::string& file : former_) {
         const bool is_new = std::any_of(moments_.begin(), moments_.end(),
                                         [&](const Moment& moment) { return moment.file == file; });
         std::error_code error;
-        if (!is_new && std::filesystem::remove(path_.parent_path() / file, error)) ++removed;
+        if (!is_new && std::filesystem::remove(path_.parent_path() / file, error))
+            ++written.removed;
     }
-    return removed;
+    return written;
+}
+
+struct SeriesRow {
+    FileFormat format;
+    Result<std::unique_ptr<SeriesWriter>> (*make)(const std::filesystem::path& path,
+                                                  SeriesFields fields);
+};
+
+constexpr std::array series_writers = {
+    SeriesRow{FileFormat::pvd, ParaviewSeries::create},
+    SeriesRow{FileFormat::npy, make_npy_series},
+    SeriesRow{FileFormat::csv, make_csv_series},
+};
+static_assert(has_all_of(series_writers, FormatKind::series));
+
+}  // namespace
+
+std::vector<std::filesystem::path> files_of_series(const std::filesystem::path& path) {
+    if (!is_of_format(path, FileFormat::npy)) return {path};
+    return {path, std::filesystem::path(path).replace_extension(".json")};
+}
+
+Result<std::unique_ptr<SeriesWriter>> make_series(const std::filesystem::path& path,
+                                                  SeriesFields fields, bool is_resumed) {
+    std::error_code error;
+    if (is_resumed && std::filesystem::exists(path, error)) {
+        return failure(fmt::format("'{}' holds moments of an earlier run", path.string()),
+                       "name another file with --series: a run that goes on begins its own series");
+    }
+    const FormatRow* const format = find_format(path);
+    const SeriesRow* const writer = format ? row_of(series_writers, format->format) : nullptr;
+    CHECK(writer != nullptr, "the file has the ending of a series");
+    return writer->make(path, std::move(fields));
 }
 
 }  // namespace cascade

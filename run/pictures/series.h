@@ -1,4 +1,5 @@
-// All species of a run at its intervals, for ParaView: a file for each moment, and a list of them.
+// The fields of a run at its intervals: arrays that grow, or for ParaView a file for each moment
+// and a list of them.
 #pragma once
 
 #include "core/result.h"
@@ -9,7 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
+#include <string>
 #include <vector>
 
 namespace cascade {
@@ -26,40 +27,48 @@ std::vector<float> numbers_of_cells(const Field& field, const ModelCells& model)
 Result<void> write_volume(const std::filesystem::path& path, const Simulation& simulation,
                           const std::map<std::string, std::string>& texts = {});
 
-/// A collection of VTK's files, NAME.pvd, and in the folder NAME beside it a file for each moment:
-/// .vti for a grid, .vtp for a model, whose triangles are refined as for its colours.
+/// The time from the start of the run to the present moment of the stage shown; NaN if steps have
+/// no length.
+double time_since_start(const Simulation& simulation);
+
+/// The fields of arrays, at any moment of a run.
+struct SeriesFields {
+    std::vector<std::string> names;
+    /// By name, in all cells of the domain; empty where a name has no meaning in the stage shown.
+    std::function<std::vector<Field>(const Simulation& simulation)> values;
+};
+
+/// What a series has written.
+struct WrittenSeries {
+    std::vector<std::filesystem::path> paths;
+    std::size_t removed = 0;  ///< Files of a former series.
+};
+
 class SeriesWriter {
 public:
-    /// Fails if the folder cannot be made.
-    static Result<SeriesWriter> create(const std::filesystem::path& path);
-    ~SeriesWriter();
-    SeriesWriter(SeriesWriter&&) noexcept;
-    SeriesWriter& operator=(SeriesWriter&&) noexcept;
+    SeriesWriter() = default;
+    SeriesWriter(const SeriesWriter&) = delete;
+    SeriesWriter& operator=(const SeriesWriter&) = delete;
+    virtual ~SeriesWriter() = default;
 
-    /// Writes the species of the stage shown. An error is remembered for finish(), and no file is
-    /// written after it.
-    void add(const Simulation& simulation);
-
-    /// Writes the list, also after a cancelled run, and removes files of the former list that were
-    /// not written again. Returns their number, or the first error.
-    Result<std::size_t> finish();
-
-private:
-    struct Surface;
-    explicit SeriesWriter(std::filesystem::path path);
-    Result<void> write(const std::filesystem::path& path, const Simulation& simulation);
-    Result<void> write_surface(const std::filesystem::path& path, const Simulation& simulation);
-
-    struct Moment {
-        std::string file;
-        double time = 0;  ///< Since the start of the run. NaN where steps have no length.
-    };
-
-    std::filesystem::path path_;
-    std::vector<std::string> former_;  ///< The files of the previous list.
-    std::vector<Moment> moments_;
-    std::unique_ptr<Surface> surface_;  ///< The model's, made on the first use.
-    std::optional<Failure> failure_;
+    /// Adds the present moment. An error is remembered for finish(), and nothing is added after it.
+    virtual void add(const Simulation& simulation) = 0;
+    /// Completes what was written, also after a cancelled run, or returns the first error.
+    virtual Result<WrittenSeries> finish() = 0;
 };
+
+/// A series in the format of the path's ending.
+///
+/// .pvd: a collection of VTK's files, and in the folder NAME beside it a file for each moment with
+/// all species: .vti for a grid, .vtp for a model, whose triangles are refined as for its colours.
+///
+/// .npy, .csv: the fields in one array (run/pictures/array_series.h).
+///
+/// Fails if a run that is resumed would replace an earlier series, and if a folder cannot be made.
+Result<std::unique_ptr<SeriesWriter>> make_series(const std::filesystem::path& path,
+                                                  SeriesFields fields, bool is_resumed);
+
+/// The files of a series that have a name of their own: the list or the array, and what is beside.
+std::vector<std::filesystem::path> files_of_series(const std::filesystem::path& path);
 
 }  // namespace cascade

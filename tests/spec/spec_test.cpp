@@ -93,7 +93,7 @@ TEST_P(CodeBlockTest, SaysWhatTheProgramDoes) {
         } else if (block.word == "cascade-error" || block.word == "cascade-warning") {
             check_messages(block, next);
         } else {
-            EXPECT_THAT(block.word, testing::AnyOf("text", "sh", "c", "cpp", "cmake"))
+            EXPECT_THAT(block.word, testing::AnyOf("text", "sh", "c", "cpp", "cmake", "python"))
                 << "an unknown kind of block";
         }
     }

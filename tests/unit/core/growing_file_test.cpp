@@ -58,6 +58,23 @@ TEST_F(GrowingFiles, LeaveNothingBeforeTheyAreComplete) {
     EXPECT_EQ(files(), 1U);
 }
 
+TEST_F(GrowingFiles, CanBeReadFromTheirFirstBytesOn) {
+    const auto path = folder_ / "a.txt";
+    {
+        auto file = GrowingFile::create(path);
+        ASSERT_TRUE(file);
+        ASSERT_TRUE((*file)->append("[1]"));
+        ASSERT_TRUE((*file)->appear());
+        EXPECT_EQ(*read_file(path, 100), "[1]");
+        ASSERT_TRUE((*file)->replace_end(2, ", 2]"));
+        EXPECT_EQ((*file)->size(), 6U);
+        EXPECT_EQ(*read_file(path, 100), "[1, 2]");
+        ASSERT_TRUE((*file)->append("\n"));
+    }
+    EXPECT_EQ(*read_file(path, 100), "[1, 2]\n");
+    EXPECT_EQ(files(), 1U);
+}
+
 TEST_F(GrowingFiles, ReplaceWhatALinkLeadsTo) {
     std::filesystem::create_directories(folder_ / "deep");
     ASSERT_TRUE(write_file(folder_ / "deep/a.bin", "old"));
@@ -95,6 +112,8 @@ TEST_F(GrowingFiles, SayThatTheDiskIsFull) {
         setrlimit(RLIMIT_FSIZE, &small);
         EXPECT_TRUE((*file)->append(std::string(900, 'x')));
         const auto full = (*file)->append(std::string(900, 'x'));
+        EXPECT_FALSE((*file)->replace_end(800, std::string(300, 'y')));
+        EXPECT_EQ(*read_file((*file)->temporary_path(), 2000), std::string(900, 'x'));
         setrlimit(RLIMIT_FSIZE, &usual);
         ASSERT_FALSE(full);
         EXPECT_NE(full.error().message.find("a.bin': File too large"), std::string::npos)

@@ -3,7 +3,7 @@
 
 #include "measure/features.h"
 #include "picture/grey_picture.h"
-#include "run/commands/csv.h"
+#include "core/csv.h"
 #include "run/commands/sweep.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // What --vary takes, and the runs that it makes.
-#include "run/commands/csv.h"
+#include "core/csv.h"
 #include "run/commands/variation.h"
 
 #include <gmock/gmock.h>

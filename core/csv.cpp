@@ -1,5 +1,5 @@
 // Quotes only the cells that need it; numbers that are not finite become empty cells.
-#include "run/commands/csv.h"
+#include "core/csv.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,277 @@
+// Files take their names with the first moment. What follows keeps them whole: data first, then the
+// length in the header.
+#include "run/pictures/array_series.h"
+
+#include "core/csv.h"
+#include "core/enough_memory.h"
+#include "core/growing_file.h"
+#include "picture/float_bytes.h"
+#include "picture/npy.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cascade {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A moment of the stage shown.
+struct Moment {
+    std::string stage;
+    std::int64_t step = 0;
+    double t = 0;     ///< Since the stage began; NaN where steps have no length.
+    double time = 0;  ///< Since the start of the run, likewise.
+};
+
+Moment moment_of(const Simulation& simulation) {
+    const std::uint32_t stage = simulation.shown_stage().value_or(0);
+    return {simulation.program().stages[stage].name, simulation.state(stage).steps,
+            time_of(simulation, stage), time_since_start(simulation)};
+}
+
+/// The lengths of the axes of cells.
+std::vector<std::int64_t> sides_of(const Simulation& simulation) {
+    if (const auto model = simulation.model()) return {static_cast<std::int64_t>(model->count())};
+    const Grid& grid = simulation.grid();
+    if (grid.depth > 1) return {grid.depth, grid.height, grid.width};
+    if (grid.height > 1) return {grid.height, grid.width};
+    return {grid.width};
+}
+
+std::int64_t cells_of(const std::vector<std::int64_t>& sides) {
+    std::int64_t cells = 1;
+    for (const std::int64_t side : sides) cells *= side;
+    return cells;
+}
+
+/// Appends the cells of a field, or as many NaNs if it is empty.
+void append_cells(std::string& bytes, const Field& field, const Simulation& simulation,
+                  std::int64_t cells) {
+    const auto model = simulation.model();
+    if (!field.empty() && !model) return append_floats(bytes, field);
+    const std::vector<double> values =
+        field.empty() ? std::vector<double>(static_cast<std::size_t>(cells),
+                                            std::numeric_limits<double>::quiet_NaN())
+                      : cell_values(field, *model);
+    with_number(simulation.program().domain.precision, [&](auto zero) {
+        for (const double value : values) {
+            append_number(bytes, static_cast<decltype(zero)>(value));
+        }
+    });
+}
+
+/// What both formats share: a moment is added as a whole or not at all.
+class ArraySeries : public SeriesWriter {
+public:
+    ArraySeries(std::filesystem::path path, SeriesFields fields)
+        : path_(std::move(path)), fields_(std::move(fields)) {}
+
+    void add(const Simulation& simulation) override {
+        if (failure_) return;
+        const auto added = enough_memory_for(
+            [&] { return add_moment(simulation); },
+            fmt::format("cannot write '{}': there is not enough memory", path_.string()));
+        if (!added) failure_ = added.error();
+        else ++moments_;
+    }
+
+    Result<WrittenSeries> finish() override {
+        if (failure_) return tl::unexpected(*failure_);
+        if (moments_ == 0) {
+            return failure(fmt::format("'{}' has no moments, because the run took no step",
+                                       path_.string()),
+                           "there is one at the start of a stage and at each 'interval'");
+        }
+        if (auto done = complete(); !done) return tl::unexpected(done.error());
+        return WrittenSeries{files_of_series(path_), 0};
+    }
+
+protected:
+    const std::filesystem::path& path() const { return path_; }
+    const std::vector<std::string>& names() const { return fields_.names; }
+    std::vector<Field> values(const Simulation& simulation) const {
+        return fields_.values(simulation);
+    }
+    std::int64_t moments() const { return moments_; }  ///< Added so far.
+
+private:
+    virtual Result<void> add_moment(const Simulation& simulation) = 0;
+    virtual Result<void> complete() = 0;
+
+    std::filesystem::path path_;
+    SeriesFields fields_;
+    std::int64_t moments_ = 0;
+    std::optional<Failure> failure_;
+};
+
+/// A file that has its first bytes, and no name yet.
+Result<std::unique_ptr<GrowingFile>> begun(const std::filesystem::path& path,
+                                           std::string_view bytes) {
+    auto file = GrowingFile::create(path);
+    if (!file) return file;
+    if (auto done = (*file)->append(bytes); !done) return tl::unexpected(done.error());
+    return file;
+}
+
+class NpySeries : public ArraySeries {
+public:
+    using ArraySeries::ArraySeries;
+
+private:
+    Result<void> add_moment(const Simulation& simulation) override {
+        const std::vector<std::int64_t> sides = sides_of(simulation);
+        std::string bytes;
+        for (const Field& field : values(simulation)) {
+            append_cells(bytes, field, simulation, cells_of(sides));
+        }
+        const std::string entry = json(moment_of(simulation));
+        if (!array_) return begin(simulation, sides, bytes, entry);
+        if (auto done = array_->append(bytes); !done) return done;
+        const std::string head = (moments() > 0 ? ",\n" : "\n") + entry;
+        if (auto done = list_->replace_end(list_->size() - end_of_list.size(),
+                                           head + std::string(end_of_list));
+            !done) {
+            return done;
+        }
+        return array_->overwrite(0, header(moments() + 1));
+    }
+
+    Result<void> begin(const Simulation& simulation, const std::vector<std::int64_t>& sides,
+                       const std::string& bytes, const std::string& entry) {
+        type_ = fmt::format("<f{}", bytes_of(simulation.program().domain.precision));
+        shape_ = names().size() > 1 ? fmt::format("{}, ", names().size()) : "";
+        shape_ += fmt::format("{}", fmt::join(sides, ", "));
+        auto array = begun(path(), header(1) + bytes);
+        if (!array) return tl::unexpected(array.error());
+        auto list = begun(files_of_series(path())[1],
+                          describe(simulation, sides) + "\n" + entry + std::string(end_of_list));
+        if (!list) return tl::unexpected(list.error());
+        array_ = *std::move(array);
+        list_ = *std::move(list);
+        auto done = array_->appear();
+        return done ? list_->appear() : done;
+    }
+
+    Result<void> complete() override {
+        auto done = array_->complete();
+        return done ? list_->complete() : done;
+    }
+
+    std::string header(std::int64_t count) const {
+        const std::string shape = fmt::format("{}, {}", count, shape_);
+        constexpr std::size_t longest = 40 + std::numeric_limits<std::int64_t>::digits10;
+        return npy_head(type_, shape, longest - fmt::formatted_size("{}", count));
+    }
+
+    /// The file NAME.json up to its list of moments.
+    std::string describe(const Simulation& simulation,
+                         const std::vector<std::int64_t>& sides) const {
+        std::vector<std::string> axes = {"slice", "row", "column"};
+        axes.erase(axes.begin(), axes.end() - static_cast<std::ptrdiff_t>(sides.size()));
+        if (simulation.model()) axes = {"cell"};
+        if (names().size() > 1) axes.insert(axes.begin(), "field");
+        axes.insert(axes.begin(), "time");
+        Json all = {{"array", path().filename().string()},
+                    {"type", type_},
+                    {"axes", axes},
+                    {"fields", names()}};
+        const DomainSettings& domain = simulation.program().domain;
+        if (!domain.model && !domain.surface) all["spacing"] = domain.grid.spacing;
+        std::string text = "{\n";
+        for (const auto& [key, value] : all.items()) {
+            text += fmt::format(" \"{}\": {},\n", key, written(value));
+        }
+        return text + " \"moments\": [";
+    }
+
+    static std::string json(const Moment& moment) {
+        const auto number = [](double value) {
+            return std::isfinite(value) ? Json(value) : Json(nullptr);
+        };
+        return "  " + written({{"stage", moment.stage},
+                               {"step", moment.step},
+                               {"t", number(moment.t)},
+                               {"time", number(moment.time)}});
+    }
+
+    /// Names of files may be no UTF-8.
+    static std::string written(const Json& json) {
+        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+
+    static constexpr std::string_view end_of_list = "\n ]\n}\n";
+
+    std::string type_, shape_;  ///< The shape without the time.
+    std::unique_ptr<GrowingFile> array_, list_;
+};
+
+class CsvSeries : public ArraySeries {
+public:
+    using ArraySeries::ArraySeries;
+
+private:
+    Result<void> add_moment(const Simulation& simulation) override {
+        const Moment moment = moment_of(simulation);
+        const Precision precision = simulation.program().domain.precision;
+        std::vector<std::string> cells = {moment.stage, fmt::format("{}", moment.step),
+                                          csv_number(moment.t, precision)};
+        for (const Field& field : values(simulation)) {
+            for (std::int64_t i = 0; i < simulation.grid().width; ++i) {
+                cells.push_back(field.empty() ? "" : csv_number(field.number_at(i, 0), precision));
+            }
+        }
+        if (file_) return file_->append(csv_row(cells));
+        auto file = begun(path(), head(simulation.grid()) + csv_row(cells));
+        if (!file) return tl::unexpected(file.error());
+        file_ = *std::move(file);
+        return file_->appear();
+    }
+
+    std::string head(const Grid& grid) const {
+        std::vector<std::string> columns = {"stage", "step", "t"};
+        for (const std::string& name : names()) {
+            for (std::int64_t i = 0; i < grid.width; ++i) {
+                const double middle = (static_cast<double>(i) + 0.5) * grid.spacing;
+                columns.push_back(fmt::format("{}({:.9g})", name, middle));
+            }
+        }
+        return csv_row(columns);
+    }
+
+    Result<void> complete() override { return file_->complete(); }
+
+    std::unique_ptr<GrowingFile> file_;
+};
+
+template <typename Series>
+Result<std::unique_ptr<SeriesWriter>> make(const std::filesystem::path& path, SeriesFields fields) {
+    for (const auto& file : files_of_series(path)) {
+        if (auto can = check_can_grow(file); !can) return tl::unexpected(can.error());
+    }
+    return std::make_unique<Series>(path, std::move(fields));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SeriesWriter>> make_npy_series(const std::filesystem::path& path,
+                                                      SeriesFields fields) {
+    return make<NpySeries>(path, std::move(fields));
+}
+
+Result<std::unique_ptr<SeriesWriter>> make_csv_series(const std::filesystem::path& path,
+                                                      SeriesFields fields) {
+    return make<CsvSeries>(path, std::move(fields));
+}
+
+}  // namespace cascade
