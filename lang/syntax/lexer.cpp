@@ -13,10 +13,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
-#include <optional>
 #include <utility>
 
 namespace cascade {
@@ -26,33 +23,6 @@ namespace {
 bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-
-/// A hint for `0x10` of other languages and `100x100` of screens. Empty for other words.
-std::optional<std::string> hint_of_other_number(std::string_view word) {
-    constexpr std::size_t longest = 18;
-    const std::size_t cross = word.find_first_of("xX");
-    if (cross == std::string_view::npos || cross + 1 == word.size() || word.size() > longest) {
-        return std::nullopt;
-    }
-    const std::string_view before = word.substr(0, cross), after = word.substr(cross + 1);
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(after.data(), after.data() + after.size(), value, 16);
-    if (before == "0" && error == std::errc() && end == after.data() + after.size()) {
-        return fmt::format("write {}", value);
-    }
-    const auto is_whole = [](std::string_view text) {
-        return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
-    };
-    std::string list(before);
-    for (std::string_view rest = after; is_whole(before);) {
-        const std::size_t next = std::min(rest.find_first_of("xX"), rest.size());
-        if (!is_whole(rest.substr(0, next))) break;
-        list += fmt::format(", {}", rest.substr(0, next));
-        if (next == rest.size()) return fmt::format("write '{}'", list);
-        rest.remove_prefix(next + 1);
-    }
-    return std::nullopt;
-}
 
 /// A letter or digit of a name, and its spelling in ASCII.
 struct NamePart {
@@ -279,17 +249,8 @@ void Lexer::read_number() {
         end += std::max(name_part(end).size, 1u);
     }
     if (end == number_end) return push(TokenKind::number, begin, end);
-    const std::string_view tail = text_.substr(number_end, end - number_end);
-    std::string hint;
-    if (!is_digit(tail[0]) && tail[0] != '_' && tail[0] != '.' && end - begin <= 64) {
-        hint = fmt::format("write '{} * {}'", text_.substr(begin, number_end - begin), tail);
-    }
-    if (tail == "e" || tail == "E") hint = "an exponent has digits, as in 1e-3";
-    if (std::string advice = advice_about_unit(text_.substr(begin, number_end - begin), tail);
-        !advice.empty()) {
-        hint = std::move(advice);
-    }
-    if (const auto number = hint_of_other_number(text_.substr(begin, end - begin))) hint = *number;
+    const std::string hint = advice_about_number(text_.substr(begin, number_end - begin),
+                                                 text_.substr(number_end, end - number_end));
     diagnostics_.error(span(begin, end),
                        fmt::format("'{:.40}' is not a number", text_.substr(begin, end - begin)),
                        hint);

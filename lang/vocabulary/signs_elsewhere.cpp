@@ -5,6 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <system_error>
+
 namespace cascade {
 
 namespace {
@@ -43,6 +48,35 @@ constexpr Unit units[] = {
     {"px", 1, ""},          {"seconds", 1, "seconds"},
 };
 
+bool is_decimal_digit(char c) { return '0' <= c && c <= '9'; }
+
+/// Advice on `0x10` of other languages and `100x100` of screens. Empty for other words.
+std::string advice_about_cross(std::string_view word) {
+    constexpr std::size_t longest = 18;
+    const std::size_t cross = word.find_first_of("xX");
+    if (cross == std::string_view::npos || cross + 1 == word.size() || word.size() > longest) {
+        return "";
+    }
+    const std::string_view before = word.substr(0, cross), after = word.substr(cross + 1);
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(after.data(), after.data() + after.size(), value, 16);
+    if (before == "0" && error == std::errc() && end == after.data() + after.size()) {
+        return fmt::format("write {}", value);
+    }
+    const auto is_whole = [](std::string_view text) {
+        return !text.empty() && std::all_of(text.begin(), text.end(), is_decimal_digit);
+    };
+    std::string list(before);
+    for (std::string_view rest = after; is_whole(before);) {
+        const std::size_t next = std::min(rest.find_first_of("xX"), rest.size());
+        if (!is_whole(rest.substr(0, next))) break;
+        list += fmt::format(", {}", rest.substr(0, next));
+        if (next == rest.size()) return fmt::format("write '{}'", list);
+        rest.remove_prefix(next + 1);
+    }
+    return "";
+}
+
 }  // namespace
 
 std::string advice_about_latex(std::string_view command) {
@@ -62,6 +96,19 @@ std::string advice_about_unit(std::string_view number, std::string_view unit) {
                            fmt::format("{:g}", value * each.size), number, unit, each.base);
     }
     return "";
+}
+
+std::string advice_about_number(std::string_view number, std::string_view tail) {
+    constexpr std::size_t longest = 64;
+    if (std::string advice = advice_about_cross(fmt::format("{}{}", number, tail));
+        !advice.empty()) {
+        return advice;
+    }
+    if (std::string advice = advice_about_unit(number, tail); !advice.empty()) return advice;
+    if (tail == "e" || tail == "E") return "an exponent has digits, as in 1e-3";
+    const bool is_name = !is_decimal_digit(tail[0]) && tail[0] != '_' && tail[0] != '.';
+    if (!is_name || number.size() + tail.size() > longest) return "";
+    return fmt::format("write '{} * {}'", number, tail);
 }
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Advice on commands of LaTeX and units after numbers, which newcomers bring along.
+// Advice on commands of LaTeX, and on units and other characters after numbers, which newcomers
+// bring along.
 #pragma once
 
 #include <string>
@@ -13,5 +14,9 @@ std::string advice_about_latex(std::string_view command);
 /// Advice on a unit directly after a number, "1cm": the number in metres or seconds. Empty if it is
 /// no unit.
 std::string advice_about_unit(std::string_view number, std::string_view unit);
+
+/// Advice on a number directly followed by `tail`, which is not empty: 2u, 1e, 1cm, 0x10, or
+/// 100x100 as of screens. May be empty.
+std::string advice_about_number(std::string_view number, std::string_view tail);
 
 }  // namespace cascade
