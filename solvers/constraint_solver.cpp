@@ -2,6 +2,7 @@
 #include "solvers/constraint_solver.h"
 
 #include "ir/reduction.h"
+#include "solvers/bicgstab.h"
 
 #include <algorithm>
 #include <array>
@@ -23,10 +24,6 @@ constexpr int digits_of_shift = 5;
 /// The solver stops when the norm of e is this part of the norm of b.
 template <typename Number>
 constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
-/// Iterations begin again from a residual that is this close to a right angle to their shadow
-/// residual: the next directions would be rounding errors.
-template <typename Number>
-constexpr double least_overlap = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-15;
 
 double rounded(double value, int digits) {
     int exponent = 0;
@@ -296,75 +293,33 @@ void ConstraintSolver<Number>::precondition(Worker& worker, const Field& from) {
     });
 }
 
+/// L as the iteration sees it.
+template <typename Number>
+struct ConstraintSolver<Number>::System {
+    ConstraintSolver& solver;
+    Worker& worker;
+
+    double dot(const Field& a, const Field& b) { return solver.dot(worker, a, b); }
+    void precondition(const Field& from) { solver.precondition(worker, from); }
+    void apply(Field& result) { solver.apply_linear(worker, result); }
+    void each_cell(const auto& act) { solver.each_cell(worker, act); }
+    void leave_if_cancelled() { worker.moment.leave_if_cancelled(); }
+};
+
 /// Adds to the solution until what remains, `residual_`, is small.
 template <typename Number>
 void ConstraintSolver<Number>::iterate(Worker& worker, Field& solution) {
-    const auto cells = [](Field& field) { return field.origin<Number>(); };
-    Number *const r = cells(residual_), *const r0 = cells(shadow_), *const p = cells(direction_),
-                  *const v = cells(image_), *const t = cells(other_image_),
-                  *const x = cells(solution);
-    const Number* const y = cells(*problem_.unknown);
-    const double whole = std::sqrt(dot(worker, residual_, residual_));
-    if (!std::isfinite(whole)) {  // Nothing hides what is not finite.
-        each_cell(worker, [&](std::int64_t i) { x[i] = std::numeric_limits<Number>::quiet_NaN(); });
-        return;
-    }
-    const double wanted = tolerance<Number> * whole;
-    double rho = 0, alpha = 0, omega = 0, left = whole, size_of_shadow = 0;
-    const auto begin_again = [&] {
-        each_cell(worker, [&](std::int64_t i) {
-            r0[i] = r[i];
-            p[i] = v[i] = 0;
-        });
-        size_of_shadow = left;
-        rho = alpha = omega = 1;
-    };
-    begin_again();
-    int taken = 0;
-    const int most = stencil_ ? most_iterations_on_grids : most_iterations_on_links;
-    while (left > wanted && taken < most) {
-        worker.moment.leave_if_cancelled();
-        ++taken;
-        double next_rho = dot(worker, shadow_, residual_);
-        if (std::abs(next_rho) < least_overlap<Number> * size_of_shadow * left) {
-            begin_again();
-            next_rho = dot(worker, shadow_, residual_);
-        }
-        if (omega == 0) break;
-        const auto beta = static_cast<Number>(next_rho / rho * (alpha / omega));
-        const auto back = static_cast<Number>(omega);
-        rho = next_rho;
-        each_cell(worker, [&](std::int64_t i) { p[i] = r[i] + beta * (p[i] - back * v[i]); });
-        precondition(worker, direction_);
-        apply_linear(worker, image_);
-        const double along = dot(worker, shadow_, image_);
-        if (along == 0) break;
-        alpha = rho / along;
-        const auto step = static_cast<Number>(alpha);
-        each_cell(worker, [&](std::int64_t i) {
-            x[i] += step * y[i];
-            r[i] -= step * v[i];
-        });
-        left = std::sqrt(dot(worker, residual_, residual_));
-        if (!(left > wanted)) break;
-        precondition(worker, residual_);
-        apply_linear(worker, other_image_);
-        const double size = dot(worker, other_image_, other_image_);
-        if (size == 0) break;
-        omega = dot(worker, other_image_, residual_) / size;
-        const auto further = static_cast<Number>(omega);
-        each_cell(worker, [&](std::int64_t i) {
-            x[i] += further * y[i];
-            r[i] -= further * t[i];
-        });
-        left = std::sqrt(dot(worker, residual_, residual_));
-    }
+    System system{*this, worker};
+    Bicgstab<Number, System> iteration(system, {solution, residual_, shadow_, direction_, image_,
+                                                other_image_, *problem_.unknown});
+    const BicgstabOutcome outcome =
+        iteration.run(tolerance<Number>,
+                      stencil_ ? most_iterations_on_grids : most_iterations_on_links);
     if (worker.thread != 0) return;
     SolveReport& report = *problem_.report;
-    report.most_iterations = std::max(report.most_iterations, taken);
-    const double part = whole > 0 ? left / whole : 0;
-    report.largest_rest = std::isfinite(part) ? std::max(report.largest_rest, part)
-                                              : std::numeric_limits<double>::infinity();
+    report.most_iterations = std::max(report.most_iterations, outcome.iterations);
+    report.largest_rest = std::isfinite(outcome.rest) ? std::max(report.largest_rest, outcome.rest)
+                                                      : std::numeric_limits<double>::infinity();
 }
 
 /// Gives the cells that complete the last row of linked cells the value of the last cell.

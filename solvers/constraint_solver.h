@@ -1,11 +1,10 @@
 // Finds the field u for which e = L u + b is 0, where L is a linear operator that kernels apply.
 //
-// The solver is BiCGSTAB (H. van der Vorst, "Bi-CGSTAB: a fast and smoothly converging variant of
-// Bi-CG", 1992), preconditioned by the inverse of an operator that is the same in all cells. On
-// grids the operator has a stencil, the mean of the responses of L to single cells, and fast
-// Fourier transforms apply its inverse. On linked cells it is a (Δ − s), with a and s from the
-// responses of L to a constant and to cells of both signs, and its factors are known. So if L is
-// the same everywhere, the first iteration finds the solution up to rounding. A mask, sides or
+// BiCGSTAB (solvers/bicgstab.h) is preconditioned by the inverse of an operator that is the same in
+// all cells. On grids the operator has a stencil, the mean of the responses of L to single cells,
+// and fast Fourier transforms apply its inverse. On linked cells it is a (Δ − s), with a and s from
+// the responses of L to a constant and to cells of both signs, and its factors are known. So if L
+// is the same everywhere, the first iteration finds the solution up to rounding. A mask, sides or
 // coefficients that vary take a few more.
 #pragma once
 
@@ -37,6 +36,7 @@ public:
 
 private:
     struct Worker;
+    struct System;
 
     void apply(Worker& worker, PassRunner& runner, PassRunner::Worker& of_runner,
                std::vector<Field*> results);

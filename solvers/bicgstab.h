@@ -1,0 +1,151 @@
+// BiCGSTAB (H. van der Vorst, "Bi-CGSTAB: a fast and smoothly converging variant of Bi-CG", 1992)
+// for planes that threads share: all of them take the same decisions, since each knows the same
+// products.
+#pragma once
+
+#include "core/plane.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace cascade {
+
+/// The planes of a solution x of L x = b. Rows belong to the threads that compute them.
+struct BicgstabPlanes {
+    Field& solution;
+    Field& residual;  ///< b − L x, at the beginning and at the end.
+    Field &shadow, &direction, &image, &other_image;
+    const Field& preconditioned;  ///< Where a system writes what precondition() gives.
+};
+
+struct BicgstabOutcome {
+    int iterations = 0;
+    double rest = 0;  ///< The norm of the residual, as a part of what it was.
+};
+
+/// `System` has these members, which all threads call:
+///     double dot(const Field& a, const Field& b)   the sum of products in all cells
+///     void precondition(const Field& from)         about the inverse of L, into `preconditioned`
+///     void apply(Field& result)                    L of the plane `preconditioned`
+///     void each_cell(act)                          act(i) for the thread's cells
+///     void leave_if_cancelled()
+template <typename Number, typename System>
+class Bicgstab {
+public:
+    Bicgstab(System& system, const BicgstabPlanes& planes)
+        : system_(system),
+          planes_(planes),
+          x_(planes.solution.origin<Number>()),
+          r_(planes.residual.origin<Number>()),
+          y_(planes.preconditioned.origin<Number>()) {}
+
+    /// Adds to the solution until the norm of the residual is this part of what it was, or after
+    /// `most` iterations. Where the residual is not finite, the solution becomes NaN.
+    BicgstabOutcome run(double tolerance, int most);
+
+private:
+    /// Iterations begin again from a residual that is this close to a right angle to their shadow
+    /// residual: the next directions would be rounding errors.
+    static constexpr double least_overlap = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-15;
+
+    void begin_again();
+    bool choose_direction();
+    bool go_along_direction();
+    bool damp_rest();
+    void measure_rest() { left_ = std::sqrt(system_.dot(planes_.residual, planes_.residual)); }
+    /// Adds a multiple of the preconditioned plane, whose L is `image`.
+    void add(double times, const Field& image) {
+        const auto factor = static_cast<Number>(times);
+        const Number* const of_image = image.origin<Number>();
+        system_.each_cell([&](std::int64_t i) {
+            x_[i] += factor * y_[i];
+            r_[i] -= factor * of_image[i];
+        });
+        measure_rest();
+    }
+
+    System& system_;
+    BicgstabPlanes planes_;
+    Number *const x_, *const r_;
+    const Number* const y_;
+    double rho_ = 1, alpha_ = 1, omega_ = 1;
+    double left_ = 0, size_of_shadow_ = 0;  ///< Norms of the residual and of its shadow.
+};
+
+template <typename Number, typename System>
+BicgstabOutcome Bicgstab<Number, System>::run(double tolerance, int most) {
+    measure_rest();
+    const double whole = left_;
+    if (!std::isfinite(whole)) {  // Nothing hides what is not finite.
+        system_.each_cell(
+            [&](std::int64_t i) { x_[i] = std::numeric_limits<Number>::quiet_NaN(); });
+        return {};
+    }
+    const double wanted = tolerance * whole;
+    begin_again();
+    BicgstabOutcome outcome;
+    while (left_ > wanted && outcome.iterations < most) {
+        system_.leave_if_cancelled();
+        ++outcome.iterations;
+        if (!choose_direction() || !go_along_direction()) break;
+        if (!(left_ > wanted) || !damp_rest()) break;
+    }
+    outcome.rest = whole > 0 ? left_ / whole : 0;
+    return outcome;
+}
+
+template <typename Number, typename System>
+void Bicgstab<Number, System>::begin_again() {
+    Number* const shadow = planes_.shadow.origin<Number>();
+    Number* const direction = planes_.direction.origin<Number>();
+    Number* const image = planes_.image.origin<Number>();
+    system_.each_cell([&](std::int64_t i) {
+        shadow[i] = r_[i];
+        direction[i] = image[i] = 0;
+    });
+    size_of_shadow_ = left_;
+    rho_ = alpha_ = omega_ = 1;
+}
+
+template <typename Number, typename System>
+bool Bicgstab<Number, System>::choose_direction() {
+    double next_rho = system_.dot(planes_.shadow, planes_.residual);
+    if (std::abs(next_rho) < least_overlap * size_of_shadow_ * left_) {
+        begin_again();
+        next_rho = system_.dot(planes_.shadow, planes_.residual);
+    }
+    if (omega_ == 0) return false;
+    const auto beta = static_cast<Number>(next_rho / rho_ * (alpha_ / omega_));
+    const auto back = static_cast<Number>(omega_);
+    rho_ = next_rho;
+    Number* const direction = planes_.direction.origin<Number>();
+    const Number* const image = planes_.image.origin<Number>();
+    system_.each_cell(
+        [&](std::int64_t i) { direction[i] = r_[i] + beta * (direction[i] - back * image[i]); });
+    return true;
+}
+
+template <typename Number, typename System>
+bool Bicgstab<Number, System>::go_along_direction() {
+    system_.precondition(planes_.direction);
+    system_.apply(planes_.image);
+    const double along = system_.dot(planes_.shadow, planes_.image);
+    if (along == 0) return false;
+    alpha_ = rho_ / along;
+    add(alpha_, planes_.image);
+    return true;
+}
+
+template <typename Number, typename System>
+bool Bicgstab<Number, System>::damp_rest() {
+    system_.precondition(planes_.residual);
+    system_.apply(planes_.other_image);
+    const double size = system_.dot(planes_.other_image, planes_.other_image);
+    if (size == 0) return false;
+    omega_ = system_.dot(planes_.other_image, planes_.residual) / size;
+    add(omega_, planes_.other_image);
+    return true;
+}
+
+}  // namespace cascade
