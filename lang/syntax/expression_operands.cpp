@@ -2,6 +2,7 @@
 #include "core/decimal.h"
 #include "lang/syntax/expression_parser.h"
 #include "lang/syntax/second_rates.h"
+#include "lang/vocabulary/signs_elsewhere.h"
 
 #include <fmt/core.h>
 
@@ -220,7 +221,8 @@ ExpressionParser::Progress ExpressionParser::missing_operand() {
         return fail(here.span, fmt::format("this '{}' closes nothing", cursor_.text(here)));
     }
     if (ends && pending_.empty() && before.kind != TokenKind::comma) {
-        return fail(before.span, owner_ + " is missing");
+        return fail(before.span, owner_ + " is missing",
+                    advice_about_hex_colour(cursor_.rest_of_line(before)));
     }
     const bool is_open = before.kind == TokenKind::open_round || before.kind == TokenKind::comma;
     if (ends && is_open && open_brackets_ > 0) return unclosed();

@@ -93,7 +93,8 @@ std::optional<ast::Expression> ScriptParser::parse_lone_expression() {
         return std::nullopt;
     }
     const ast::Expression expression = expressions_.parse("the expression");
-    report_rest("one expression", expression, "");
+    report_rest("one expression", expression,
+                cursor_.at(TokenKind::comma) ? "several expressions take a --panel each" : "");
     return expression;
 }
 

@@ -6,6 +6,7 @@
 #include "lang/syntax/index_words.h"
 #include "lang/syntax/kept_spellings.h"
 #include "lang/syntax/second_rates.h"
+#include "lang/vocabulary/settings.h"
 #include "lang/vocabulary/words_elsewhere.h"
 
 #include <fmt/core.h>
@@ -312,6 +313,19 @@ std::string ScriptParser::report_no_block(const ast::Word& word) {
     return near;
 }
 
+/// Reports a type of other languages, as in `feed: float = 0.037`, and goes on after it.
+void ScriptParser::skip_type(const ast::Word& name) {
+    static constexpr std::array<std::string_view, 9> types = {"float",   "double", "int",
+                                                              "integer", "real",   "number",
+                                                              "bool",    "var",    "const"};
+    const bool is_type = cursor_.at(TokenKind::name) && cursor_.kind(1) == TokenKind::assign &&
+                         std::ranges::find(types, cursor_.text(cursor_.peek())) != types.end();
+    if (!is_type) return;
+    const Token type = cursor_.take();
+    cursor_.error(join(type.span, cursor_.take().span), "values are declared without a type",
+                  fmt::format("write '{}: …'", shortened(name.text)));
+}
+
 /// One expression, or several separated by commas.
 void ScriptParser::parse_values(ast::Statement& statement) {
     const bool colon_is_missing =
@@ -327,6 +341,7 @@ void ScriptParser::parse_values(ast::Statement& statement) {
                         : "bound",
                     cursor_.describe({TokenKind::name, statement.name.span}));
     cursor_.mute(colon_is_missing);
+    if (statement.kind == ast::StatementKind::value) skip_type(statement.name);
     statement.values.push_back(parse_after_operator(owner, ends_of_value));
     if (cursor_.at(TokenKind::dots)) parse_end_of_index(statement);
     while (cursor_.at(TokenKind::comma)) {
@@ -335,6 +350,12 @@ void ScriptParser::parse_values(ast::Statement& statement) {
             cursor_.error(comma.span, "a comma stands between values, not between statements",
                           "write ';'");
             break;
+        }
+        if (statement.kind == ast::StatementKind::definition &&
+            is_setting_of(SettingBlock::domain, statement.name.text)) {
+            cursor_.error(statement.name.span, "a setting has ':' before its values",
+                          fmt::format("write '{}: …'", statement.name.text));
+            statement.kind = ast::StatementKind::value;
         }
         if (statement.kind != ast::StatementKind::value) {
             cursor_.error(comma.span, "only a value may be a list", "write one expression");

@@ -67,6 +67,7 @@ private:
     bool report_third_rate(const ast::Statement& statement);
     bool take_paper_rate(ast::Statement& statement);
     bool report_no_statement();
+    void skip_type(const ast::Word& name);
     void parse_values(ast::Statement& statement);
     bool parse_index(ast::Statement& statement);
     void parse_end_of_index(ast::Statement& statement);

@@ -53,6 +53,11 @@ void TokenCursor::step_back() {
     if (position_ > 0) --position_;
 }
 
+std::string_view TokenCursor::rest_of_line(const Token& token) const {
+    const std::string_view rest = sources_[token.span.source].text().substr(token.span.end);
+    return rest.substr(0, rest.find_first_of("\r\n"));
+}
+
 std::string TokenCursor::describe(const Token& token) const {
     if (token.kind == TokenKind::newline) return "the end of the line";
     if (token.kind == TokenKind::end_of_text) return "the end of the text";

@@ -40,6 +40,8 @@ public:
     /// The text for the parser: ASCII in a script without errors.
     std::string_view text(const Token& token) const { return token.text; }
     std::string_view text(Span span) const { return sources_.text(span); }
+    /// What follows the token in its line, comments included.
+    std::string_view rest_of_line(const Token& token) const;
     ast::Word word(const Token& token) const { return {token.span, text(token)}; }
     /// The token in messages: `'beta'`, `the end of the line`. Long ones are cut.
     std::string describe(const Token& token) const;

@@ -111,4 +111,22 @@ std::string advice_about_number(std::string_view number, std::string_view tail) 
     return fmt::format("write '{} * {}'", number, tail);
 }
 
+std::string advice_about_hex_colour(std::string_view line) {
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    if (!line.starts_with('#')) return "";
+    line.remove_prefix(1);
+    const std::size_t count =
+        std::min(line.find_first_not_of("0123456789abcdefABCDEF"), line.size());
+    const bool is_short = count == 3;
+    if (!is_short && count != 6) return "";
+    const auto channel = [&](std::size_t k) {
+        const std::string_view own = is_short ? line.substr(k, 1) : line.substr(2 * k, 2);
+        unsigned value = 0;
+        std::from_chars(own.data(), own.data() + own.size(), value, 16);
+        return value / (is_short ? 15.0 : 255.0);
+    };
+    return fmt::format("'#' begins a comment; write 'rgb({:.3g}, {:.3g}, {:.3g})'", channel(0),
+                       channel(1), channel(2));
+}
+
 }  // namespace cascade

@@ -19,4 +19,8 @@ std::string advice_about_unit(std::string_view number, std::string_view unit);
 /// 100x100 as of screens. May be empty.
 std::string advice_about_number(std::string_view number, std::string_view tail);
 
+/// Advice on a line that begins with a colour of web pages, #ff8000 or #f80, which is a comment
+/// here. Empty if it does not.
+std::string advice_about_hex_colour(std::string_view line);
+
 }  // namespace cascade

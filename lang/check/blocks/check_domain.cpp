@@ -230,7 +230,11 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
 void check_domain_statement(Workspace& work, const ast::Script& script,
                             const ast::Statement& statement) {
     if (statement.kind != ast::StatementKind::value) {
-        work.diagnostics.error(statement.span, "a domain holds settings only (name: …)");
+        const std::string_view name = statement.name.text;
+        work.diagnostics.error(statement.span, "a domain holds settings only (name: …)",
+                               is_setting_of(SettingBlock::domain, name)
+                                   ? fmt::format("write '{}: …'", name)
+                                   : "");
         return;
     }
     const std::string_view name = statement.name.text;

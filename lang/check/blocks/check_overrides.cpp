@@ -115,6 +115,7 @@ void report_unknown_stage(Workspace& work, const ast::Script& script, const ast:
         if (!has_name(work, work.program.stages[k], statement)) continue;
         hint = fmt::format("write {}.{}", names[k], statement.name.text);
     }
+    if (hint.empty() && !names.empty()) hint = "stages are " + list_names(names);
     work.diagnostics.error(name.span, fmt::format("there is no stage '{}'", name.text),
                            std::move(hint));
 }

@@ -7,7 +7,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace cascade::checking {
+namespace {
+
+/// Is the speed a word of other programs for steps that are chosen, and no name of this script?
+bool asks_for_automatic(const Workspace& work, const ast::Script& script,
+                        const ast::Statement& speed, const Scope& scope) {
+    static constexpr std::array<std::string_view, 9> words = {"automatic", "adaptive", "dynamic",
+                                                              "variable",  "fast",     "fastest",
+                                                              "slow",      "max",      "default"};
+    const auto* const name = std::get_if<ast::Name>(&script.expressions[speed.values[0].root].node);
+    if (name == nullptr || std::ranges::find(words, name->name) == words.end()) return false;
+    const bool has_names = scope.system < work.names.next();
+    return !has_names || find(work.names[scope.system], name->name) == nullptr;
+}
+
+}  // namespace
 
 void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                    const Scope& scope, Settings& settings) {
@@ -44,6 +63,11 @@ void check_setting(Workspace& work, const ast::Script& script, const ast::Statem
         }
         settings.show = std::move(checked->formula);
     } else if (setting == Setting::frozen || is_speed) {
+        if (is_speed && asks_for_automatic(work, script, statement, scope)) {
+            work.diagnostics.error(span_of(script, statement.values[0]),
+                                   "speed is the length of a step, or auto", "write 'speed: auto'");
+            return;
+        }
         auto checked = check_number(work, script, statement.values[0], scope);
         if (!checked) return;
         if (is_speed && checked->constant && !(*checked->constant > 0)) {
